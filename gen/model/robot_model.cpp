@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gen/model/robot_model.h"
+
+#include <fmt/format.h>
+
+namespace dyngen {
+namespace {
+
+constexpr std::array<RowKey, kChiCount> kChiRows = {
+    RowKey::kXX, RowKey::kXY, RowKey::kXZ, RowKey::kYY, RowKey::kYZ, RowKey::kZZ, RowKey::kMX,
+    RowKey::kMY, RowKey::kMZ, RowKey::kM,  RowKey::kIA, RowKey::kFv, RowKey::kFs, RowKey::kOff};
+
+const FieldValue* field(const RobotFile& file, RowKey key, int index) {
+  const Row& row = file.row(key);
+  return row.present ? &row.values[static_cast<std::size_t>(index)] : nullptr;
+}
+
+Quantity quantity(const RobotFile& file, RowKey key, int index) {
+  const FieldValue* value = field(file, key, index);
+  if (value == nullptr) return {};
+  return {value->unknown, value->value, value->position.line};
+}
+
+GiNaC::ex number(const RobotFile& file, RowKey key, int index) {
+  const FieldValue* value = field(file, key, index);
+  return value == nullptr ? GiNaC::ex(0) : value->value;
+}
+
+int integer(const RobotFile& file, RowKey key, int index, int absent) {
+  const FieldValue* value = field(file, key, index);
+  return value == nullptr ? absent : GiNaC::ex_to<GiNaC::numeric>(value->value).to_int();
+}
+
+/// A fixed joint has no actuator: what its column says of one is a mistake.
+void check_fixed_joint(const RobotFile& file, int index, Diagnostics& diagnostics) {
+  for (const RowKey key : {RowKey::kIA, RowKey::kFs, RowKey::kFv, RowKey::kOff}) {
+    const FieldValue* value = field(file, key, index);
+    if (value != nullptr && (value->unknown || !value->value.is_zero())) {
+      diagnostics.error(value->position, value->length,
+                        fmt::format("'{}' of joint {} is '{}', but the joint is fixed (sigma 2): "
+                                    "expected 0",
+                                    row_keyword(key), index + 1, value->text));
+    }
+  }
+}
+
+}  // namespace
+
+RobotModel build_model(const RobotFile& file) {
+  Diagnostics diagnostics(file.file_name, file.text);
+  RobotModel model;
+  model.name = file.name;
+  model.file_name = file.file_name;
+  model.convention = file.convention;
+  model.effects = file.effects;
+  for (int i = 0; i < file.joint_count; ++i) {
+    JointModel joint;
+    joint.type = static_cast<JointType>(integer(file, RowKey::kSigma, i, 0));
+    joint.parent = integer(file, RowKey::kAnt, i, i);
+    joint.alpha = number(file, RowKey::kAl, i);
+    joint.theta = number(file, RowKey::kTh, i);
+    joint.d = quantity(file, RowKey::kD, i);
+    joint.r = quantity(file, RowKey::kR, i);
+    for (std::size_t k = 0; k < kChiCount; ++k) joint.chi[k] = quantity(file, kChiRows[k], i);
+    joint.name = file.joint_names.empty() ? fmt::format("joint{}", i + 1)
+                                          : file.joint_names[static_cast<std::size_t>(i)];
+    if (joint.type == JointType::kFixed) {
+      check_fixed_joint(file, i, diagnostics);
+    } else {
+      joint.coordinate = model.coordinate_count++;
+    }
+    model.joints.push_back(std::move(joint));
+  }
+  constexpr std::array<RowKey, 3> kGravityRows = {RowKey::kGx, RowKey::kGy, RowKey::kGz};
+  for (std::size_t k = 0; k < 3; ++k) model.gravity[k] = quantity(file, kGravityRows[k], 0);
+  if (model.coordinate_count == 0) {
+    const Row& sigma = file.row(RowKey::kSigma);
+    diagnostics.error(sigma.keyword, 5, "every joint is fixed (sigma 2): expected a joint that moves");
+  }
+  if (diagnostics.has_errors()) throw ModelError(diagnostics.render());
+  return model;
+}
+
+}  // namespace dyngen
