@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gen/base_parameters/base_parameters.h"
+#include "gen/symbols/symbol_table.h"
+
+namespace dyngen {
+
+/// What the emitted code takes as input of its dynamic parameters.
+enum class ParameterMode {
+  kBaked,   ///< numbers of the file stand in the code; only unknown ones are read from chi
+  kRuntime  ///< all are read from chi
+};
+
+/// One entry of chi.
+struct ChiEntry {
+  std::string name;     ///< "ZZR2", "d3"
+  std::string unit;
+  std::string comment;  ///< where it comes from, or what is grouped in it
+  std::optional<GiNaC::ex> value;  ///< the file's number; none if unknown
+};
+
+/// A link as the algorithms see it: inputs, constants and chi entries in place of the file's symbols.
+struct CodeLink {
+  JointType type = JointType::kRevolute;
+  int parent = 0;
+  GiNaC::ex alpha = 0;  ///< exact
+  GiNaC::ex theta = 0;  ///< exact
+  GiNaC::ex d = 0;
+  GiNaC::ex r = 0;
+  std::array<GiNaC::ex, kChiCount> chi;
+  GiNaC::ex q = 0, dq = 0, ddq = 0;  ///< inputs; 0 for a fixed joint
+  int coordinate = -1;
+  std::string name;
+};
+
+/// The robot as the algorithms see it.
+struct CodeModel {
+  std::string name;
+  std::string file_name;
+  SymbolTable inputs;            ///< q, dq, ddq, chi, and the named numbers of the file
+  std::vector<CodeLink> links;   ///< links[j - 1] is link j
+  std::array<GiNaC::ex, 3> gravity;
+  std::vector<ChiEntry> chi;     ///< dynamic parameters, then unknown lengths and gravity components
+  std::vector<std::string> beta; ///< names of the base parameters
+  std::vector<std::string> coordinate_names;
+  std::vector<bool> coordinate_revolute;
+  bool takes_chi = false;  ///< the functions have an argument chi: some entry of it is read
+
+  [[nodiscard]] int size() const { return static_cast<int>(links.size()); }
+  [[nodiscard]] const CodeLink& link(int j) const { return links[static_cast<std::size_t>(j - 1)]; }
+};
+
+/// @param grouping  the parameters to use: regroup(robot) or keep_standard(robot)
+/// @param beta      names of the base parameters (of regroup(robot))
+CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> beta,
+                          ParameterMode mode);
+
+}  // namespace dyngen

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "gen/algorithms/code_model.h"
+#include "gen/algorithms/kinematics.h"
+#include "gen/trace/trace.h"
+
+namespace dyngen {
+
+/// Which parts of tau = M ddq + c + g + IA ddq + friction are written.
+struct RneaTerms {
+  MotionTerms motion;
+  bool rotor = true;     ///< IA ddq
+  bool friction = true;  ///< FS sign(dq) + FV dq + OFF
+};
+
+/// Writes tau by customised Newton-Euler, as the output array "tau" (N m, N if prismatic).
+///
+/// Source: Khalil and Dombre 2002, sections 9.5 and 9.6. The moment J WP + W x (J W) is written with the
+/// elements of U, which the forces need anyway:
+///   N1 = XX WP1 + (ZZ - YY) W2 W3 + XZ U21 - XY U31 + YZ (U22 - U33), and cyclically.
+void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms);
+
+/// Writes the friction torque FS sign(dq) + FV dq + OFF of every joint.
+void write_friction(Trace& trace, const CodeModel& code);
+
+}  // namespace dyngen
