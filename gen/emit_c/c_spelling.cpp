@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gen/emit_c/c_spelling.h"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+#include "gen/symbols/exact.h"
+
+namespace dyngen {
+namespace {
+
+constexpr std::size_t kColumns = 100;
+
+}  // namespace
+
+std::string upper_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+std::string CSpelling::scalar() const {
+  return options_.scalar == Scalar::kDouble ? "double" : "float";
+}
+
+std::string CSpelling::number(const GiNaC::ex& value) const {
+  return options_.scalar == Scalar::kDouble ? shortest_decimal(value)
+                                            : shortest_decimal_float(value) + "f";
+}
+
+std::string CSpelling::symbol(const GiNaC::ex& symbol) const {
+  const SymbolInfo& info = symbols_.info(symbol);
+  switch (info.kind) {
+    case SymbolKind::kInput: return info.array + "[" + std::to_string(info.index) + "]";
+    case SymbolKind::kParameter:
+      return info.array + "[" + upper_case(options_.prefix) + "_" + info.name + "]";
+    default: return info.name;
+  }
+}
+
+std::string CSpelling::form(const Form& form) const {
+  if (form.kind == Form::Kind::kCall) {
+    const std::string argument = this->form(form.parts[0]);
+    if (form.call == "sign") return options_.prefix + "_sign(" + argument + ")";
+    return form.call + (options_.scalar == Scalar::kFloat ? "f(" : "(") + argument + ")";
+  }
+  if (form.kind == Form::Kind::kSum || form.kind == Form::Kind::kProduct) {
+    return join_operands(form, [this](const Form& part) { return this->form(part); });
+  }
+  return form.kind == Form::Kind::kNumber ? number(form.leaf) : symbol(form.leaf);
+}
+
+std::string CSpelling::expression(const GiNaC::ex& value) const {
+  return form(canonical_form(value, symbols_));
+}
+
+std::string wrap_statement(const std::string& statement) {
+  std::string result;
+  std::string line = statement;
+  const std::string indent = "      ";
+  while (line.size() > kColumns) {
+    std::size_t cut = std::string::npos;
+    for (std::size_t i = indent.size() + 1; i + 2 < line.size() && i < kColumns; ++i) {
+      const bool sum = line[i] == ' ' && (line[i + 1] == '+' || line[i + 1] == '-') && line[i + 2] == ' ';
+      if (sum) cut = i;
+    }
+    if (cut == std::string::npos) break;
+    result += line.substr(0, cut) + "\n";
+    line = indent + line.substr(cut + 1);
+  }
+  return result + line + "\n";
+}
+
+std::string wrap_arguments(const std::string& declaration) {
+  if (declaration.size() <= kColumns) return declaration;
+  const std::string indent(declaration.find('(') + 1, ' ');
+  std::string result;
+  std::string line = declaration;
+  while (line.size() > kColumns) {
+    const std::size_t cut = line.rfind(", ", kColumns - 1);
+    if (cut == std::string::npos || cut < indent.size()) break;
+    result += line.substr(0, cut + 1) + "\n";
+    line = indent + line.substr(cut + 2);
+  }
+  return result + line;
+}
+
+std::string base_name(const std::string& path) {
+  const std::size_t slash = path.find_last_of('/');
+  return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
+std::string wrap_comment(const std::string& text, const std::string& first,
+                         const std::string& next) {
+  std::istringstream words(text);
+  std::string result;
+  std::string line = first;
+  std::string word;
+  bool empty = true;
+  while (words >> word) {
+    if (!empty && line.size() + 1 + word.size() > kColumns) {
+      result += line + "\n";
+      line = next;
+      empty = true;
+    }
+    line += (empty ? "" : " ") + word;
+    empty = false;
+  }
+  return result + line;
+}
+
+}  // namespace dyngen

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <string>
+
+#include "gen/emit_c/emit_c.h"
+#include "gen/trace/form.h"
+
+namespace dyngen {
+
+/// The C names of one model: what depends on prefix and scalar.
+class CSpelling {
+ public:
+  CSpelling(const EmitOptions& options, const SymbolTable& symbols)
+      : options_(options), symbols_(symbols) {}
+
+  [[nodiscard]] std::string scalar() const;
+  /// "9.81", "9.81f"; a leading minus if negative
+  [[nodiscard]] std::string number(const GiNaC::ex& value) const;
+  [[nodiscard]] std::string symbol(const GiNaC::ex& symbol) const;
+  [[nodiscard]] std::string expression(const GiNaC::ex& value) const;
+
+ private:
+  [[nodiscard]] std::string form(const Form& form) const;
+
+  const EmitOptions& options_;
+  const SymbolTable& symbols_;
+};
+
+/// "PUMA560" of "puma560".
+std::string upper_case(std::string text);
+
+/// Breaks a statement at its operators so that lines stay within 100 columns.
+std::string wrap_statement(const std::string& statement);
+
+/// Breaks a declaration at its commas, under the opening bracket.
+std::string wrap_arguments(const std::string& declaration);
+
+/// The file name without its folders: what is written must not depend on where it was run.
+std::string base_name(const std::string& path);
+
+/// A comment block of wrapped lines: " * text". @param first  what the first line starts with
+std::string wrap_comment(const std::string& text, const std::string& first,
+                         const std::string& next);
+
+}  // namespace dyngen

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gen/functions/functions.h"
+
+namespace dyngen {
+
+enum class Scalar { kDouble, kFloat };
+
+/// How the C text is spelled.
+struct EmitOptions {
+  std::string prefix;       ///< a C identifier, in front of every external name
+  Scalar scalar = Scalar::kDouble;
+  std::string header_name;  ///< what the source includes
+};
+
+/// The two files that make up a generated model.
+struct CText {
+  std::string header;
+  std::string source;
+};
+
+/// C99 that is also C++20: no allocation, no state, silent under the usual warnings.
+///
+/// The text depends on nothing but the arguments: the same input gives the same bytes.
+CText emit_c(const CodeModel& code, const std::vector<RobotFunction>& functions,
+             const EmitOptions& options);
+
+}  // namespace dyngen

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gen/generator/generator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+namespace dyngen {
+namespace {
+
+bool is_c_identifier(const std::string& text) {
+  const auto word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
+         std::all_of(text.begin(), text.end(), word);
+}
+
+std::string catalogue_names() {
+  std::string names;
+  for (const FunctionSpec& spec : function_catalogue()) {
+    names += (names.empty() ? "" : ", ") + std::string(spec.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+void GeneratorOptions::validate() const {
+  for (const std::string& name : functions) {
+    if (find_function(name) == nullptr) {
+      throw std::invalid_argument(fmt::format("--functions: unknown function '{}'; expected {} or all",
+                                              name, catalogue_names()));
+    }
+  }
+  if (!prefix.empty() && !is_c_identifier(prefix)) {
+    throw std::invalid_argument(fmt::format(
+        "--prefix: '{}' is not a C identifier; expected letters, digits and '_', no digit first",
+        prefix));
+  }
+}
+
+CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& options) {
+  const SymbolicRobot robot = make_symbolic(model);
+  const Regrouping base = regroup(robot);
+  std::vector<std::string> beta;
+  for (const GroupedParameter& parameter : base.parameters) beta.push_back(parameter.name());
+  return make_code_model(options.regroup ? base : keep_standard(robot), std::move(beta),
+                         options.parameters);
+}
+
+std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options) {
+  std::vector<RobotFunction> functions;
+  for (const FunctionSpec& spec : function_catalogue()) {
+    const bool wanted = options.functions.empty() ||
+                        std::find(options.functions.begin(), options.functions.end(), spec.name) !=
+                            options.functions.end();
+    if (wanted) functions.push_back(write_function(spec, code));
+  }
+  return functions;
+}
+
+CText generate(const RobotModel& model, const GeneratorOptions& options) {
+  options.validate();
+  const CodeModel code = make_code_model(model, options);
+  EmitOptions emit;
+  emit.prefix = options.prefix.empty() ? model.name : options.prefix;
+  emit.scalar = options.scalar;
+  emit.header_name = options.header_name.empty() ? emit.prefix + ".h" : options.header_name;
+  return emit_c(code, write_functions(code, options), emit);
+}
+
+std::string count_table(const CodeModel& code, const std::vector<RobotFunction>& functions) {
+  std::string text = fmt::format("{}: {} joints, {} base parameters\n", code.name,
+                                 code.coordinate_names.size(), code.beta.size());
+  text += fmt::format("{:<12}{:>6}{:>6}{:>8}{:>9}{:>6}\n", "function", "mul", "add", "mul+add",
+                      "sin/cos", "sgn");
+  for (const RobotFunction& function : functions) {
+    const OperationCount count = function.trace.count();
+    text += fmt::format("{:<12}{:>6}{:>6}{:>8}{:>9}{:>6}\n", function.spec->name,
+                        count.multiplications, count.additions, count.total(), count.sin_cos_pairs,
+                        count.signs);
+  }
+  const int n = code.size();
+  const int mul = 105 * n - 92, add = 94 * n - 86;
+  text += fmt::format("{:<12}{:>6}{:>6}{:>8}   (105n - 92, 94n - 86: inverse dynamics of any arm, n = {})\n",
+                      "bound", mul, add, mul + add, n);
+  return text;
+}
+
+}  // namespace dyngen

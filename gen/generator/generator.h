@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gen/algorithms/code_model.h"
+#include "gen/emit_c/emit_c.h"
+#include "gen/functions/functions.h"
+#include "gen/model/robot_model.h"
+
+namespace dyngen {
+
+/// What to generate of a robot.
+struct GeneratorOptions {
+  std::vector<std::string> functions;  ///< names of the catalogue; empty: all
+  ParameterMode parameters = ParameterMode::kBaked;
+  bool regroup = true;                 ///< use base parameters
+  Scalar scalar = Scalar::kDouble;
+  std::string prefix;                  ///< empty: the robot's name
+  std::string header_name;             ///< what the source includes
+
+  /// @throws std::invalid_argument  naming the option, what was found and what was expected
+  void validate() const;
+};
+
+/// From the checked robot to what the algorithms see.
+CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& options);
+
+/// The functions of the options (all if none are named), in the catalogue's order.
+std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options);
+
+/// The whole road from the checked robot to C text. @throws std::invalid_argument  as validate()
+CText generate(const RobotModel& model, const GeneratorOptions& options);
+
+/// Operation counts of the functions beside the general bounds 105n - 92 and 94n - 86
+/// (Khalil and Kleinfinger 1987), as a table to read.
+std::string count_table(const CodeModel& code, const std::vector<RobotFunction>& functions);
+
+}  // namespace dyngen
