@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <exception>
+#include <iostream>
+#include <vector>
+
+#include "gen/diagnostic/assert.h"
+#include "gen/generator/generator.h"
+#include "gen/model/robot_model.h"
+#include "gen/robot_file/robot_file.h"
+#include "gen/tool/options.h"
+#include "gen/tool/output_files.h"
+
+namespace dyngen {
+namespace {
+
+constexpr int kDone = 0, kInputWrong = 1, kOurBug = 70;
+
+void print_warnings(const RobotFile& file) {
+  Diagnostics diagnostics(file.file_name, file.text);
+  for (const Diagnostic& warning : file.warnings) {
+    diagnostics.warning(warning.position, warning.length, warning.message, warning.hint);
+  }
+  for (const EffectRow& effect : file.effects) {
+    diagnostics.warning(effect.position, static_cast<int>(effect.name.size()),
+                        "effect '" + effect.name + "' is read but not part of the emitted functions");
+  }
+  std::cerr << diagnostics.render();
+}
+
+void run(const ToolOptions& options) {
+  const RobotFile file = read_robot_file(options.robot);
+  const RobotModel model = build_model(file);
+  print_warnings(file);
+  if (!options.output.empty()) {
+    const CText text = generate(model, options.generator);
+    std::vector<OutputFile> files = {{options.output, text.source}, {options.header(), text.header}};
+    if (!options.depfile.empty()) {
+      files.push_back({options.depfile,
+                       depfile_text({options.output, options.header()}, options.robot)});
+    }
+    write_files(files);
+  }
+  if (options.count) {
+    const CodeModel code = make_code_model(model, options.generator);
+    std::cout << count_table(code, write_functions(code, options.generator));
+  }
+}
+
+int guarded_main(int argc, const char* const* argv) {
+  const ParsedOptions parsed = parse_options(argc, argv);
+  if (parsed.exit_code >= 0) return parsed.exit_code;
+  try {
+    run(parsed.options);
+    return kDone;
+  } catch (const ModelError& error) {
+    std::cerr << error.what();
+    return kInputWrong;
+  } catch (const OutputError& error) {
+    std::cerr << error.what() << "\n";
+    return kInputWrong;
+  } catch (const std::exception& error) {
+    std::cerr << "dyngen: internal error: " << error.what()
+              << "\nThis is a bug of dyngen. Please report it with the file " << parsed.options.robot
+              << ".\n";
+    return kOurBug;
+  }
+}
+
+}  // namespace
+}  // namespace dyngen
+
+int main(int argc, char** argv) { return dyngen::guarded_main(argc, argv); }

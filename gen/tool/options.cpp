@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gen/tool/options.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <stdexcept>
+
+namespace dyngen {
+namespace {
+
+constexpr int kUsage = 2;
+
+bool is_source_name(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return ending == ".c" || ending == ".cc" || ending == ".cpp" || ending == ".cxx";
+}
+
+void check(ToolOptions& options) {
+  if (options.output.empty() && !options.count) {
+    throw std::invalid_argument("nothing to do: give -o FILE, or --count");
+  }
+  if (!options.output.empty() && !is_source_name(options.output)) {
+    throw std::invalid_argument("-o: '" + options.output +
+                                "' is not a source file; expected .c, .cc, .cpp or .cxx");
+  }
+  if (!options.depfile.empty() && options.output.empty()) {
+    throw std::invalid_argument("--depfile needs -o FILE");
+  }
+  auto& functions = options.generator.functions;
+  if (functions.size() == 1 && functions[0] == "all") functions.clear();
+  if (!options.output.empty()) {
+    options.generator.header_name = std::filesystem::path(options.header()).filename().string();
+  }
+  options.generator.validate();
+}
+
+}  // namespace
+
+std::string ToolOptions::header() const {
+  return std::filesystem::path(output).replace_extension(".h").string();
+}
+
+ParsedOptions parse_options(int argc, const char* const* argv) {
+  ParsedOptions parsed;
+  ToolOptions& options = parsed.options;
+  CLI::App app("dyngen: a robot file in, its dynamics as straight-line C out", "dyngen");
+  app.set_version_flag("--version", "dyngen " DYNGEN_VERSION);
+  app.add_option("robot", options.robot, "Robot file (.robot)")->required()->type_name("FILE");
+  app.add_option("-o,--output", options.output,
+                 "C or C++ source to write; the header is written beside it")
+      ->type_name("FILE");
+  app.add_option("--functions", options.generator.functions,
+                 "Functions to write, separated by commas or blanks: id, gravity, coriolis, "
+                 "friction; all (default)")
+      ->delimiter(',')
+      ->type_name("NAME");
+  const std::map<std::string, ParameterMode> parameter_modes = {
+      {"baked", ParameterMode::kBaked}, {"runtime", ParameterMode::kRuntime}};
+  app.add_option("--parameters", options.generator.parameters,
+                 "baked: the file's numbers stand in the code (default); runtime: they are read "
+                 "from an argument chi[]. Unknown ones ('*') are always read from chi[]")
+      ->transform(CLI::CheckedTransformer(parameter_modes).description(""))
+      ->type_name("baked|runtime");
+  const std::map<std::string, Scalar> scalars = {{"double", Scalar::kDouble},
+                                                 {"float", Scalar::kFloat}};
+  app.add_option("--scalar", options.generator.scalar, "Arithmetic of the code")
+      ->transform(CLI::CheckedTransformer(scalars).description(""))
+      ->type_name("double|float");
+  app.add_option("--prefix", options.generator.prefix,
+                 "Begins every external name (default: the robot's name)")
+      ->type_name("NAME");
+  app.add_flag("!--no-regroup", options.generator.regroup,
+               "Keep the standard parameters; by default they are regrouped to base parameters");
+  app.add_option("--depfile", options.depfile, "Write a Make rule that names the robot file")
+      ->type_name("FILE");
+  app.add_flag("--count", options.count,
+               "Print multiplications and additions beside the bounds 105n-92 and 94n-86");
+  try {
+    app.parse(argc, argv);
+    check(options);
+  } catch (const CLI::Success& success) {
+    parsed.exit_code = app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "dyngen: " << error.what() << "\nRun 'dyngen --help' for the options.\n";
+    parsed.exit_code = kUsage;
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "dyngen: " << error.what() << "\nRun 'dyngen --help' for the options.\n";
+    parsed.exit_code = kUsage;
+  }
+  return parsed;
+}
+
+}  // namespace dyngen

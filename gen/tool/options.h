@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+
+#include "gen/generator/generator.h"
+
+namespace dyngen {
+
+/// The command line of dyngen.
+struct ToolOptions {
+  std::string robot;    ///< path of the robot file
+  std::string output;   ///< the C or C++ source; its header stands beside it; empty: none
+  std::string depfile;  ///< empty: none
+  bool count = false;
+  GeneratorOptions generator;
+
+  /// The header's path: the output's with ".h".
+  [[nodiscard]] std::string header() const;
+};
+
+/// Reads the command line. @return what to do, or the exit code if there is nothing left to do
+///         (0 after --help or --version, 2 after a message about wrong usage)
+struct ParsedOptions {
+  ToolOptions options;
+  int exit_code = -1;  ///< -1: go on
+};
+ParsedOptions parse_options(int argc, const char* const* argv);
+
+}  // namespace dyngen

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace dyngen {
+
+/// A file that is to be written.
+struct OutputFile {
+  std::string path;
+  std::string content;
+};
+
+/// An output file could not be written; what() names it and the reason.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes all files or none: each goes to a temporary file beside its place, then all are renamed.
+/// @throws OutputError  nothing half-written stays behind
+void write_files(const std::vector<OutputFile>& files);
+
+/// A Make rule that says the targets depend on the robot file, with absolute paths.
+std::string depfile_text(const std::vector<std::string>& targets, const std::string& dependency);
+
+}  // namespace dyngen
