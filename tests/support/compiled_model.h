@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gen/generator/generator.h"
+#include "tests/support/model_bridge.h"
+
+namespace dyngen::test {
+
+/// A generated model as the compiler sees it: written, compiled to a shared object, loaded.
+class CompiledModel {
+ public:
+  /// @throws std::runtime_error  with the compiler's messages if it does not compile silently
+  CompiledModel(const RobotModel& model, const GeneratorOptions& options);
+  ~CompiledModel();
+  CompiledModel(const CompiledModel&) = delete;
+  CompiledModel& operator=(const CompiledModel&) = delete;
+
+  /// @param chi  ignored by models whose functions take none
+  [[nodiscard]] std::vector<double> call(const std::string& function, const MotionSample& sample,
+                                         const std::vector<double>& chi) const;
+  /// The same with one array for ddq and tau: the last input of `id` before chi.
+  [[nodiscard]] std::vector<double> call_in_place(const std::string& function,
+                                                  const MotionSample& sample,
+                                                  const std::vector<double>& chi) const;
+  /// The table of the file's numbers that stands in the code.
+  [[nodiscard]] std::vector<double> chi_values() const;
+
+ private:
+  [[nodiscard]] void* symbol(const std::string& name) const;
+
+  std::string folder_;
+  std::string prefix_;
+  void* library_ = nullptr;
+  bool takes_chi_ = false;
+  bool single_ = false;
+  std::size_t chi_count_ = 0;
+};
+
+}  // namespace dyngen::test

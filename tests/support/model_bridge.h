@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gen/generator/generator.h"
+#include "gen/model/robot_model.h"
+#include "gen/program/program.h"
+#include "tests/support/numeric_robot.h"
+
+/// Between the generator's robots and the judge's, and the generator's functions as plain calls.
+namespace dyngen::test {
+
+/// The model's numbers for the judge. @throws std::invalid_argument if something is unknown
+NumericRobot numeric_robot(const RobotModel& model);
+
+/// A model with the judge's numbers. Angles within 1e-12 of a multiple of pi/12 become exactly that,
+/// since the numbers of an oracle cannot say "right angle".
+RobotModel robot_model(const NumericRobot& robot, const std::string& name = "robot");
+
+RobotModel read_model(const std::string& path_in_project);
+RobotModel parse_model(const std::string& text);
+
+/// Makes every inertial parameter (and rotor inertia and friction of moving joints) unknown.
+RobotModel with_unknown_parameters(RobotModel model, bool inertial_only);
+
+/// Gives every unknown quantity a random number; masses and friction are positive.
+RobotModel with_random_values(RobotModel model, std::uint64_t seed);
+
+/// Inputs of one sample, one value per coordinate.
+struct MotionSample {
+  std::vector<double> q, dq, ddq;
+};
+/// Samples in +-3 rad, +-3 rad/s, +-5 rad/s^2; the first one is the zero state.
+std::vector<MotionSample> random_samples(int coordinates, int count, std::uint64_t seed);
+
+/// What the judge says of a sample, for the coordinates of the model (fixed joints left out).
+std::vector<double> judge(const RobotModel& model, const NumericRobot& robot,
+                          const std::string& function, const MotionSample& sample);
+
+/// A generated model that runs without a compiler.
+class EvaluatedModel {
+ public:
+  /// @param values  a model with the same structure in which every quantity is known: where chi comes from
+  EvaluatedModel(const RobotModel& model, const RobotModel& values, const GeneratorOptions& options);
+  /// The model's own numbers.
+  EvaluatedModel(const RobotModel& model, const GeneratorOptions& options)
+      : EvaluatedModel(model, model, options) {}
+
+  [[nodiscard]] std::vector<double> call(const std::string& function,
+                                         const MotionSample& sample) const;
+  [[nodiscard]] const CodeModel& code() const { return code_; }
+  [[nodiscard]] const std::vector<double>& chi() const { return chi_; }
+  [[nodiscard]] OperationCount count(const std::string& function) const;
+
+ private:
+  [[nodiscard]] std::size_t place(const std::string& function) const;
+
+  CodeModel code_;
+  std::vector<double> chi_;
+  std::vector<RobotFunction> functions_;
+  std::vector<Program> programs_;
+};
+
+}  // namespace dyngen::test
