@@ -3,34 +3,13 @@
 
 #include <ginac/ginac.h>
 
-#include <array>
 #include <vector>
 
 #include "gen/algorithms/code_model.h"
+#include "gen/algorithms/frames.h"
 #include "gen/trace/trace.h"
 
 namespace dyngen {
-
-using Vector3 = std::array<GiNaC::ex, 3>;
-using Matrix3 = std::array<Vector3, 3>;
-
-/// How a frame stands on another: Rx(alpha) Rz(angle), with sin and cos as the program has them.
-struct FrameRotation {
-  GiNaC::ex sin_alpha = 0, cos_alpha = 1;
-  GiNaC::ex sin_angle = 0, cos_angle = 1;
-};
-
-/// Where a link's frame stands.
-struct LinkFrame {
-  FrameRotation rotation;  ///< in the parent
-  Vector3 P;               ///< origin in the parent's frame
-  /// Joints with parallel axes turn together: the link seen from the frame below the first of them, with
-  /// the sum of their angles. Equal to the parent and `rotation` where the axis stands alone.
-  int anchor = 0;
-  FrameRotation from_anchor;
-  GiNaC::ex z_sign = 1;    ///< z of the parent along the own z, if parallel: 1 or -1
-  bool parallel = false;   ///< to the parent's axis
-};
 
 /// Velocities and accelerations of a link in its own frame.
 struct LinkMotion {
@@ -38,7 +17,9 @@ struct LinkMotion {
   Vector3 WP;  ///< its derivative
   Matrix3 U;   ///< skew(WP) + skew(W) skew(W)
   Vector3 VP;  ///< acceleration of the origin, less gravity
-  GiNaC::ex rate = 0;         ///< angular velocity about z against the anchor
+  Vector3 WW;  ///< W2 W3, W1 W3, W1 W2
+  Vector3 D;   ///< W2^2 - W3^2, W3^2 - W1^2, W1^2 - W2^2
+  GiNaC::ex rate = 0;           ///< angular velocity about z against the anchor
   bool rides_on_anchor = true;  ///< the origin has the acceleration of the anchor's
 };
 
@@ -49,27 +30,13 @@ struct MotionTerms {
   bool gravity = true;
 };
 
-/// Writes sin, cos and origin of every link; element 0 is the base.
-std::vector<LinkFrame> write_frames(Trace& trace, const CodeModel& code);
-
 /// Writes the forward recursion of customised Newton-Euler; element 0 is the base.
 ///
 /// Source: Khalil and Dombre, "Modeling, Identification and Control of Robots", 2002, section 9.5
-/// (forward recursive computation with the matrices U).
+/// (forward recursive computation with the matrices U). Where the axes are at right angles or parallel, the
+/// third column of U is carried over from the parent instead of WP: both links share the axis z, so
+/// U z is the same vector in both, and it does not depend on the joint's own rate.
 std::vector<LinkMotion> write_motion(Trace& trace, const CodeModel& code,
                                      const std::vector<LinkFrame>& frames, const MotionTerms& terms);
-
-/// Vector of the link's frame in the parent's (or the anchor's). @param name  of the help variable, if one is needed
-Vector3 to_parent(Trace& trace, const std::string& name, const FrameRotation& rotation,
-                  const Vector3& v);
-/// The reverse.
-Vector3 to_child(Trace& trace, const std::string& name, const FrameRotation& rotation,
-                 const Vector3& v);
-
-/// a x b
-Vector3 cross(const Vector3& a, const Vector3& b);
-
-/// name1_j, name2_j, name3_j = v
-Vector3 assign_vector(Trace& trace, const std::string& name, int link, const Vector3& v);
 
 }  // namespace dyngen

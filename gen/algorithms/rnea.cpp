@@ -37,22 +37,18 @@ Vector3 link_force(const CodeLink& link, const LinkMotion& motion) {
 Vector3 euler_moment(Trace& trace, int j, const CodeLink& link, const LinkMotion& motion) {
   const ex XX = chi(link, Chi::kXX), XY = chi(link, Chi::kXY), XZ = chi(link, Chi::kXZ);
   const ex YY = chi(link, Chi::kYY), YZ = chi(link, Chi::kYZ), ZZ = chi(link, Chi::kZZ);
-  const Vector3& W = motion.W;
   const Vector3& WP = motion.WP;
+  const Vector3& WW = motion.WW;
+  const Vector3& D = motion.D;
   const Matrix3& U = motion.U;
-  const auto product = [&](std::size_t a, std::size_t b) {
-    return trace.assign(fmt::format("DV{}{}_{}", a + 1, b + 1, j), W[a] * W[b]);
-  };
   const auto difference = [&](const char* name, const ex& a, const ex& b) {
     return trace.assign(fmt::format("{}_{}", name, j), a - b);
   };
   const ex zy = difference("ZmY", ZZ, YY), xz = difference("XmZ", XX, ZZ),
            yx = difference("YmX", YY, XX);
-  const ex u23 = difference("UD23", U[1][1], U[2][2]), u31 = difference("UD31", U[2][2], U[0][0]),
-           u12 = difference("UD12", U[0][0], U[1][1]);
-  return {XX * WP[0] + zy * product(1, 2) + XZ * U[1][0] - XY * U[2][0] + YZ * u23,
-          YY * WP[1] + xz * product(0, 2) + XY * U[2][1] - YZ * U[0][1] + XZ * u31,
-          ZZ * WP[2] + yx * product(0, 1) + YZ * U[0][2] - XZ * U[1][2] + XY * u12};
+  return {XX * WP[0] + zy * WW[0] + XZ * U[1][0] - XY * U[2][0] + YZ * D[0],
+          YY * WP[1] + xz * WW[1] + XY * U[2][1] - YZ * U[0][1] + XZ * D[1],
+          ZZ * WP[2] + yx * WW[2] + YZ * U[0][2] - XZ * U[1][2] + XY * D[2]};
 }
 
 ex friction_torque(const CodeLink& link) {
