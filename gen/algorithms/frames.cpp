@@ -21,8 +21,8 @@ struct Chain {
 FrameRotation write_rotation(Trace& trace, const std::string& suffix, const ex& alpha,
                              const ex& angle) {
   FrameRotation rotation;
-  rotation.sin_alpha = trace.constant("SA" + suffix, GiNaC::sin(alpha));
-  rotation.cos_alpha = trace.constant("CA" + suffix, GiNaC::cos(alpha));
+  rotation.sin_alpha = trace.constant("SA" + suffix, exact_sin(alpha));
+  rotation.cos_alpha = trace.constant("CA" + suffix, exact_cos(alpha));
   const Trace::SinCos turn = trace.sin_cos(suffix, angle);
   rotation.sin_angle = turn.sin;
   rotation.cos_angle = turn.cos;

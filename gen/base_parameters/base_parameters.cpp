@@ -61,7 +61,7 @@ void group_in_closed_form(SymbolicRobot& robot, std::set<Column>& grouped) {
     SymbolicLink& parent = robot.link(link.parent);
     for (std::size_t k = 0; k < kInertialCount; ++k) {
       if (moved[k].is_zero()) continue;
-      parent.chi[k] = (parent.chi[k] + moved[k]).expand();
+      parent.chi[k] = drop_rounding(parent.chi[k] + moved[k]);
       grouped.insert({link.parent, static_cast<Chi>(k)});
     }
   }
@@ -92,7 +92,7 @@ void group_dependent(SymbolicRobot& robot, Motions motions, std::set<Column>& gr
     if (!value.is_zero()) {
       for (const auto& [column, coefficient] : dependency.others) {
         ex& target = robot.link(column.link).chi[index(column.kind)];
-        target = (target + coefficient * value).expand();
+        target = drop_rounding(target + coefficient * value);
         grouped.insert(column);
       }
     }

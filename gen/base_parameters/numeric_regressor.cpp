@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "gen/diagnostic/assert.h"
+#include "gen/symbols/exact.h"
 
 namespace dyngen {
 namespace {
@@ -170,8 +171,8 @@ NumericGeometry<T> numeric_geometry(const SymbolicRobot& robot, const GiNaC::exm
   NumericGeometry<T> geometry;
   for (const SymbolicLink& link : robot.links) {
     geometry.links.push_back({link.type, link.parent, link.coordinate,
-                              number<T>(GiNaC::cos(link.alpha)), number<T>(GiNaC::sin(link.alpha)),
-                              number<T>(GiNaC::cos(link.theta)), number<T>(GiNaC::sin(link.theta)),
+                              number<T>(exact_cos(link.alpha)), number<T>(exact_sin(link.alpha)),
+                              number<T>(exact_cos(link.theta)), number<T>(exact_sin(link.theta)),
                               number<T>(link.d.subs(lengths)), number<T>(link.r.subs(lengths))});
   }
   for (std::size_t k = 0; k < 3; ++k) {

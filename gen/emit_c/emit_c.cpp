@@ -132,7 +132,7 @@ std::string function_body(const CodeModel& code, const RobotFunction& function,
                                        spelling.symbol(assignment.target),
                                        spelling.expression(assignment.value)));
   }
-  text += "\n";
+  if (!text.ends_with("{\n")) text += "\n";
   for (const std::string_view input : function.spec->inputs) {
     if (!reads.arrays.contains(std::string(input))) text += fmt::format("  (void){};\n", input);
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gen/symbols/exact.h"
+
 namespace dyngen {
 namespace {
 
@@ -18,14 +20,14 @@ Matrix tensor(const Inertial& p) {
 
 /// Rx(alpha) Rz(theta), columns are the child's axes in the parent's frame.
 Matrix rotation(const ex& alpha, const ex& theta) {
-  const ex ca = GiNaC::cos(alpha), sa = GiNaC::sin(alpha);
-  const ex c = GiNaC::cos(theta), s = GiNaC::sin(theta);
+  const ex ca = exact_cos(alpha), sa = exact_sin(alpha);
+  const ex c = exact_cos(theta), s = exact_sin(theta);
   return {{{c, -s, 0}, {ca * s, ca * c, -sa}, {sa * s, sa * c, ca}}};
 }
 
 ex length_symbol(const Quantity& quantity, const std::string& name, const std::string& unit,
                  SymbolicRobot& robot) {
-  if (!quantity.unknown) return quantity.value;
+  if (!quantity.unknown) return rational_or_float(quantity.value);
   FileSymbol entry;
   entry.symbol = GiNaC::symbol(name);
   entry.name = name;
@@ -47,7 +49,7 @@ std::array<ex, kChiCount> parameter_symbols(const JointModel& joint, int j, Symb
     entry.symbol = GiNaC::symbol(entry.name);
     entry.unit = chi_unit(kind, joint.type != JointType::kPrismatic);
     entry.known = !quantity.unknown;
-    entry.value = quantity.value;
+    entry.value = rational_or_float(quantity.value);
     entry.line = quantity.line;
     chi[k] = entry.symbol;
     robot.parameters.push_back(std::move(entry));
@@ -78,7 +80,7 @@ void reframe(SymbolicRobot& robot) {
 Inertial move_to_parent(const Inertial& inertial, const ex& alpha, const ex& d, const ex& theta,
                         const ex& r) {
   const Matrix R = rotation(alpha, theta);
-  const Vector p = {d, -r * GiNaC::sin(alpha), r * GiNaC::cos(alpha)};
+  const Vector p = {d, -r * exact_sin(alpha), r * exact_cos(alpha)};
   const Matrix J = tensor(inertial);
   const ex& mass = inertial[index(Chi::kM)];
   Vector s;  // first moments in the axes of the parent, about the child's origin
@@ -98,12 +100,12 @@ Inertial move_to_parent(const Inertial& inertial, const ex& alpha, const ex& d, 
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t b = 0; b < 3; ++b) sum += R[i][a] * J[a][b] * R[k][b];
     }
-    return sum.expand();
+    return drop_rounding(sum);
   };
   Inertial result = {element(0, 0), element(0, 1), element(0, 2), element(1, 1),
                      element(1, 2), element(2, 2)};
   for (std::size_t i = 0; i < 3; ++i) {
-    result[index(Chi::kMX) + i] = (s[i] + mass * p[i]).expand();
+    result[index(Chi::kMX) + i] = drop_rounding(s[i] + mass * p[i]);
   }
   result[index(Chi::kM)] = mass;
   return result;
@@ -144,7 +146,7 @@ ex with_known_values(const ex& expression, const SymbolicRobot& robot) {
   for (const FileSymbol& entry : robot.parameters) {
     if (entry.known) values[entry.symbol] = entry.value;
   }
-  return expression.subs(values, GiNaC::subs_options::no_pattern).expand();
+  return drop_rounding(expression.subs(values, GiNaC::subs_options::no_pattern));
 }
 
 }  // namespace dyngen

@@ -98,7 +98,7 @@ Operand product_form(const ex& product, const SymbolTable& symbols) {
   return make_operand(negative, std::move(form), symbols);
 }
 
-Form sum_form(const ex& sum, const SymbolTable& symbols) {
+std::vector<Operand> sorted_terms(const ex& sum, const SymbolTable& symbols) {
   std::vector<Operand> terms;
   if (GiNaC::is_a<GiNaC::add>(sum)) {
     for (std::size_t i = 0; i < sum.nops(); ++i) {
@@ -109,6 +109,10 @@ Form sum_form(const ex& sum, const SymbolTable& symbols) {
   }
   std::sort(terms.begin(), terms.end(),
             [](const Operand& a, const Operand& b) { return a.key.tie() < b.key.tie(); });
+  return terms;
+}
+
+Form sum_of(std::vector<Operand> terms) {
   const auto positive = std::find_if(terms.begin(), terms.end(),
                                      [](const Operand& term) { return !term.negative; });
   if (positive != terms.end()) std::rotate(terms.begin(), positive, positive + 1);
@@ -119,6 +123,21 @@ Form sum_form(const ex& sum, const SymbolTable& symbols) {
     form.negative.push_back(term.negative);
   }
   return form;
+}
+
+Form sum_form(const ex& sum, const SymbolTable& symbols) {
+  return sum_of(sorted_terms(sum, symbols));
+}
+
+/// A sum inside a product. GiNaC may hold a (b - c) as -a (c - b), one way or the other from run to run:
+/// the sign that makes the first term positive is ours.
+Operand inner_sum(const ex& sum, const SymbolTable& symbols) {
+  std::vector<Operand> terms = sorted_terms(sum, symbols);
+  const bool negative = terms.front().negative;
+  if (negative) {
+    for (Operand& term : terms) term.negative = !term.negative;
+  }
+  return make_operand(negative, sum_of(std::move(terms)), symbols);
 }
 
 /// One term or factor with its sign outside.
@@ -134,7 +153,7 @@ Operand signed_form(const ex& expression, const SymbolTable& symbols) {
     return make_operand(false, std::move(form), symbols);
   }
   if (GiNaC::is_a<GiNaC::add>(expression)) {
-    return make_operand(false, sum_form(expression, symbols), symbols);
+    return inner_sum(expression, symbols);
   }
   if (GiNaC::is_a<GiNaC::mul>(expression) || GiNaC::is_a<GiNaC::power>(expression)) {
     return product_form(expression, symbols);

@@ -134,7 +134,7 @@ Trace::SinCos Trace::sin_cos(const std::string& suffix, const ex& angle) {
     add_term(angle);
   }
   if (moving.is_zero()) {
-    return {constant("S" + suffix, GiNaC::sin(offset)), constant("C" + suffix, GiNaC::cos(offset))};
+    return {constant("S" + suffix, exact_sin(offset)), constant("C" + suffix, exact_cos(offset))};
   }
   const Form form = canonical_form(moving, symbols_);
   if (form.negative[0]) {  // all terms are negative: sin(-x) = -sin(x)
