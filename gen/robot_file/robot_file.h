@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gen/diagnostic/diagnostic.h"
+
+namespace dyngen {
+
+/// The most joints that a robot file may declare.
+inline constexpr int kMaxJoints = 100;
+
+/// One value of a row: an exact number, or unknown ('*').
+struct FieldValue {
+  bool unknown = false;
+  GiNaC::ex value = 0;  ///< exact and real: rationals, pi, square roots, sin and cos of constants
+  SourcePosition position;
+  int length = 1;
+  std::string text;  ///< as written
+};
+
+/// The rows with one value per joint (and gx, gy, gz with one value in all).
+enum class RowKey {
+  kSigma, kAl, kD, kTh, kR, kAnt,
+  kXX, kXY, kXZ, kYY, kYZ, kZZ, kMX, kMY, kMZ, kM,
+  kIA, kFs, kFv, kOff,
+  kQmin, kQmax, kVmax, kAmax, kTaumax,
+  kGx, kGy, kGz,
+};
+inline constexpr std::size_t kRowKeyCount = 28;
+
+/// A row of values; absent rows have present == false and no values.
+struct Row {
+  bool present = false;
+  SourcePosition keyword;
+  std::vector<FieldValue> values;
+};
+
+enum class DhConvention { kModified, kStandard };
+
+/// `effect NAME key=value ...`, kept as written for the parts that know effects.
+struct EffectRow {
+  struct Setting {
+    std::string key;
+    SourcePosition position;  ///< of the key
+    FieldValue value;
+  };
+  std::string name;
+  SourcePosition position;  ///< of the name
+  std::vector<Setting> settings;
+};
+
+/// A robot file as written: every field with its exact value and its place.
+///
+/// Source: the format of the thesis's Appendix B, extended.
+struct RobotFile {
+  std::string file_name;  ///< as given to the reader, for messages
+  std::string text;       ///< the whole text, for messages about what it means
+  std::string name;       ///< the `name` row, else the file's stem
+  int joint_count = 0;    ///< number_link, 1..kMaxJoints
+  DhConvention convention = DhConvention::kModified;
+  std::array<Row, kRowKeyCount> rows;
+  std::vector<std::string> joint_names;  ///< empty, or joint_count names
+  std::vector<EffectRow> effects;
+  std::vector<Diagnostic> warnings;
+
+  [[nodiscard]] const Row& row(RowKey key) const { return rows[static_cast<std::size_t>(key)]; }
+};
+
+/// The keyword of a row as the documentation writes it ("al", "mX", "XX", "Fs", "qmin", ...).
+std::string_view row_keyword(RowKey key);
+
+/// Reads a robot file from text.
+///
+/// @param text       the file's content, any bytes
+/// @param file_name  used in messages, and its stem as the robot's name where no `name` row stands
+/// @throws ModelError  with up to 20 positioned messages
+RobotFile parse_robot_file(std::string text, std::string file_name);
+
+/// Reads a robot file from disk.
+/// @throws ModelError  if it cannot be read (the message names the file and the reason) or parsed
+RobotFile read_robot_file(const std::string& path);
+
+}  // namespace dyngen

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gen/robot_file/value_checks.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+
+namespace dyngen {
+
+namespace {
+
+constexpr double kRightAngle = std::numbers::pi / 2;
+constexpr double kNearRightAngle = 1e-3;  // rounded by hand, rather than calibrated
+
+double to_double(const GiNaC::ex& value) {
+  return GiNaC::ex_to<GiNaC::numeric>(value.evalf()).to_double();
+}
+
+bool is_integer(const GiNaC::ex& value) { return value.info(GiNaC::info_flags::integer); }
+
+bool is_integer_between(const GiNaC::ex& value, int low, int high) {
+  return is_integer(value) && value >= low && value <= high;
+}
+
+void check_sigma(const Row& row, Diagnostics& diagnostics) {
+  for (const FieldValue& value : row.values) {
+    if (value.unknown || is_integer_between(value.value, 0, 2)) continue;
+    diagnostics.error(value.position, value.length,
+                      fmt::format("joint type {} in 'sigma'", printable(value.text)),
+                      "0 is revolute, 1 prismatic, 2 fixed");
+  }
+}
+
+void check_ant(const Row& row, Diagnostics& diagnostics) {
+  for (std::size_t j = 0; j < row.values.size(); ++j) {
+    const FieldValue& value = row.values[j];
+    if (value.unknown || is_integer_between(value.value, 0, static_cast<int>(j))) continue;
+    diagnostics.error(
+        value.position, value.length,
+        fmt::format("the parent of link {} in 'ant' is {}", j + 1, printable(value.text)),
+        j == 0 ? "link 1 stands on the base: 0"
+               : fmt::format("expected a link before it, 0 (the base) to {}", j));
+  }
+}
+
+void check_positive(const RobotFile& file, RowKey key, Diagnostics& diagnostics) {
+  for (const FieldValue& value : file.row(key).values) {
+    if (value.unknown || to_double(value.value) > 0) continue;
+    diagnostics.error(
+        value.position, value.length,
+        fmt::format("limit {} in '{}' is not positive", printable(value.text), row_keyword(key)),
+        "limits are magnitudes; leave the row out if there is no limit");
+  }
+}
+
+void check_not_negative(const RobotFile& file, RowKey key, Severity severity, std::string hint,
+                        Diagnostics& diagnostics) {
+  for (const FieldValue& value : file.row(key).values) {
+    if (value.unknown || to_double(value.value) >= 0) continue;
+    const std::string message =
+        fmt::format("negative value {} in '{}'", printable(value.text), row_keyword(key));
+    if (severity == Severity::kError) {
+      diagnostics.error(value.position, value.length, message, hint);
+    } else {
+      diagnostics.warning(value.position, value.length, message, hint);
+    }
+  }
+}
+
+void check_joint_limits(const RobotFile& file, Diagnostics& diagnostics) {
+  const Row& low = file.row(RowKey::kQmin);
+  const Row& high = file.row(RowKey::kQmax);
+  for (std::size_t j = 0; j < low.values.size() && j < high.values.size(); ++j) {
+    const FieldValue& min = low.values[j];
+    const FieldValue& max = high.values[j];
+    if (min.unknown || max.unknown || to_double(min.value) <= to_double(max.value)) continue;
+    diagnostics.error(max.position, max.length,
+                      fmt::format("qmax of joint {} is {}, below its qmin {}", j + 1,
+                                  printable(max.text), printable(min.text)),
+                      fmt::format("qmin stands on line {}", min.position.line));
+  }
+}
+
+/// "pi/2", "-pi", "3*pi/2": a multiple of the right angle, as the file would write it.
+std::string right_angles(long count) {
+  if (count == 0) return "0";
+  const std::string sign = count < 0 ? "-" : "";
+  const long quarters = std::labs(count);
+  const long numerator = quarters % 2 == 0 ? quarters / 2 : quarters;
+  const std::string factor = numerator == 1 ? "" : fmt::format("{}*", numerator);
+  return fmt::format("{}{}pi{}", sign, factor, quarters % 2 == 0 ? "" : "/2");
+}
+
+void check_angles(const RobotFile& file, RowKey key, Diagnostics& diagnostics) {
+  for (const FieldValue& value : file.row(key).values) {
+    if (value.unknown || is_integer(value.value * 2 / GiNaC::Pi)) continue;
+    const double angle = to_double(value.value);
+    if (std::fabs(angle) > 4 * kRightAngle) {
+      const std::string text = printable(value.text);
+      diagnostics.warning(value.position, value.length,
+                          fmt::format("{} in '{}' looks like degrees: angles are in radians", text,
+                                      row_keyword(key)),
+                          value.text.find_first_not_of(".0123456789-") == std::string::npos
+                              ? fmt::format("write {}*deg", text)
+                              : "write 90*deg for 90 degrees");
+      continue;
+    }
+    const double quarters = std::round(angle / kRightAngle);
+    if (std::fabs(angle - quarters * kRightAngle) >= kNearRightAngle) continue;
+    const std::string exact = right_angles(static_cast<long>(quarters));
+    diagnostics.warning(value.position, value.length,
+                        fmt::format("{} in '{}' is nearly, but not exactly, {}",
+                                    printable(value.text), row_keyword(key), exact),
+                        fmt::format("write {} if that is meant", exact));
+  }
+}
+
+}  // namespace
+
+void check_values(const RobotFile& file, Diagnostics& diagnostics) {
+  check_sigma(file.row(RowKey::kSigma), diagnostics);
+  check_ant(file.row(RowKey::kAnt), diagnostics);
+  check_angles(file, RowKey::kAl, diagnostics);
+  check_angles(file, RowKey::kTh, diagnostics);
+  check_not_negative(file, RowKey::kM, Severity::kError, "a mass is 0 or more", diagnostics);
+  check_not_negative(file, RowKey::kIA, Severity::kError, "a rotor inertia is 0 or more",
+                     diagnostics);
+  for (const RowKey key : {RowKey::kFs, RowKey::kFv}) {
+    check_not_negative(file, key, Severity::kWarning,
+                       "friction takes energy out: expected 0 or more", diagnostics);
+  }
+  for (const RowKey key : {RowKey::kVmax, RowKey::kAmax, RowKey::kTaumax}) {
+    check_positive(file, key, diagnostics);
+  }
+  check_joint_limits(file, diagnostics);
+}
+
+}  // namespace dyngen

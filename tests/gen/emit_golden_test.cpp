@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The whole text of three tiny robots: what a change of the generator does to the code shows in review.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "gen/generator/generator.h"
+#include "tests/support/golden.h"
+#include "tests/support/model_bridge.h"
+
+namespace dyngen::test {
+namespace {
+
+struct GoldenCase {
+  std::string name;
+  std::string robot;
+  GeneratorOptions options;
+};
+
+std::vector<GoldenCase> cases() {
+  GeneratorOptions runtime;
+  runtime.parameters = ParameterMode::kRuntime;
+  GeneratorOptions single;
+  single.scalar = Scalar::kFloat;
+  return {{"planar2r_runtime", "robots/planar2r.robot", runtime},
+          {"rp_baked", "tests/robots/rp.robot", {}},
+          {"pendulum_float", "tests/robots/pendulum.robot", single}};
+}
+
+class EmittedText : public testing::TestWithParam<GoldenCase> {};
+
+TEST_P(EmittedText, IsAsCommitted) {
+  const CText text = generate(read_model(GetParam().robot), GetParam().options);
+  expect_golden("emitted/" + GetParam().name + ".h", text.header);
+  expect_golden("emitted/" + GetParam().name + ".c", text.source);
+}
+
+INSTANTIATE_TEST_SUITE_P(golden, EmittedText, testing::ValuesIn(cases()),
+                         [](const auto& golden) { return golden.param.name; });
+
+}  // namespace
+}  // namespace dyngen::test

@@ -1,0 +1,1 @@
+# made on an old systemnumber_link 3stop

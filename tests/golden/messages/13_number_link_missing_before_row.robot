@@ -1,0 +1,4 @@
+sigma 0 0 0
+d 0 1 0
+gz 9.81
+stop

@@ -1,0 +1,3 @@
+number_link *
+gz 9.81
+stop

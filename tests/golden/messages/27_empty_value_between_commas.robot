@@ -1,0 +1,4 @@
+number_link 3
+d 0,,1,0
+gz 9.81
+stop

@@ -1,0 +1,3 @@
+number’link 3
+gz 9.81
+stop

@@ -1,0 +1,4 @@
+number_link 3
+joints arm elbow arm
+gz 9.81
+stop

@@ -1,0 +1,4 @@
+number_link 3
+joints a m r
+gz 9.81
+stop

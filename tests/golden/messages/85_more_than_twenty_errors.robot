@@ -1,0 +1,29 @@
+number_link 3
+d L 0 0
+foo0 1
+foo1 1
+foo2 1
+foo3 1
+foo4 1
+foo5 1
+foo6 1
+foo7 1
+foo8 1
+foo9 1
+foo10 1
+foo11 1
+foo12 1
+foo13 1
+foo14 1
+foo15 1
+foo16 1
+foo17 1
+foo18 1
+foo19 1
+foo20 1
+foo21 1
+foo22 1
+foo23 1
+foo24 1
+gz 9.81
+stop
