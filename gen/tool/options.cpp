@@ -4,8 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace dyngen {
 namespace {
@@ -15,6 +16,18 @@ constexpr int kUsage = 2;
 bool is_source_name(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   return ending == ".c" || ending == ".cc" || ending == ".cpp" || ending == ".cxx";
+}
+
+/// What the words of an option stand for.
+template <class Value>
+Value meaning(const std::string& option, const std::string& word,
+              const std::vector<std::pair<std::string, Value>>& meanings) {
+  std::string expected;
+  for (const auto& [name, value] : meanings) {
+    if (name == word) return value;
+    expected += (expected.empty() ? "" : " or ") + name;
+  }
+  throw std::invalid_argument(option + ": '" + word + "' is unknown; expected " + expected);
 }
 
 void check(ToolOptions& options) {
@@ -52,26 +65,23 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                  "C or C++ source to write; the header is written beside it")
       ->type_name("FILE");
   app.add_option("--functions", options.generator.functions,
-                 "Functions to write, separated by commas or blanks: id, gravity, coriolis, "
-                 "friction; all (default)")
+                 "Functions to write: id, gravity, coriolis, friction; all (default)")
       ->delimiter(',')
-      ->type_name("NAME");
-  const std::map<std::string, ParameterMode> parameter_modes = {
-      {"baked", ParameterMode::kBaked}, {"runtime", ParameterMode::kRuntime}};
-  app.add_option("--parameters", options.generator.parameters,
+      ->allow_extra_args(false)
+      ->type_name("NAME,...");
+  std::string parameters = "baked";
+  app.add_option("--parameters", parameters,
                  "baked: the file's numbers stand in the code (default); runtime: they are read "
                  "from an argument chi[]. Unknown ones ('*') are always read from chi[]")
-      ->transform(CLI::CheckedTransformer(parameter_modes).description(""))
       ->type_name("baked|runtime");
-  const std::map<std::string, Scalar> scalars = {{"double", Scalar::kDouble},
-                                                 {"float", Scalar::kFloat}};
-  app.add_option("--scalar", options.generator.scalar, "Arithmetic of the code")
-      ->transform(CLI::CheckedTransformer(scalars).description(""))
+  std::string scalar = "double";
+  app.add_option("--scalar", scalar, "Arithmetic of the code (default: double)")
       ->type_name("double|float");
   app.add_option("--prefix", options.generator.prefix,
                  "Begins every external name (default: the robot's name)")
       ->type_name("NAME");
-  app.add_flag("!--no-regroup", options.generator.regroup,
+  bool keep_standard = false;
+  app.add_flag("--no-regroup", keep_standard,
                "Keep the standard parameters; by default they are regrouped to base parameters");
   app.add_option("--depfile", options.depfile, "Write a Make rule that names the robot file")
       ->type_name("FILE");
@@ -79,6 +89,12 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                "Print multiplications and additions beside the bounds 105n-92 and 94n-86");
   try {
     app.parse(argc, argv);
+    options.generator.parameters = meaning<ParameterMode>(
+        "--parameters", parameters,
+        {{"baked", ParameterMode::kBaked}, {"runtime", ParameterMode::kRuntime}});
+    options.generator.scalar = meaning<Scalar>(
+        "--scalar", scalar, {{"double", Scalar::kDouble}, {"float", Scalar::kFloat}});
+    options.generator.regroup = !keep_standard;
     check(options);
   } catch (const CLI::Success& success) {
     parsed.exit_code = app.exit(success);
