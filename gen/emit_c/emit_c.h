@@ -10,10 +10,17 @@ namespace dyngen {
 
 enum class Scalar { kDouble, kFloat };
 
+/// Where sines and cosines come from.
+enum class Trig {
+  kInline,  ///< all angles of a function at once, in the code itself; double only
+  kLibm     ///< sin() and cos() of the C library
+};
+
 /// How the C text is spelled.
 struct EmitOptions {
   std::string prefix;       ///< a C identifier, in front of every external name
   Scalar scalar = Scalar::kDouble;
+  Trig trig = Trig::kInline;  ///< kLibm with kFloat
   std::string header_name;  ///< what the source includes
 };
 

@@ -66,6 +66,7 @@ CText generate(const RobotModel& model, const GeneratorOptions& options) {
   EmitOptions emit;
   emit.prefix = options.prefix.empty() ? model.name : options.prefix;
   emit.scalar = options.scalar;
+  emit.trig = options.scalar == Scalar::kFloat ? Trig::kLibm : options.trig;
   emit.header_name = options.header_name.empty() ? emit.prefix + ".h" : options.header_name;
   return emit_c(code, write_functions(code, options), emit);
 }

@@ -17,6 +17,7 @@ struct GeneratorOptions {
   ParameterMode parameters = ParameterMode::kBaked;
   bool regroup = true;                 ///< use base parameters
   Scalar scalar = Scalar::kDouble;
+  Trig trig = Trig::kInline;           ///< the C library's with kFloat, whatever this says
   std::string prefix;                  ///< empty: the robot's name
   std::string header_name;             ///< what the source includes
 

@@ -77,6 +77,11 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   std::string scalar = "double";
   app.add_option("--scalar", scalar, "Arithmetic of the code (default: double)")
       ->type_name("double|float");
+  std::string trig = "inline";
+  app.add_option("--trig", trig,
+                 "Sines and cosines: inline, all angles at once in the code (default; double only), "
+                 "or libm, calls of the C library")
+      ->type_name("inline|libm");
   app.add_option("--prefix", options.generator.prefix,
                  "Begins every external name (default: the robot's name)")
       ->type_name("NAME");
@@ -94,6 +99,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
         {{"baked", ParameterMode::kBaked}, {"runtime", ParameterMode::kRuntime}});
     options.generator.scalar = meaning<Scalar>(
         "--scalar", scalar, {{"double", Scalar::kDouble}, {"float", Scalar::kFloat}});
+    options.generator.trig =
+        meaning<Trig>("--trig", trig, {{"inline", Trig::kInline}, {"libm", Trig::kLibm}});
     options.generator.regroup = !keep_standard;
     check(options);
   } catch (const CLI::Success& success) {

@@ -1,37 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/compiled_model.h"
 
-#include <dlfcn.h>
-
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 namespace dyngen::test {
 namespace {
-
-std::string make_folder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "dyngen_test_XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make a folder");
-  return pattern;
-}
-
-void write(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-/// Runs a command; whatever it prints is an error.
-void run(const std::string& command) {
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("cannot run: " + command);
-  std::string output;
-  std::array<char, 512> buffer{};
-  while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) output += buffer.data();
-  if (pclose(pipe) != 0 || !output.empty()) throw std::runtime_error(command + "\n" + output);
-}
 
 template <class T>
 std::vector<double> call_as(void* function, const FunctionSpec& spec, const MotionSample& sample,
@@ -62,37 +35,27 @@ std::vector<double> call_as(void* function, const FunctionSpec& spec, const Moti
   return std::vector<double>(tau.begin(), tau.end());
 }
 
+SharedObject compile(const RobotModel& model, const GeneratorOptions& options,
+                     const std::string& prefix) {
+  const CText text = generate(model, options);
+  // no contraction to fused operations: they would round differently from the evaluated program
+  return SharedObject({{prefix + ".h", text.header}, {prefix + ".c", text.source}},
+                      "-std=c99 -O2 -ffp-contract=off");
+}
+
 }  // namespace
 
 CompiledModel::CompiledModel(const RobotModel& model, const GeneratorOptions& options)
-    : folder_(make_folder()) {
+    : prefix_(options.prefix.empty() ? model.name : options.prefix),
+      library_(compile(model, options, prefix_)) {
   const CodeModel code = make_code_model(model, options);
   takes_chi_ = code.takes_chi;
   chi_count_ = code.chi.size();
   single_ = options.scalar == Scalar::kFloat;
-  prefix_ = options.prefix.empty() ? model.name : options.prefix;
-  const CText text = generate(model, options);
-  write(folder_ + "/" + prefix_ + ".h", text.header);
-  write(folder_ + "/" + prefix_ + ".c", text.source);
-  const std::string object = folder_ + "/model.so";
-  // no contraction to fused operations: they would round differently from the evaluated program
-  run("cc -std=c99 -O2 -ffp-contract=off -shared -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow "
-      "-Wdouble-promotion " +
-      folder_ + "/" + prefix_ + ".c -o " + object + " -lm");
-  library_ = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library_ == nullptr) throw std::runtime_error(dlerror());
-}
-
-CompiledModel::~CompiledModel() {
-  if (library_ != nullptr) dlclose(library_);
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
 }
 
 void* CompiledModel::symbol(const std::string& name) const {
-  void* found = dlsym(library_, (prefix_ + "_" + name).c_str());
-  if (found == nullptr) throw std::runtime_error("no symbol " + prefix_ + "_" + name);
-  return found;
+  return library_.symbol(prefix_ + "_" + name);
 }
 
 std::vector<double> CompiledModel::call(const std::string& function, const MotionSample& sample,

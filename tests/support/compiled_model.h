@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "gen/generator/generator.h"
 #include "tests/support/model_bridge.h"
+#include "tests/support/shared_object.h"
 
 namespace dyngen::test {
 
@@ -15,9 +15,6 @@ class CompiledModel {
  public:
   /// @throws std::runtime_error  with the compiler's messages if it does not compile silently
   CompiledModel(const RobotModel& model, const GeneratorOptions& options);
-  ~CompiledModel();
-  CompiledModel(const CompiledModel&) = delete;
-  CompiledModel& operator=(const CompiledModel&) = delete;
 
   /// @param chi  ignored by models whose functions take none
   [[nodiscard]] std::vector<double> call(const std::string& function, const MotionSample& sample,
@@ -32,9 +29,8 @@ class CompiledModel {
  private:
   [[nodiscard]] void* symbol(const std::string& name) const;
 
-  std::string folder_;
   std::string prefix_;
-  void* library_ = nullptr;
+  SharedObject library_;
   bool takes_chi_ = false;
   bool single_ = false;
   std::size_t chi_count_ = 0;
