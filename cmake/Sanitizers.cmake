@@ -1,0 +1,14 @@
+# dyngen_target_sanitizers(<target>): builds and links it with the sanitizers of DYNGEN_SANITIZE.
+set(DYNGEN_LSAN_SUPPRESSIONS ${CMAKE_CURRENT_LIST_DIR}/lsan_suppressions.cpp)
+
+function(dyngen_target_sanitizers target)
+  if(DYNGEN_SANITIZE)
+    target_compile_options(${target} PUBLIC
+      -fsanitize=${DYNGEN_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${DYNGEN_SANITIZE})
+    get_target_property(type ${target} TYPE)
+    if(type STREQUAL "EXECUTABLE" AND DYNGEN_SANITIZE MATCHES "address")
+      target_sources(${target} PRIVATE ${DYNGEN_LSAN_SUPPRESSIONS})
+    endif()
+  endif()
+endfunction()
