@@ -1,0 +1,107 @@
+# The command line: exit codes, messages, and no file where something went wrong.
+include(${CMAKE_CURRENT_LIST_DIR}/../script.cmake)
+set(robot ${SOURCE_DIR}/robots/puma560.robot)
+
+# The main use: a source of any of the four endings, and its header beside it.
+foreach(ending IN ITEMS c cc cpp cxx)
+  file(MAKE_DIRECTORY ${WORK}/${ending})
+  run(text 0 ${DYNGEN} ${robot} -o ${ending}/puma.${ending})
+  expect_files("-o puma.${ending}" ${WORK}/${ending} puma.${ending} puma.h)
+  expect_text("-o puma.${ending}" "[${text}]" "[]")
+  file(READ ${WORK}/${ending}/puma.${ending} source)
+  expect_text("puma.${ending}" "${source}" "#include \"puma.h\"" "void puma560_id(" "puma560_gravity(")
+endforeach()
+run(text 0 ${DYNGEN} robots/planar2r.robot --prefix left --functions gravity,id -o /dev/null/../x.c
+  --help)  # help comes before everything else
+expect_text(--help "${text}" Usage --functions --parameters --scalar --prefix --depfile --count)
+run(text 0 ${DYNGEN} --version)
+expect_text(--version "${text}" "dyngen 0.")
+
+# Options reach the code.
+run(text 0 ${DYNGEN} ${SOURCE_DIR}/robots/planar2r.robot -o options.c --prefix left
+  --functions gravity,coriolis --scalar float --parameters runtime)
+file(READ ${WORK}/options.h header)
+expect_text(options.h "${header}" "void left_gravity(const float *q, const float *chi, float *tau);"
+  "left_coriolis(" "LEFT_NQ 2")
+expect_no_text(options.h "${header}" planar2r_ left_id left_friction)
+run(text 0 ${DYNGEN} ${SOURCE_DIR}/robots/planar2r.robot -o all.c --functions all)
+file(READ ${WORK}/all.h header)
+expect_text(all.h "${header}" planar2r_id planar2r_gravity planar2r_coriolis planar2r_friction)
+
+# Options may stand before the robot file.
+run(text 0 ${DYNGEN} --functions id,gravity ${SOURCE_DIR}/robots/planar2r.robot -o before.c)
+
+# --count needs no output file; the bounds are those of the literature.
+run(text 0 ${DYNGEN} ${robot} --count)
+expect_text(--count "${text}" "puma560: 6 joints" "id " "gravity " "538 478" "105n - 92" "94n - 86")
+run(text 0 ${DYNGEN} ${SOURCE_DIR}/robots/planar2r.robot --count)
+expect_text(--count "${text}" "118 102")
+
+# The depfile: absolute paths, escaped as Make wants them.
+set(odd "${WORK}/a folder \$ #1")
+file(MAKE_DIRECTORY "${odd}")
+file(COPY ${robot} DESTINATION "${odd}")
+file(RELATIVE_PATH relative ${WORK} "${odd}")
+run(text 0 ${DYNGEN} "${relative}/puma560.robot" -o "${relative}/puma.c" --depfile rule.d)
+file(READ ${WORK}/rule.d rule)
+string(REPLACE "${WORK}" "" rule "${rule}")
+set(escaped "/a\\ folder\\ $$\\ \\#1")
+expect_text(--depfile "${rule}"
+  "${escaped}/puma.c ${escaped}/puma.h: ${escaped}/puma560.robot")
+
+# What is wrong with the input or the output: exit 1, nothing written.
+set(out ${WORK}/out)
+function(refuse code what)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "ARGUMENTS;SAYS")
+  file(REMOVE_RECURSE ${out})
+  file(MAKE_DIRECTORY ${out}/header_is_folder.h ${out}/folder.c)
+  run(text ${code} ${DYNGEN} ${arg_ARGUMENTS})
+  expect_text("${what}" "${text}" ${arg_SAYS})
+  expect_files("${what}" ${out} header_is_folder.h folder.c)
+endfunction()
+
+file(WRITE ${WORK}/empty.robot "")
+file(WRITE ${WORK}/wrong.robot "number_link 2\nsigma 0 0\nal 0 0\nd 0 0.5 7\nth 0 0\nr 0 0\nstop\n")
+file(WRITE ${WORK}/regular_file "")
+execute_process(COMMAND ${CMAKE_COMMAND} -E env printf "number_link 1\\000\\001\\n"
+  OUTPUT_FILE ${WORK}/binary.robot)
+refuse(1 "missing file" ARGUMENTS none.robot -o out/x.c SAYS none.robot "No such file")
+refuse(1 "a folder as robot" ARGUMENTS ${out} -o out/x.c SAYS "cannot read")
+refuse(1 "empty file" ARGUMENTS empty.robot -o out/x.c SAYS "empty.robot:1:1: error:" "empty")
+refuse(1 "binary file" ARGUMENTS binary.robot -o out/x.c SAYS "binary.robot:1:" "binary")
+refuse(1 "wrong row" ARGUMENTS wrong.robot -o out/x.c --depfile out/x.d
+  SAYS "wrong.robot:4:" "error:" "d 0 0.5 7" "^")
+refuse(1 "wrong row with --count" ARGUMENTS wrong.robot --count SAYS "wrong.robot:4:")
+refuse(1 "below a regular file" ARGUMENTS ${robot} -o regular_file/x.c
+  SAYS "regular_file/x.c: error: cannot write")
+refuse(1 "a folder that is not there" ARGUMENTS ${robot} -o out/none/x.c
+  SAYS "out/none/x.c: error: cannot write")
+refuse(1 "a folder as output" ARGUMENTS ${robot} -o out/folder.c
+  SAYS "out/folder.c: error: cannot write")
+refuse(1 "a folder as header" ARGUMENTS ${robot} -o out/header_is_folder.c
+  SAYS "out/header_is_folder.h: error: cannot write")
+refuse(1 "a depfile that cannot be written" ARGUMENTS ${robot} -o out/x.c --depfile out/none/x.d
+  SAYS "out/none/x.d: error: cannot write")
+
+# Wrong usage: exit 2.
+refuse(2 "no arguments" SAYS robot --help)
+refuse(2 "nothing to do" ARGUMENTS ${robot} SAYS "-o" "--count")
+refuse(2 "unknown option" ARGUMENTS ${robot} -o out/x.c --frobnicate SAYS --frobnicate --help)
+refuse(2 "unknown function" ARGUMENTS ${robot} -o out/x.c --functions id,inverse
+  SAYS "--functions" "'inverse'" "gravity")
+refuse(2 "wrong scalar" ARGUMENTS ${robot} -o out/x.c --scalar half SAYS --scalar half double float)
+refuse(2 "wrong parameters" ARGUMENTS ${robot} -o out/x.c --parameters hot
+  SAYS --parameters hot baked runtime)
+refuse(2 "wrong trig" ARGUMENTS ${robot} -o out/x.c --trig table SAYS --trig table inline libm)
+refuse(2 "wrong prefix" ARGUMENTS ${robot} -o out/x.c --prefix 2arm SAYS --prefix "'2arm'")
+refuse(2 "wrong ending" ARGUMENTS ${robot} -o out/x.txt SAYS "out/x.txt" ".cpp")
+refuse(2 "depfile alone" ARGUMENTS ${robot} --count --depfile out/x.d SAYS --depfile)
+refuse(2 "two robots" ARGUMENTS ${robot} ${robot} -o out/x.c SAYS puma560.robot)
+
+# A good file that was there before a failure is there after it.
+file(WRITE ${WORK}/kept.c "kept")
+run(text 1 ${DYNGEN} wrong.robot -o kept.c)
+file(READ ${WORK}/kept.c kept)
+if(NOT kept STREQUAL "kept")
+  message(FATAL_ERROR "a failed run changed kept.c")
+endif()

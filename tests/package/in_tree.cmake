@@ -1,0 +1,10 @@
+# A project with dyngen as a subdirectory: it builds the generator it needs, and no more.
+include(${CMAKE_CURRENT_LIST_DIR}/consumer.cmake)
+
+configure(text 0 ${WORK}/build -DDYNGEN_SOURCE_DIR=${SOURCE_DIR}
+  -DCMAKE_CXX_COMPILER_LAUNCHER=${CXX_LAUNCHER})
+build(text ${WORK}/build)
+run_programs(${WORK}/build)
+expect_no_text("in tree" "${text}" "puma560.c" "gtest")
+build(text ${WORK}/build)
+expect_no_text("second build" "${text}" Generating Building Linking)
