@@ -56,8 +56,9 @@ ex Trace::constant(const std::string& name, const ex& value, const std::string& 
 }
 
 /// Several constants in one product become one: their product is known now.
-ex Trace::fold_term(const ex& term) {
-  if (!GiNaC::is_a<GiNaC::mul>(term)) return term;
+Trace::FoldedTerm Trace::split_term(const ex& term) const {
+  FoldedTerm folded{1, {}, 1, term};
+  if (!GiNaC::is_a<GiNaC::mul>(term)) return folded;
   std::vector<std::pair<int, ex>> constants;  // by place, so that the name does not depend on GiNaC
   ex number = 1;
   ex rest = 1;
@@ -72,23 +73,39 @@ ex Trace::fold_term(const ex& term) {
     }
   }
   const bool plain_number = number.is_equal(1) || number.is_equal(-1);
-  if (constants.empty() || (constants.size() == 1 && plain_number)) return term;
+  if (constants.empty() || (constants.size() == 1 && plain_number)) return folded;
   std::sort(constants.begin(), constants.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::string name;
-  ex value = plain_number ? ex(1) : number;
   for (const auto& [place, symbol] : constants) {
-    name += (name.empty() ? "" : "_") + symbols_.info(symbol).name;
-    value *= symbols_.info(symbol).value;
+    folded.name += (folded.name.empty() ? "" : "_") + symbols_.info(symbol).name;
+    folded.value *= symbols_.info(symbol).value;
   }
-  if (!plain_number) name = "K_" + name;
-  return (plain_number ? number : ex(1)) * constant(name, value) * rest;
+  if (plain_number) {
+    folded.sign = number;
+  } else {
+    folded.name = "K_" + folded.name;
+    folded.value *= number;
+  }
+  folded.rest = rest;
+  return folded;
 }
 
 ex Trace::fold_constants(const ex& value) {
-  if (!GiNaC::is_a<GiNaC::add>(value)) return fold_term(value);
+  std::vector<FoldedTerm> terms;
+  if (GiNaC::is_a<GiNaC::add>(value)) {
+    for (std::size_t i = 0; i < value.nops(); ++i) terms.push_back(split_term(value.op(i)));
+  } else {
+    terms.push_back(split_term(value));
+  }
+  // new constants get their places in the order of their names: GiNaC's order of terms is none
+  std::sort(terms.begin(), terms.end(),
+            [](const FoldedTerm& a, const FoldedTerm& b) {
+              return a.name != b.name ? a.name < b.name : to_double(a.value) < to_double(b.value);
+            });
   ex sum = 0;
-  for (std::size_t i = 0; i < value.nops(); ++i) sum += fold_term(value.op(i));
+  for (const FoldedTerm& term : terms) {
+    sum += term.name.empty() ? term.rest : term.sign * constant(term.name, term.value) * term.rest;
+  }
   return sum;
 }
 

@@ -69,8 +69,15 @@ class Trace {
   [[nodiscard]] OperationCount count() const;
 
  private:
+  /// sign * constant(name, value) * rest; the rest alone if there is no name
+  struct FoldedTerm {
+    GiNaC::ex sign;
+    std::string name;
+    GiNaC::ex value;
+    GiNaC::ex rest;
+  };
+  [[nodiscard]] FoldedTerm split_term(const GiNaC::ex& term) const;
   GiNaC::ex fold_constants(const GiNaC::ex& value);
-  GiNaC::ex fold_term(const GiNaC::ex& term);
   [[nodiscard]] bool is_constant(const GiNaC::ex& value) const;
   [[nodiscard]] GiNaC::ex constant_value(const GiNaC::ex& value) const;
 
