@@ -133,7 +133,7 @@ Wrench<T> unit_wrench(Chi kind, const LinkState<T>& link) {
   } else {
     constexpr std::array<std::array<std::size_t, 2>, 6> kPlaces = {
         {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
-    const auto [a, b] = kPlaces[index(kind)];
+    const std::size_t a = kPlaces[index(kind)][0], b = kPlaces[index(kind)][1];
     const auto times = [&](const Vector<T>& v) {
       Vector<T> result = {zero, zero, zero};
       result[a] = v[b];
