@@ -134,7 +134,7 @@ ex Trace::assign(const std::string& name, const ex& value) {
     return negated ? it->second : ex(-it->second);
   }
   SymbolInfo info;
-  info.name = name;
+  info.name = negated ? "m" + name : name;  // what is stored is minus the quantity: say so
   const GiNaC::symbol target = symbols_.add(std::move(info));
   assignments_.push_back({target, positive, static_cast<int>(sections_.size()) - 1});
   assigned_.emplace(positive, target);

@@ -42,7 +42,8 @@ class Trace {
   /// Statements that follow belong to this section (a comment in the emitted code).
   void section(std::string title);
 
-  /// name = value, unless the value needs no statement.
+  /// name = value, unless the value needs no statement. A value of mostly negative terms is stored with
+  /// its sign changed, under the name "m" + name.
   GiNaC::ex assign(const std::string& name, const GiNaC::ex& value);
 
   /// A named number. @return the symbol, or the number itself if it is 0, 1 or -1

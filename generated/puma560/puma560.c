@@ -266,69 +266,69 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double DV33_1 = dq[0] * dq[0];
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double W1_2 = dq[0] * S2;
-  const double W2_2 = dq[0] * C2;
-  const double DV23_2 = dq[1] * W2_2;
-  const double DV13_2 = dq[1] * W1_2;
-  const double DV12_2 = W1_2 * W2_2;
-  const double U13_2 = ddq[0] * C2;
+  const double mW1_2 = dq[0] * S2;
+  const double mW2_2 = dq[0] * C2;
+  const double mDV23_2 = dq[1] * mW2_2;
+  const double mDV13_2 = dq[1] * mW1_2;
+  const double DV12_2 = mW1_2 * mW2_2;
+  const double mU13_2 = ddq[0] * C2;
   const double U23_2 = ddq[0] * S2;
-  const double WP1_2 = DV23_2 + U23_2;
-  const double WP2_2 = DV13_2 - U13_2;
-  const double DV22_2 = W2_2 * W2_2;
+  const double mWP1_2 = mDV23_2 + U23_2;
+  const double WP2_2 = mDV13_2 - mU13_2;
+  const double DV22_2 = mW2_2 * mW2_2;
   const double DV33_2 = dq[1] * dq[1];
   const double D23_2 = DV22_2 - DV33_2;
-  const double U11_2 = DV22_2 + DV33_2;
+  const double mU11_2 = DV22_2 + DV33_2;
   const double U22_2 = D23_2 - DV33_1;
-  const double D31_2 = U11_2 - DV33_1;
-  const double D12_2 = U11_2 + U22_2;
+  const double D31_2 = mU11_2 - DV33_1;
+  const double mD12_2 = mU11_2 + U22_2;
   const double U12_2 = DV12_2 - ddq[1];
   const double U21_2 = ddq[1] + DV12_2;
-  const double U31_2 = DV13_2 + WP2_2;
-  const double U32_2 = DV23_2 + WP1_2;
-  const double VA1_2 = r2 * ddq[0];
-  const double VA2_2 = r2 * DV33_1;
-  const double VP1_2 = GZ * S2 + C2 * VA1_2;
-  const double VP2_2 = S2 * VA1_2 - GZ * C2;
+  const double mU31_2 = mDV13_2 + WP2_2;
+  const double mU32_2 = mDV23_2 + mWP1_2;
+  const double mVA1_2 = r2 * ddq[0];
+  const double mVA2_2 = r2 * DV33_1;
+  const double mVP1_2 = GZ * S2 + C2 * mVA1_2;
+  const double VP2_2 = S2 * mVA1_2 - GZ * C2;
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
-  const double W1_3 = dq[0] * S2_3;
-  const double W2_3 = dq[0] * C2_3;
+  const double mW1_3 = dq[0] * S2_3;
+  const double mW2_3 = dq[0] * C2_3;
   const double W3_3 = dq[1] + dq[2];
-  const double DV23_3 = W2_3 * W3_3;
-  const double DV13_3 = W1_3 * W3_3;
-  const double DV12_3 = W1_3 * W2_3;
+  const double mDV23_3 = mW2_3 * W3_3;
+  const double mDV13_3 = mW1_3 * W3_3;
+  const double DV12_3 = mW1_3 * mW2_3;
   const double WP3_3 = ddq[1] + ddq[2];
-  const double U13_3 = ddq[0] * C2_3;
+  const double mU13_3 = ddq[0] * C2_3;
   const double U23_3 = ddq[0] * S2_3;
-  const double WP1_3 = DV23_3 + U23_3;
-  const double WP2_3 = DV13_3 - U13_3;
-  const double DV22_3 = W2_3 * W2_3;
+  const double mWP1_3 = mDV23_3 + U23_3;
+  const double WP2_3 = mDV13_3 - mU13_3;
+  const double DV22_3 = mW2_3 * mW2_3;
   const double DV33_3 = W3_3 * W3_3;
   const double D23_3 = DV22_3 - DV33_3;
-  const double U11_3 = DV22_3 + DV33_3;
+  const double mU11_3 = DV22_3 + DV33_3;
   const double U22_3 = D23_3 - DV33_1;
-  const double D12_3 = U11_3 + U22_3;
+  const double mD12_3 = mU11_3 + U22_3;
   const double U12_3 = DV12_3 - WP3_3;
   const double U21_3 = DV12_3 + WP3_3;
-  const double U31_3 = DV13_3 + WP2_3;
-  const double U32_3 = DV23_3 + WP1_3;
-  const double VA1_3 = r3 * U13_2 + d3 * U11_2 + VP1_2;
+  const double mU31_3 = mDV13_3 + WP2_3;
+  const double mU32_3 = mDV23_3 + mWP1_3;
+  const double mVA1_3 = r3 * mU13_2 + d3 * mU11_2 + mVP1_2;
   const double VA2_3 = r3 * U23_2 + d3 * U21_2 + VP2_2;
-  const double VA3_3 = r3 * DV33_1 + d3 * U31_2 + VA2_2;
-  const double VP1_3 = S3 * VA2_3 - C3 * VA1_3;
-  const double VP2_3 = S3 * VA1_3 + C3 * VA2_3;
+  const double mVA3_3 = r3 * DV33_1 + d3 * mU31_2 + mVA2_2;
+  const double VP1_3 = S3 * VA2_3 - C3 * mVA1_3;
+  const double VP2_3 = S3 * mVA1_3 + C3 * VA2_3;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W1_4 = S4 * W3_3 - C4 * W1_3;
-  const double W2_4 = S4 * W1_3 + C4 * W3_3;
-  const double W3_4 = dq[3] + W2_3;
+  const double W1_4 = S4 * W3_3 - C4 * mW1_3;
+  const double W2_4 = S4 * mW1_3 + C4 * W3_3;
+  const double W3_4 = dq[3] + mW2_3;
   const double DV23_4 = W2_4 * W3_4;
   const double DV13_4 = W1_4 * W3_4;
   const double DV12_4 = W1_4 * W2_4;
   const double WP3_4 = ddq[3] - WP2_3;
-  const double U13_4 = S4 * U32_3 - C4 * U12_3;
-  const double U23_4 = S4 * U12_3 + C4 * U32_3;
+  const double U13_4 = S4 * mU32_3 - C4 * U12_3;
+  const double U23_4 = S4 * U12_3 + C4 * mU32_3;
   const double WP1_4 = DV23_4 - U23_4;
   const double WP2_4 = U13_4 - DV13_4;
   const double DV22_4 = W2_4 * W2_4;
@@ -337,57 +337,57 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double U22_4 = U22_3 + D23_4;
   const double U12_4 = DV12_4 - WP3_4;
   const double U32_4 = DV23_4 + WP1_4;
-  const double VA1_4 = d4 * U11_3 + r4 * U12_3 - VP1_3;
+  const double mVA1_4 = d4 * mU11_3 + r4 * U12_3 - VP1_3;
   const double VA2_4 = d4 * U21_3 - r4 * U22_3 + VP2_3;
-  const double VA3_4 = d4 * U31_3 - r4 * U32_3 + VA3_3;
-  const double VP1_4 = C4 * VA1_4 + S4 * VA3_4;
-  const double VP2_4 = S4 * VA1_4 - C4 * VA3_4;
+  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mVA3_3;
+  const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
+  const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
   const double W1_5 = C5 * W1_4 - S5 * W3_4;
-  const double W2_5 = S5 * W1_4 + C5 * W3_4;
+  const double mW2_5 = S5 * W1_4 + C5 * W3_4;
   const double W3_5 = dq[4] + W2_4;
-  const double DV23_5 = W2_5 * W3_5;
+  const double mDV23_5 = mW2_5 * W3_5;
   const double DV13_5 = W1_5 * W3_5;
-  const double DV12_5 = W1_5 * W2_5;
+  const double mDV12_5 = W1_5 * mW2_5;
   const double WP3_5 = ddq[4] + WP2_4;
   const double U13_5 = C5 * U12_4 - S5 * U32_4;
-  const double U23_5 = S5 * U12_4 + C5 * U32_4;
-  const double WP1_5 = U23_5 - DV23_5;
+  const double mU23_5 = S5 * U12_4 + C5 * U32_4;
+  const double WP1_5 = mU23_5 - mDV23_5;
   const double WP2_5 = U13_5 - DV13_5;
-  const double DV22_5 = W2_5 * W2_5;
+  const double DV22_5 = mW2_5 * mW2_5;
   const double DV33_5 = W3_5 * W3_5;
   const double D23_5 = DV22_5 - DV33_5;
   const double U22_5 = U22_4 + D23_5;
-  const double U12_5 = DV12_5 + WP3_5;
-  const double U32_5 = WP1_5 - DV23_5;
-  const double VP1_5 = S5 * VA2_4 - C5 * VP1_4;
+  const double mU12_5 = mDV12_5 + WP3_5;
+  const double U32_5 = WP1_5 - mDV23_5;
+  const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
 
   /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
   const double W1_6 = C6 * W1_5 + S6 * W3_5;
   const double W2_6 = C6 * W3_5 - S6 * W1_5;
-  const double W3_6 = dq[5] + W2_5;
+  const double W3_6 = dq[5] + mW2_5;
   const double DV23_6 = W2_6 * W3_6;
   const double DV13_6 = W1_6 * W3_6;
   const double WP3_6 = ddq[5] - WP2_5;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
   const double N1_6 = ZZ6 * DV23_6;
-  const double N2_6 = ZZ6 * DV13_6;
+  const double mN2_6 = ZZ6 * DV13_6;
   const double N3_6 = ZZ6 * WP3_6;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double F1_5 = MYR5 * U12_5;
+  const double mF1_5 = MYR5 * mU12_5;
   const double F2_5 = MYR5 * U22_5;
   const double F3_5 = MYR5 * U32_5;
-  const double N1_5 = MYR5 * VP2_4 - ZZR5 * DV23_5 + XXR5 * WP1_5;
+  const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
   const double N2_5 = DV13_5 * XmZ_5;
-  const double N3_5 = XXR5 * DV12_5 + ZZR5 * WP3_5 - MYR5 * VP1_5;
-  const double T1_5 = C6 * N1_6 + S6 * N2_6 + N1_5;
+  const double N3_5 = XXR5 * mDV12_5 + ZZR5 * WP3_5 - MYR5 * VP1_5;
+  const double T1_5 = C6 * N1_6 + S6 * mN2_6 + N1_5;
   const double T2_5 = N2_5 - N3_6;
-  const double T3_5 = S6 * N1_6 - C6 * N2_6 + N3_5;
-  const double FA1_5 = C5 * F1_5 + S5 * F2_5;
-  const double FA3_5 = S5 * F1_5 - C5 * F2_5;
+  const double T3_5 = S6 * N1_6 - C6 * mN2_6 + N3_5;
+  const double mFA1_5 = C5 * mF1_5 + S5 * F2_5;
+  const double FA3_5 = S5 * mF1_5 - C5 * F2_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
   const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
@@ -395,51 +395,51 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double N3_4 = ZZR4 * WP3_4 - XXR4 * DV12_4;
   const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
   const double T2_4 = T3_5 + N2_4;
-  const double T3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
-  const double FA1_4 = S4 * F3_5 + C4 * FA1_5;
-  const double FA3_4 = C4 * F3_5 - S4 * FA1_5;
+  const double mT3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
+  const double mFA1_4 = S4 * F3_5 + C4 * mFA1_5;
+  const double FA3_4 = C4 * F3_5 - S4 * mFA1_5;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double F1_3 = MYR3 * U12_3 - MXR3 * U11_3;
+  const double F1_3 = MYR3 * U12_3 - MXR3 * mU11_3;
   const double F2_3 = MYR3 * U22_3 + MXR3 * U21_3;
-  const double F3_3 = MXR3 * U31_3 + MYR3 * U32_3;
-  const double N1_3 = ZZR3 * DV23_3 + XXR3 * WP1_3 - YZ3 * D23_3 - XYR3 * U31_3 + MYR3 * VA3_3;
-  const double N2_3 = YZ3 * U12_3 + XYR3 * U32_3 - MXR3 * VA3_3 + DV13_3 * XmZ_3;
-  const double N3_3 = XXR3 * DV12_3 - ZZR3 * WP3_3 + YZ3 * U13_3 + XYR3 * D12_3 + MYR3 * VP1_3
+  const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
+  const double mN1_3 = ZZR3 * mDV23_3 + XXR3 * mWP1_3 - YZ3 * D23_3 - XYR3 * mU31_3 + MYR3 * mVA3_3;
+  const double mN2_3 = YZ3 * U12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3 + mDV13_3 * XmZ_3;
+  const double mN3_3 = XXR3 * DV12_3 - ZZR3 * WP3_3 + YZ3 * mU13_3 + XYR3 * mD12_3 + MYR3 * VP1_3
       - MXR3 * VP2_3;
-  const double E1_3 = F1_3 - FA1_4;
+  const double E1_3 = F1_3 - mFA1_4;
   const double E2_3 = F2_3 - FA3_5;
-  const double E3_3 = FA3_4 - F3_3;
-  const double T1_3 = S4 * T2_4 - C4 * T1_4 + r4 * FA3_4 + N1_3;
-  const double T2_3 = d4 * FA3_4 - T3_4 + N2_3;
-  const double T3_3 = d4 * FA3_5 - S4 * T1_4 - C4 * T2_4 + r4 * FA1_4 + N3_3;
+  const double E3_3 = FA3_4 - mF3_3;
+  const double mT1_3 = S4 * T2_4 - C4 * T1_4 + r4 * FA3_4 + mN1_3;
+  const double mT2_3 = d4 * FA3_4 - mT3_4 + mN2_3;
+  const double mT3_3 = d4 * FA3_5 - S4 * T1_4 - C4 * T2_4 + r4 * mFA1_4 + mN3_3;
   const double FA1_3 = C3 * E1_3 - S3 * E2_3;
   const double FA2_3 = S3 * E1_3 + C3 * E2_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = MY2 * U12_2 - MXR2 * U11_2;
+  const double F1_2 = MY2 * U12_2 - MXR2 * mU11_2;
   const double F2_2 = MY2 * U22_2 + MXR2 * U21_2;
-  const double N1_2 = YZ2 * D23_2 - ZZR2 * DV23_2 - XXR2 * WP1_2 + XZR2 * U21_2 + XY2 * U31_2
-      - MY2 * VA2_2;
-  const double N2_2 = YZ2 * U12_2 - XZR2 * D31_2 + XY2 * U32_2 - MXR2 * VA2_2 + DV13_2 * XmZ_2;
-  const double N3_2 = XXR2 * DV12_2 - ZZR2 * ddq[1] + YZ2 * U13_2 + XZR2 * U23_2 + XY2 * D12_2
-      - MY2 * VP1_2 - MXR2 * VP2_2;
+  const double N1_2 = YZ2 * D23_2 - ZZR2 * mDV23_2 - XXR2 * mWP1_2 + XZR2 * U21_2 + XY2 * mU31_2
+      - MY2 * mVA2_2;
+  const double mN2_2 = YZ2 * U12_2 - XZR2 * D31_2 + XY2 * mU32_2 - MXR2 * mVA2_2 + mDV13_2 * XmZ_2;
+  const double mN3_2 = XXR2 * DV12_2 - ZZR2 * ddq[1] + YZ2 * mU13_2 + XZR2 * U23_2 + XY2 * mD12_2
+      - MY2 * mVP1_2 - MXR2 * VP2_2;
   const double E1_2 = FA1_3 + F1_2;
   const double E2_2 = FA2_3 + F2_2;
-  const double T1_2 = S3 * T2_3 - C3 * T1_3 - r3 * FA2_3 + N1_2;
-  const double T2_2 = d3 * E3_3 + S3 * T1_3 + C3 * T2_3 - r3 * FA1_3 + N2_2;
-  const double T3_2 = T3_3 - d3 * FA2_3 + N3_2;
+  const double T1_2 = S3 * mT2_3 - C3 * mT1_3 - r3 * FA2_3 + N1_2;
+  const double mT2_2 = d3 * E3_3 + S3 * mT1_3 + C3 * mT2_3 - r3 * FA1_3 + mN2_2;
+  const double mT3_2 = mT3_3 - d3 * FA2_3 + mN3_2;
   const double FA1_2 = C2 * E1_2 - S2 * E2_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
   const double N3_1 = ZZR1 * ddq[0];
-  const double T3_1 = C2 * T2_2 - S2 * T1_2 - r2 * FA1_2 + N3_1;
+  const double T3_1 = C2 * mT2_2 - S2 * T1_2 - r2 * FA1_2 + N3_1;
 
   /* joint torques */
   const double tau_1 = FV1 * dq[0] + FS1 * puma560_sign(dq[0]) + T3_1;
-  const double tau_2 = FV2 * dq[1] + FS2 * puma560_sign(dq[1]) - T3_2;
-  const double tau_3 = FV3 * dq[2] + FS3 * puma560_sign(dq[2]) + IA3 * ddq[2] - T3_3;
-  const double tau_4 = FV4 * dq[3] + FS4 * puma560_sign(dq[3]) + IA4 * ddq[3] - T3_4;
+  const double tau_2 = FV2 * dq[1] + FS2 * puma560_sign(dq[1]) - mT3_2;
+  const double tau_3 = FV3 * dq[2] + FS3 * puma560_sign(dq[2]) + IA3 * ddq[2] - mT3_3;
+  const double tau_4 = FV4 * dq[3] + FS4 * puma560_sign(dq[3]) + IA4 * ddq[3] - mT3_4;
   const double tau_5 = FV5 * dq[4] + FS5 * puma560_sign(dq[4]) + IA5 * ddq[4] + T3_5;
   const double tau_6 = FV6 * dq[5] + FS6 * puma560_sign(dq[5]) + IA6 * ddq[5] + N3_6;
 
@@ -477,40 +477,40 @@ void puma560_gravity(const double *q, double *tau) {
   const double C5 = cosine[3];
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double VP1_2 = GZ * S2;
-  const double VP2_2 = GZ * C2;
+  const double mVP1_2 = GZ * S2;
+  const double mVP2_2 = GZ * C2;
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
-  const double VP1_3 = GZ * S2_3;
-  const double VP2_3 = GZ * C2_3;
+  const double mVP1_3 = GZ * S2_3;
+  const double mVP2_3 = GZ * C2_3;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double VP1_4 = C4 * VP1_3;
-  const double VP2_4 = S4 * VP1_3;
+  const double mVP1_4 = C4 * mVP1_3;
+  const double VP2_4 = S4 * mVP1_3;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double VP1_5 = S5 * VP2_3 + C5 * VP1_4;
+  const double mVP1_5 = S5 * mVP2_3 + C5 * mVP1_4;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
   const double N1_5 = MYR5 * VP2_4;
-  const double N3_5 = MYR5 * VP1_5;
+  const double N3_5 = MYR5 * mVP1_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
   const double T1_4 = C5 * N1_5;
-  const double T3_4 = S5 * N1_5;
+  const double mT3_4 = S5 * N1_5;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double N3_3 = MYR3 * VP1_3 - MXR3 * VP2_3;
+  const double N3_3 = MYR3 * mVP1_3 - MXR3 * mVP2_3;
   const double T3_3 = C4 * N3_5 + S4 * T1_4 + N3_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double N3_2 = MY2 * VP1_2 - MXR2 * VP2_2;
+  const double N3_2 = MY2 * mVP1_2 - MXR2 * mVP2_2;
   const double T3_2 = T3_3 + N3_2;
 
   tau[0] = 0.0;
   tau[1] = T3_2;
   tau[2] = T3_3;
-  tau[3] = -T3_4;
+  tau[3] = -mT3_4;
   tau[4] = N3_5;
   tau[5] = 0.0;
 }
@@ -571,159 +571,160 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double DV33_1 = dq[0] * dq[0];
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double W1_2 = dq[0] * S2;
-  const double W2_2 = dq[0] * C2;
-  const double DV23_2 = dq[1] * W2_2;
-  const double DV13_2 = dq[1] * W1_2;
-  const double DV12_2 = W1_2 * W2_2;
-  const double DV22_2 = W2_2 * W2_2;
+  const double mW1_2 = dq[0] * S2;
+  const double mW2_2 = dq[0] * C2;
+  const double mDV23_2 = dq[1] * mW2_2;
+  const double mDV13_2 = dq[1] * mW1_2;
+  const double DV12_2 = mW1_2 * mW2_2;
+  const double DV22_2 = mW2_2 * mW2_2;
   const double DV33_2 = dq[1] * dq[1];
   const double D23_2 = DV22_2 - DV33_2;
-  const double U11_2 = DV22_2 + DV33_2;
+  const double mU11_2 = DV22_2 + DV33_2;
   const double U22_2 = D23_2 - DV33_1;
-  const double D31_2 = U11_2 - DV33_1;
-  const double D12_2 = U11_2 + U22_2;
-  const double U31_2 = 2.0 * DV13_2;
-  const double U32_2 = 2.0 * DV23_2;
-  const double VA2_2 = r2 * DV33_1;
+  const double D31_2 = mU11_2 - DV33_1;
+  const double mD12_2 = mU11_2 + U22_2;
+  const double mU31_2 = 2.0 * mDV13_2;
+  const double mU32_2 = 2.0 * mDV23_2;
+  const double mVA2_2 = r2 * DV33_1;
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
-  const double W1_3 = dq[0] * S2_3;
-  const double W2_3 = dq[0] * C2_3;
+  const double mW1_3 = dq[0] * S2_3;
+  const double mW2_3 = dq[0] * C2_3;
   const double W3_3 = dq[1] + dq[2];
-  const double DV23_3 = W2_3 * W3_3;
-  const double DV13_3 = W1_3 * W3_3;
-  const double DV12_3 = W1_3 * W2_3;
-  const double DV22_3 = W2_3 * W2_3;
+  const double mDV23_3 = mW2_3 * W3_3;
+  const double mDV13_3 = mW1_3 * W3_3;
+  const double DV12_3 = mW1_3 * mW2_3;
+  const double DV22_3 = mW2_3 * mW2_3;
   const double DV33_3 = W3_3 * W3_3;
   const double D23_3 = DV22_3 - DV33_3;
-  const double U11_3 = DV22_3 + DV33_3;
+  const double mU11_3 = DV22_3 + DV33_3;
   const double U22_3 = D23_3 - DV33_1;
-  const double D12_3 = U11_3 + U22_3;
-  const double U31_3 = 2.0 * DV13_3;
-  const double U32_3 = 2.0 * DV23_3;
-  const double VA1_3 = d3 * U11_2;
+  const double mD12_3 = mU11_3 + U22_3;
+  const double mU31_3 = 2.0 * mDV13_3;
+  const double mU32_3 = 2.0 * mDV23_3;
+  const double mVA1_3 = d3 * mU11_2;
   const double VA2_3 = d3 * DV12_2;
-  const double VA3_3 = r3 * DV33_1 + d3 * U31_2 + VA2_2;
-  const double VP1_3 = S3 * VA2_3 - C3 * VA1_3;
-  const double VP2_3 = S3 * VA1_3 + C3 * VA2_3;
+  const double mVA3_3 = r3 * DV33_1 + d3 * mU31_2 + mVA2_2;
+  const double VP1_3 = S3 * VA2_3 - C3 * mVA1_3;
+  const double VP2_3 = S3 * mVA1_3 + C3 * VA2_3;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W1_4 = S4 * W3_3 - C4 * W1_3;
-  const double W2_4 = S4 * W1_3 + C4 * W3_3;
-  const double W3_4 = dq[3] + W2_3;
+  const double W1_4 = S4 * W3_3 - C4 * mW1_3;
+  const double W2_4 = S4 * mW1_3 + C4 * W3_3;
+  const double W3_4 = dq[3] + mW2_3;
   const double DV23_4 = W2_4 * W3_4;
   const double DV13_4 = W1_4 * W3_4;
   const double DV12_4 = W1_4 * W2_4;
-  const double U13_4 = S4 * U32_3 - C4 * DV12_3;
-  const double U23_4 = S4 * DV12_3 + C4 * U32_3;
+  const double U13_4 = S4 * mU32_3 - C4 * DV12_3;
+  const double U23_4 = S4 * DV12_3 + C4 * mU32_3;
   const double WP1_4 = DV23_4 - U23_4;
   const double WP2_4 = U13_4 - DV13_4;
   const double DV22_4 = W2_4 * W2_4;
   const double DV33_4 = W3_4 * W3_4;
   const double D23_4 = DV22_4 - DV33_4;
   const double U22_4 = U22_3 + D23_4;
-  const double U12_4 = DV13_3 + DV12_4;
+  const double U12_4 = mDV13_3 + DV12_4;
   const double U32_4 = DV23_4 + WP1_4;
-  const double VA1_4 = r4 * DV12_3 + d4 * U11_3 - VP1_3;
+  const double mVA1_4 = r4 * DV12_3 + d4 * mU11_3 - VP1_3;
   const double VA2_4 = d4 * DV12_3 - r4 * U22_3 + VP2_3;
-  const double VA3_4 = d4 * U31_3 - r4 * U32_3 + VA3_3;
-  const double VP1_4 = C4 * VA1_4 + S4 * VA3_4;
-  const double VP2_4 = S4 * VA1_4 - C4 * VA3_4;
+  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mVA3_3;
+  const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
+  const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
   const double W1_5 = C5 * W1_4 - S5 * W3_4;
-  const double W2_5 = S5 * W1_4 + C5 * W3_4;
+  const double mW2_5 = S5 * W1_4 + C5 * W3_4;
   const double W3_5 = dq[4] + W2_4;
-  const double DV23_5 = W2_5 * W3_5;
+  const double mDV23_5 = mW2_5 * W3_5;
   const double DV13_5 = W1_5 * W3_5;
-  const double DV12_5 = W1_5 * W2_5;
+  const double mDV12_5 = W1_5 * mW2_5;
   const double U13_5 = C5 * U12_4 - S5 * U32_4;
-  const double U23_5 = S5 * U12_4 + C5 * U32_4;
-  const double WP1_5 = U23_5 - DV23_5;
+  const double mU23_5 = S5 * U12_4 + C5 * U32_4;
+  const double WP1_5 = mU23_5 - mDV23_5;
   const double WP2_5 = U13_5 - DV13_5;
-  const double DV22_5 = W2_5 * W2_5;
+  const double DV22_5 = mW2_5 * mW2_5;
   const double DV33_5 = W3_5 * W3_5;
   const double D23_5 = DV22_5 - DV33_5;
   const double U22_5 = U22_4 + D23_5;
-  const double U12_5 = WP2_4 + DV12_5;
-  const double U32_5 = WP1_5 - DV23_5;
-  const double VP1_5 = S5 * VA2_4 - C5 * VP1_4;
+  const double mU12_5 = WP2_4 + mDV12_5;
+  const double U32_5 = WP1_5 - mDV23_5;
+  const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
 
   /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
   const double W1_6 = C6 * W1_5 + S6 * W3_5;
   const double W2_6 = C6 * W3_5 - S6 * W1_5;
-  const double W3_6 = dq[5] + W2_5;
+  const double W3_6 = dq[5] + mW2_5;
   const double DV23_6 = W2_6 * W3_6;
   const double DV13_6 = W1_6 * W3_6;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
   const double N1_6 = ZZ6 * DV23_6;
-  const double N2_6 = ZZ6 * DV13_6;
-  const double N3_6 = ZZ6 * WP2_5;
+  const double mN2_6 = ZZ6 * DV13_6;
+  const double mN3_6 = ZZ6 * WP2_5;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double F1_5 = MYR5 * U12_5;
+  const double mF1_5 = MYR5 * mU12_5;
   const double F2_5 = MYR5 * U22_5;
   const double F3_5 = MYR5 * U32_5;
-  const double N1_5 = MYR5 * VP2_4 - ZZR5 * DV23_5 + XXR5 * WP1_5;
+  const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
   const double N2_5 = DV13_5 * XmZ_5;
-  const double N3_5 = ZZR5 * WP2_4 + XXR5 * DV12_5 - MYR5 * VP1_5;
-  const double T1_5 = C6 * N1_6 + S6 * N2_6 + N1_5;
-  const double T2_5 = N3_6 + N2_5;
-  const double T3_5 = S6 * N1_6 - C6 * N2_6 + N3_5;
-  const double FA1_5 = C5 * F1_5 + S5 * F2_5;
-  const double FA3_5 = S5 * F1_5 - C5 * F2_5;
+  const double N3_5 = ZZR5 * WP2_4 + XXR5 * mDV12_5 - MYR5 * VP1_5;
+  const double T1_5 = C6 * N1_6 + S6 * mN2_6 + N1_5;
+  const double T2_5 = mN3_6 + N2_5;
+  const double T3_5 = S6 * N1_6 - C6 * mN2_6 + N3_5;
+  const double mFA1_5 = C5 * mF1_5 + S5 * F2_5;
+  const double FA3_5 = S5 * mF1_5 - C5 * F2_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
   const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
   const double N2_4 = DV13_4 * XmZ_4;
-  const double N3_4 = ZZR4 * DV13_3 + XXR4 * DV12_4;
+  const double mN3_4 = ZZR4 * mDV13_3 + XXR4 * DV12_4;
   const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
   const double T2_4 = T3_5 + N2_4;
-  const double T3_4 = S5 * T1_5 + C5 * T2_5 + N3_4;
-  const double FA1_4 = S4 * F3_5 + C4 * FA1_5;
-  const double FA3_4 = C4 * F3_5 - S4 * FA1_5;
+  const double mT3_4 = S5 * T1_5 + C5 * T2_5 + mN3_4;
+  const double mFA1_4 = S4 * F3_5 + C4 * mFA1_5;
+  const double FA3_4 = C4 * F3_5 - S4 * mFA1_5;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double F1_3 = MYR3 * DV12_3 - MXR3 * U11_3;
+  const double F1_3 = MYR3 * DV12_3 - MXR3 * mU11_3;
   const double F2_3 = MXR3 * DV12_3 + MYR3 * U22_3;
-  const double F3_3 = MXR3 * U31_3 + MYR3 * U32_3;
-  const double N1_3 = XXR3 * DV23_3 + ZZR3 * DV23_3 - YZ3 * D23_3 - XYR3 * U31_3 + MYR3 * VA3_3;
-  const double N2_3 = YZ3 * DV12_3 + XYR3 * U32_3 - MXR3 * VA3_3 + DV13_3 * XmZ_3;
-  const double N3_3 = XXR3 * DV12_3 + XYR3 * D12_3 + MYR3 * VP1_3 - MXR3 * VP2_3;
-  const double E1_3 = F1_3 - FA1_4;
+  const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
+  const double mN1_3 = XXR3 * mDV23_3 + ZZR3 * mDV23_3 - YZ3 * D23_3 - XYR3 * mU31_3
+      + MYR3 * mVA3_3;
+  const double mN2_3 = YZ3 * DV12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3 + mDV13_3 * XmZ_3;
+  const double mN3_3 = XXR3 * DV12_3 + XYR3 * mD12_3 + MYR3 * VP1_3 - MXR3 * VP2_3;
+  const double E1_3 = F1_3 - mFA1_4;
   const double E2_3 = F2_3 - FA3_5;
-  const double E3_3 = FA3_4 - F3_3;
-  const double T1_3 = S4 * T2_4 - C4 * T1_4 + r4 * FA3_4 + N1_3;
-  const double T2_3 = d4 * FA3_4 - T3_4 + N2_3;
-  const double T3_3 = d4 * FA3_5 - S4 * T1_4 - C4 * T2_4 + r4 * FA1_4 + N3_3;
+  const double E3_3 = FA3_4 - mF3_3;
+  const double mT1_3 = S4 * T2_4 - C4 * T1_4 + r4 * FA3_4 + mN1_3;
+  const double mT2_3 = d4 * FA3_4 - mT3_4 + mN2_3;
+  const double mT3_3 = d4 * FA3_5 - S4 * T1_4 - C4 * T2_4 + r4 * mFA1_4 + mN3_3;
   const double FA1_3 = C3 * E1_3 - S3 * E2_3;
   const double FA2_3 = S3 * E1_3 + C3 * E2_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = MY2 * DV12_2 - MXR2 * U11_2;
+  const double F1_2 = MY2 * DV12_2 - MXR2 * mU11_2;
   const double F2_2 = MXR2 * DV12_2 + MY2 * U22_2;
-  const double N1_2 = XZR2 * DV12_2 - XXR2 * DV23_2 - ZZR2 * DV23_2 + YZ2 * D23_2 + XY2 * U31_2
-      - MY2 * VA2_2;
-  const double N2_2 = YZ2 * DV12_2 - XZR2 * D31_2 + XY2 * U32_2 - MXR2 * VA2_2 + DV13_2 * XmZ_2;
-  const double N3_2 = XXR2 * DV12_2 + XY2 * D12_2;
+  const double N1_2 = XZR2 * DV12_2 - XXR2 * mDV23_2 - ZZR2 * mDV23_2 + YZ2 * D23_2 + XY2 * mU31_2
+      - MY2 * mVA2_2;
+  const double mN2_2 = YZ2 * DV12_2 - XZR2 * D31_2 + XY2 * mU32_2 - MXR2 * mVA2_2 + mDV13_2 * XmZ_2;
+  const double mN3_2 = XXR2 * DV12_2 + XY2 * mD12_2;
   const double E1_2 = FA1_3 + F1_2;
   const double E2_2 = FA2_3 + F2_2;
-  const double T1_2 = S3 * T2_3 - C3 * T1_3 - r3 * FA2_3 + N1_2;
-  const double T2_2 = d3 * E3_3 + S3 * T1_3 + C3 * T2_3 - r3 * FA1_3 + N2_2;
-  const double T3_2 = T3_3 - d3 * FA2_3 + N3_2;
+  const double T1_2 = S3 * mT2_3 - C3 * mT1_3 - r3 * FA2_3 + N1_2;
+  const double mT2_2 = d3 * E3_3 + S3 * mT1_3 + C3 * mT2_3 - r3 * FA1_3 + mN2_2;
+  const double mT3_2 = mT3_3 - d3 * FA2_3 + mN3_2;
   const double FA1_2 = C2 * E1_2 - S2 * E2_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = S2 * T1_2 - C2 * T2_2 + r2 * FA1_2;
+  const double mT3_1 = S2 * T1_2 - C2 * mT2_2 + r2 * FA1_2;
 
-  tau[0] = -T3_1;
-  tau[1] = -T3_2;
-  tau[2] = -T3_3;
-  tau[3] = -T3_4;
+  tau[0] = -mT3_1;
+  tau[1] = -mT3_2;
+  tau[2] = -mT3_3;
+  tau[3] = -mT3_4;
   tau[4] = T3_5;
-  tau[5] = -N3_6;
+  tau[5] = -mN3_6;
 }
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.

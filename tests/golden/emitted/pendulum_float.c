@@ -39,10 +39,10 @@ void pendulum_id(const float *q, const float *dq, const float *ddq, float *tau) 
   const float S1 = sinf(q[0]);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const float VP2_1 = GX * S1;
+  const float mVP2_1 = GX * S1;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const float N3_1 = ZZ1 * ddq[0] - VP2_1;
+  const float N3_1 = ZZ1 * ddq[0] - mVP2_1;
 
   /* joint torques */
   const float tau_1 = FV1 * dq[0] + N3_1;
@@ -60,9 +60,9 @@ void pendulum_gravity(const float *q, float *tau) {
   const float S1 = sinf(q[0]);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const float VP2_1 = GX * S1;
+  const float mVP2_1 = GX * S1;
 
-  tau[0] = -VP2_1;
+  tau[0] = -mVP2_1;
 }
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.

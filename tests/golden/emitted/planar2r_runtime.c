@@ -142,11 +142,11 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, const dou
   const double VP2_2 = C2 * VA2_2 - S2 * VA1_2;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = chi[PLANAR2R_MY2] * WP3_2 + chi[PLANAR2R_MX2] * DV33_2;
+  const double mF1_2 = chi[PLANAR2R_MY2] * WP3_2 + chi[PLANAR2R_MX2] * DV33_2;
   const double F2_2 = chi[PLANAR2R_MX2] * WP3_2 - chi[PLANAR2R_MY2] * DV33_2;
   const double N3_2 = chi[PLANAR2R_ZZ2] * WP3_2 - chi[PLANAR2R_MY2] * VP1_2
       + chi[PLANAR2R_MX2] * VP2_2;
-  const double FA2_2 = C2 * F2_2 - S2 * F1_2;
+  const double FA2_2 = C2 * F2_2 - S2 * mF1_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
   const double N3_1 = chi[PLANAR2R_ZZR1] * ddq[0] - chi[PLANAR2R_MY1] * VP1_1
@@ -216,18 +216,18 @@ void planar2r_coriolis(const double *q, const double *dq, const double *chi, dou
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double W3_2 = dq[0] + dq[1];
   const double DV33_2 = W3_2 * W3_2;
-  const double VA1_2 = d2 * DV33_1;
-  const double VP1_2 = C2 * VA1_2;
-  const double VP2_2 = S2 * VA1_2;
+  const double mVA1_2 = d2 * DV33_1;
+  const double mVP1_2 = C2 * mVA1_2;
+  const double VP2_2 = S2 * mVA1_2;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = chi[PLANAR2R_MX2] * DV33_2;
-  const double F2_2 = chi[PLANAR2R_MY2] * DV33_2;
-  const double N3_2 = chi[PLANAR2R_MY2] * VP1_2 + chi[PLANAR2R_MX2] * VP2_2;
-  const double FA2_2 = S2 * F1_2 + C2 * F2_2;
+  const double mF1_2 = chi[PLANAR2R_MX2] * DV33_2;
+  const double mF2_2 = chi[PLANAR2R_MY2] * DV33_2;
+  const double N3_2 = chi[PLANAR2R_MY2] * mVP1_2 + chi[PLANAR2R_MX2] * VP2_2;
+  const double mFA2_2 = S2 * mF1_2 + C2 * mF2_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = N3_2 - d2 * FA2_2;
+  const double T3_1 = N3_2 - d2 * mFA2_2;
 
   tau[0] = T3_1;
   tau[1] = N3_2;

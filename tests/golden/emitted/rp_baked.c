@@ -148,7 +148,7 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
   const double F1_2 = MZ2 * ddq[0] - MX2 * DV33_1 + M2 * VP1_2;
-  const double F3_2 = MX2 * ddq[0] + MZ2 * DV33_1 - M2 * VP3_2;
+  const double mF3_2 = MX2 * ddq[0] + MZ2 * DV33_1 - M2 * VP3_2;
   const double N2_2 = MZ2 * VP1_2 - MX2 * VP3_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
@@ -157,7 +157,7 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
 
   /* joint torques */
   const double tau_1 = FV1 * dq[0] + FS1 * rp_sign(dq[0]) + T3_1;
-  const double tau_2 = FV2 * dq[1] + FS2 * rp_sign(dq[1]) + IA2 * ddq[1] - F3_2;
+  const double tau_2 = FV2 * dq[1] + FS2 * rp_sign(dq[1]) + IA2 * ddq[1] - mF3_2;
 
   tau[0] = tau_1;
   tau[1] = tau_2;
@@ -187,7 +187,7 @@ void rp_gravity(const double *q, double *tau) {
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
   const double F1_2 = M2 * VP1_1;
-  const double F3_2 = M2 * VP2_1;
+  const double mF3_2 = M2 * VP2_1;
   const double N2_2 = MZ2 * VP1_1 + MX2 * VP2_1;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
@@ -195,7 +195,7 @@ void rp_gravity(const double *q, double *tau) {
   const double T3_1 = q[1] * F1_2 + N2_2 + N3_1;
 
   tau[0] = T3_1;
-  tau[1] = -F3_2;
+  tau[1] = -mF3_2;
 }
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
@@ -216,14 +216,14 @@ void rp_coriolis(const double *q, const double *dq, double *tau) {
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
   const double F1_2 = M2 * VP1_2 - MX2 * DV33_1;
-  const double F3_2 = MZ2 * DV33_1 + M2 * VA2_2;
+  const double mF3_2 = MZ2 * DV33_1 + M2 * VA2_2;
   const double N2_2 = MX2 * VA2_2 + MZ2 * VP1_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
   const double T3_1 = q[1] * F1_2 + N2_2;
 
   tau[0] = T3_1;
-  tau[1] = -F3_2;
+  tau[1] = -mF3_2;
 }
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
