@@ -18,9 +18,10 @@ void check_size(const ModelFunctions& model, const char* function, const char* a
 
 void check_generated(const ModelFunctions& model, const char* function, bool generated) {
   if (!generated) {
-    throw std::invalid_argument(fmt::format("{}(): {} was generated without this function; add it to "
-                                            "FUNCTIONS of dyngen_add_robot",
-                                            function, model.name));
+    throw std::invalid_argument(
+        fmt::format("{}(): {} was generated without this function; add it to "
+                    "FUNCTIONS of dyngen_add_robot",
+                    function, model.name));
   }
 }
 

@@ -22,11 +22,12 @@ struct ModelFunctions {
 
   /// tau = M(q) ddq + c(q, dq) + g(q) + friction; q rad or m, tau N m or N, nq values each
   void (*id)(const double* q, const double* dq, const double* ddq, double* tau) = nullptr;
-  void (*gravity)(const double* q, double* tau) = nullptr;                      ///< g(q)
-  void (*coriolis)(const double* q, const double* dq, double* tau) = nullptr;   ///< c(q, dq)
-  void (*friction)(const double* dq, double* tau) = nullptr;                    ///< friction and offset
+  void (*gravity)(const double* q, double* tau) = nullptr;                     ///< g(q)
+  void (*coriolis)(const double* q, const double* dq, double* tau) = nullptr;  ///< c(q, dq)
+  void (*friction)(const double* dq, double* tau) = nullptr;  ///< friction and offset
 
-  /// @throws std::invalid_argument  if nq < 1, the count of names is not nq, or there is no function
+  /// @throws std::invalid_argument  if nq < 1, the count of names is not nq, or there is no
+  /// function
   void validate() const;
 };
 

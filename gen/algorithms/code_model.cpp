@@ -67,7 +67,8 @@ bool only_geometry(const ex& value, const SymbolicRobot& robot) {
   return true;
 }
 
-/// A grouped parameter in the file's own, as a person writes it; cut where it gets too long to read.
+/// A grouped parameter in the file's own, as a person writes it; cut where it gets too long to
+/// read.
 std::string formula_text(const ex& value, const SymbolicRobot& robot) {
   SymbolTable names;
   for (const FileSymbol& entry : robot.parameters) names.add({.name = entry.name});
@@ -98,6 +99,7 @@ CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> b
   code.name = robot.name;
   code.file_name = robot.file_name;
   code.beta = std::move(beta);
+  code.takes_chi = mode == ParameterMode::kRuntime;
 
   for (const SymbolicLink& link : robot.links) {
     CodeLink own;
@@ -106,7 +108,6 @@ CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> b
     own.alpha = link.alpha;
     own.theta = link.theta;
     own.coordinate = link.coordinate;
-    own.name = link.name;
     own.chi.fill(0);
     code.links.push_back(std::move(own));
     if (link.coordinate >= 0) {
@@ -162,10 +163,10 @@ CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> b
   constexpr std::array<const char*, 3> kGravityNames = {"GX", "GY", "GZ"};
   for (std::size_t k = 0; k < 3; ++k) {
     const ex& value = robot.gravity[k];
-    code.gravity[k] =
-        is_number(value) ? add_constant(code.inputs, kGravityNames[k], value, "m/s^2",
-                                        origin(robot.file_name, robot.gravity_lines[k]))
-                         : value.subs(geometry);
+    code.gravity[k] = is_number(value)
+                          ? add_constant(code.inputs, kGravityNames[k], value, "m/s^2",
+                                         origin(robot.file_name, robot.gravity_lines[k]))
+                          : value.subs(geometry);
   }
   const auto add_inputs = [&](const std::string& array, ex CodeLink::*member,
                               const std::string& per_time) {

@@ -21,13 +21,14 @@ enum class ParameterMode {
 
 /// One entry of chi.
 struct ChiEntry {
-  std::string name;     ///< "ZZR2", "d3"
+  std::string name;  ///< "ZZR2", "d3"
   std::string unit;
-  std::string comment;  ///< where it comes from, or what is grouped in it
+  std::string comment;             ///< where it comes from, or what is grouped in it
   std::optional<GiNaC::ex> value;  ///< the file's number; none if unknown
 };
 
-/// A link as the algorithms see it: inputs, constants and chi entries in place of the file's symbols.
+/// A link as the algorithms see it: inputs, constants and chi entries in place of the file's
+/// symbols.
 struct CodeLink {
   JointType type = JointType::kRevolute;
   int parent = 0;
@@ -38,18 +39,17 @@ struct CodeLink {
   std::array<GiNaC::ex, kChiCount> chi;
   GiNaC::ex q = 0, dq = 0, ddq = 0;  ///< inputs; 0 for a fixed joint
   int coordinate = -1;
-  std::string name;
 };
 
 /// The robot as the algorithms see it.
 struct CodeModel {
   std::string name;
   std::string file_name;
-  SymbolTable inputs;            ///< q, dq, ddq, chi, and the named numbers of the file
-  std::vector<CodeLink> links;   ///< links[j - 1] is link j
+  SymbolTable inputs;           ///< q, dq, ddq, chi, and the named numbers of the file
+  std::vector<CodeLink> links;  ///< links[j - 1] is link j
   std::array<GiNaC::ex, 3> gravity;
-  std::vector<ChiEntry> chi;     ///< dynamic parameters, then unknown lengths and gravity components
-  std::vector<std::string> beta; ///< names of the base parameters
+  std::vector<ChiEntry> chi;  ///< dynamic parameters, then unknown lengths and gravity components
+  std::vector<std::string> beta;  ///< names of the base parameters
   std::vector<std::string> coordinate_names;
   std::vector<bool> coordinate_revolute;
   bool takes_chi = false;  ///< the functions have an argument chi: some entry of it is read

@@ -71,9 +71,8 @@ std::vector<LinkFrame> write_frames(Trace& trace, const CodeModel& code) {
     const ex angle = revolute ? ex(link.q + link.theta) : link.theta;
 
     frame.rotation = write_rotation(trace, number, link.alpha, angle);
-    const ex along = link.type == JointType::kPrismatic
-                         ? trace.assign("R_" + number, link.r + link.q)
-                         : link.r;
+    const ex along =
+        link.type == JointType::kPrismatic ? trace.assign("R_" + number, link.r + link.q) : link.r;
     frame.P = {link.d, trace.assign("P2_" + number, -along * frame.rotation.sin_alpha),
                trace.assign("P3_" + number, along * frame.rotation.cos_alpha)};
 

@@ -25,18 +25,19 @@ struct FrameRotation {
 struct LinkFrame {
   FrameRotation rotation;  ///< in the parent
   Vector3 P;               ///< origin in the parent's frame
-  /// Joints with parallel axes turn together: the link seen from the frame below the first of them, with
-  /// the sum of their angles. Equal to the parent and `rotation` where the axis stands alone.
+  /// Joints with parallel axes turn together: the link seen from the frame below the first of them,
+  /// with the sum of their angles. Equal to the parent and `rotation` where the axis stands alone.
   int anchor = 0;
   FrameRotation from_anchor;
-  GiNaC::ex z_sign = 1;    ///< z of the parent along the own z, if parallel: 1 or -1
-  bool parallel = false;   ///< to the parent's axis
+  GiNaC::ex z_sign = 1;   ///< z of the parent along the own z, if parallel: 1 or -1
+  bool parallel = false;  ///< to the parent's axis
 };
 
 /// Writes sin, cos and origin of every link; element 0 is the base.
 std::vector<LinkFrame> write_frames(Trace& trace, const CodeModel& code);
 
-/// Vector of the link's frame in the parent's (or the anchor's). @param name  of the help variable, if one is needed
+/// Vector of the link's frame in the parent's (or the anchor's). @param name  of the help variable,
+/// if one is needed
 Vector3 to_parent(Trace& trace, const std::string& name, const FrameRotation& rotation,
                   const Vector3& v);
 /// The reverse.

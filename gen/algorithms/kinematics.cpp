@@ -141,9 +141,10 @@ std::vector<LinkMotion> write_motion(Trace& trace, const CodeModel& code,
     const bool revolute = link.type == JointType::kRevolute;
     const ex dq = terms.velocity ? link.dq : ex(0);
     const ex ddq = terms.acceleration ? link.ddq : ex(0);
-    trace.section(fmt::format(
-        "forward, link {}: W angular velocity, WP its derivative, VP acceleration of O{}, in frame {}",
-        j, j, j));
+    trace.section(
+        fmt::format("forward, link {}: W angular velocity, WP its derivative, VP acceleration of "
+                    "O{}, in frame {}",
+                    j, j, j));
     LinkRotation rotation(trace, j, own);
     rotation.write_velocity(frame, anchor, parent, revolute ? dq : ex(0));
     rotation.write_axial_acceleration(frame, parent, revolute ? ddq : ex(0));

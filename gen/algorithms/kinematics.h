@@ -13,12 +13,12 @@ namespace dyngen {
 
 /// Velocities and accelerations of a link in its own frame.
 struct LinkMotion {
-  Vector3 W;   ///< angular velocity
-  Vector3 WP;  ///< its derivative
-  Matrix3 U;   ///< skew(WP) + skew(W) skew(W)
-  Vector3 VP;  ///< acceleration of the origin, less gravity
-  Vector3 WW;  ///< W2 W3, W1 W3, W1 W2
-  Vector3 D;   ///< W2^2 - W3^2, W3^2 - W1^2, W1^2 - W2^2
+  Vector3 W;                    ///< angular velocity
+  Vector3 WP;                   ///< its derivative
+  Matrix3 U;                    ///< skew(WP) + skew(W) skew(W)
+  Vector3 VP;                   ///< acceleration of the origin, less gravity
+  Vector3 WW;                   ///< W2 W3, W1 W3, W1 W2
+  Vector3 D;                    ///< W2^2 - W3^2, W3^2 - W1^2, W1^2 - W2^2
   GiNaC::ex rate = 0;           ///< angular velocity about z against the anchor
   bool rides_on_anchor = true;  ///< the origin has the acceleration of the anchor's
 };
@@ -33,10 +33,11 @@ struct MotionTerms {
 /// Writes the forward recursion of customised Newton-Euler; element 0 is the base.
 ///
 /// Source: Khalil and Dombre, "Modeling, Identification and Control of Robots", 2002, section 9.5
-/// (forward recursive computation with the matrices U). Where the axes are at right angles or parallel, the
-/// third column of U is carried over from the parent instead of WP: both links share the axis z, so
-/// U z is the same vector in both, and it does not depend on the joint's own rate.
+/// (forward recursive computation with the matrices U). Where the axes are at right angles or
+/// parallel, the third column of U is carried over from the parent instead of WP: both links share
+/// the axis z, so U z is the same vector in both, and it does not depend on the joint's own rate.
 std::vector<LinkMotion> write_motion(Trace& trace, const CodeModel& code,
-                                     const std::vector<LinkFrame>& frames, const MotionTerms& terms);
+                                     const std::vector<LinkFrame>& frames,
+                                     const MotionTerms& terms);
 
 }  // namespace dyngen

@@ -78,9 +78,10 @@ void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms) {
     const LinkMotion& motion = motions[at];
     const LinkFrame& frame = frames[at];
     Wrench& own = total[at];
-    trace.section(fmt::format(
-        "backward, link {}: F force, N moment of the link about O{}; E, T with the links it carries",
-        j, j));
+    trace.section(
+        fmt::format("backward, link {}: F force, N moment of the link about O{}; E, T with the "
+                    "links it carries",
+                    j, j));
 
     const Vector3 F = assign_vector(trace, "F", j, link_force(link, motion));
     Vector3 N = euler_moment(trace, j, link, motion);

@@ -20,7 +20,8 @@ Inertial zero_inertial() {
   return inertial;
 }
 
-/// Takes from a link what its own joint cannot show: the body that the joint's motion maps to itself.
+/// Takes from a link what its own joint cannot show: the body that the joint's motion maps to
+/// itself.
 Inertial take_invariant(SymbolicLink& link) {
   Inertial taken = zero_inertial();
   const auto take = [&](Chi kind) {
@@ -35,7 +36,8 @@ Inertial take_invariant(SymbolicLink& link) {
       for (const Chi kind : {Chi::kYY, Chi::kMZ, Chi::kM}) take(kind);
       break;
     case JointType::kPrismatic:
-      for (const Chi kind : {Chi::kXX, Chi::kXY, Chi::kXZ, Chi::kYY, Chi::kYZ, Chi::kZZ}) take(kind);
+      for (const Chi kind : {Chi::kXX, Chi::kXY, Chi::kXZ, Chi::kYY, Chi::kYZ, Chi::kZZ})
+        take(kind);
       break;
     case JointType::kFixed:
       for (std::size_t k = 0; k < kInertialCount; ++k) take(static_cast<Chi>(k));
@@ -44,7 +46,8 @@ Inertial take_invariant(SymbolicLink& link) {
   return taken;
 }
 
-/// Moves what each joint cannot show to its parent, from the tips to the base. What reaches the base is gone.
+/// Moves what each joint cannot show to its parent, from the tips to the base. What reaches the
+/// base is gone.
 void group_in_closed_form(SymbolicRobot& robot, std::set<Column>& grouped) {
   for (int j = robot.size(); j >= 1; --j) {
     SymbolicLink& link = robot.link(j);
@@ -52,8 +55,8 @@ void group_in_closed_form(SymbolicRobot& robot, std::set<Column>& grouped) {
     const Inertial taken = take_invariant(link);
     if (!(link.chi[index(Chi::kXX)] - xx).expand().is_zero()) grouped.insert({j, Chi::kXX});
     if (link.parent == 0) continue;
-    // the turn of a revolute joint does not matter to such a body, and along a prismatic one a tensor
-    // without mass does not feel the shift: q = 0 stands for every q
+    // the turn of a revolute joint does not matter to such a body, and along a prismatic one a
+    // tensor without mass does not feel the shift: q = 0 stands for every q
     const ex theta = link.type == JointType::kRevolute ? ex(0) : link.theta;
     const ex r = link.type == JointType::kPrismatic ? ex(0) : link.r;
     const ex d = link.type == JointType::kPrismatic ? ex(0) : link.d;
@@ -72,8 +75,10 @@ std::vector<Chi> remaining_kinds(JointType type) {
   switch (type) {
     case JointType::kRevolute:
       return {Chi::kXX, Chi::kXY, Chi::kXZ, Chi::kYZ, Chi::kZZ, Chi::kMX, Chi::kMY};
-    case JointType::kPrismatic: return {Chi::kMX, Chi::kMY, Chi::kMZ, Chi::kM};
-    case JointType::kFixed: return {};
+    case JointType::kPrismatic:
+      return {Chi::kMX, Chi::kMY, Chi::kMZ, Chi::kM};
+    case JointType::kFixed:
+      return {};
   }
   return {};
 }
@@ -126,8 +131,6 @@ Regrouping regroup(const SymbolicRobot& robot, Motions motions) {
   return result;
 }
 
-Regrouping keep_standard(const SymbolicRobot& robot) {
-  return {robot, list_parameters(robot, {})};
-}
+Regrouping keep_standard(const SymbolicRobot& robot) { return {robot, list_parameters(robot, {})}; }
 
 }  // namespace dyngen

@@ -21,18 +21,20 @@ struct GroupedParameter {
   [[nodiscard]] std::string name() const { return chi_name(column.kind, column.link, grouped); }
 };
 
-/// The robot with regrouped parameters: what cannot be told apart stands in one place, the rest is 0.
+/// The robot with regrouped parameters: what cannot be told apart stands in one place, the rest is
+/// 0.
 struct Regrouping {
-  SymbolicRobot robot;                       ///< inertial parameters and IA replaced by the grouped ones
+  SymbolicRobot robot;  ///< inertial parameters and IA replaced by the grouped ones
   std::vector<GroupedParameter> parameters;  ///< those that are not 0, in link order, chi order
 };
 
 /// Regroups inertial parameters and rotor inertias to a minimal set.
 ///
-/// First in closed form, from the tips to the base: what a revolute joint cannot show (YY with XX, MZ, M) or
-/// a prismatic one (the inertia tensor) moves to the parent; a fixed link moves whole (Gautier and Khalil,
-/// "Direct calculation of minimum set of inertial parameters of serial robots", IEEE Trans. Robotics and
-/// Automation, 1990). Then find_dependencies() removes what the geometry near the base leaves dependent.
+/// First in closed form, from the tips to the base: what a revolute joint cannot show (YY with XX,
+/// MZ, M) or a prismatic one (the inertia tensor) moves to the parent; a fixed link moves whole
+/// (Gautier and Khalil, "Direct calculation of minimum set of inertial parameters of serial
+/// robots", IEEE Trans. Robotics and Automation, 1990). Then find_dependencies() removes what the
+/// geometry near the base leaves dependent.
 ///
 /// @param motions  kStanding: minimal for gravity() alone
 Regrouping regroup(const SymbolicRobot& robot, Motions motions = Motions::kAll);

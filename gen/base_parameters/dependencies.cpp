@@ -127,28 +127,6 @@ std::optional<std::vector<cl_R>> solve(std::vector<std::vector<cl_R>> rows, std:
   return x;
 }
 
-/// A short fraction if the number is one, else the number itself.
-GiNaC::ex recognise(const cl_R& value) {
-  cl_R rest = value;
-  cln::cl_I p0 = 0, q0 = 1, p1 = 1, q1 = 0;  // convergents of the continued fraction
-  for (int step = 0; step < 40; ++step) {
-    const cln::cl_I whole = cln::floor1(rest);
-    const cln::cl_I p2 = whole * p1 + p0;
-    const cln::cl_I q2 = whole * q1 + q0;
-    p0 = p1;
-    q0 = q1;
-    p1 = p2;
-    q1 = q2;
-    const cln::cl_RA fraction = cln::cl_RA(p1) / q1;
-    if (cln::abs(value - fraction) < tiny()) return GiNaC::numeric(fraction);
-    const cl_R remainder = rest - cl_R(whole);
-    if (cln::abs(remainder) < tiny()) break;
-    if (q1 > cln::cl_I("100000000000000000000")) break;
-    rest = 1 / remainder;
-  }
-  return GiNaC::numeric(value);
-}
-
 /// Solves one candidate with many digits; nothing if it does not hold there.
 std::optional<std::vector<cl_R>> refine(const SymbolicRobot& robot, const GiNaC::exmap& lengths,
                                         const std::vector<Column>& columns,
@@ -190,7 +168,8 @@ std::vector<Dependency> find_dependencies(const SymbolicRobot& robot,
     }
     Dependency dependency{columns[candidate.column], {}};
     for (std::size_t i = 0; i < x->size(); ++i) {
-      dependency.others.emplace_back(columns[candidate.support[i]], recognise((*x)[i]));
+      dependency.others.emplace_back(columns[candidate.support[i]],
+                                     settle_number(GiNaC::numeric((*x)[i])));
     }
     result.push_back(std::move(dependency));
   }

@@ -23,11 +23,13 @@ enum class Motions {
   kStanding  ///< gravity only
 };
 
-/// Finds the columns that depend on columns before them, scanning from left to right (thesis 3.3.2).
+/// Finds the columns that depend on columns before them, scanning from left to right
+/// (thesis 3.3.2).
 ///
-/// Ranks are decided in extended precision on random motions; each dependency is then solved again with
-/// 60 digits and kept only if it holds to 40 on motions that were not used to find it. A dependency whose
-/// coefficients change with an unknown length is not reported: its parameters stay apart.
+/// Ranks are decided in extended precision on random motions; each dependency is then solved again
+/// with 60 digits and kept only if it holds to 40 on motions that were not used to find it. A
+/// dependency whose coefficients change with an unknown length is not reported: its parameters stay
+/// apart.
 ///
 /// @param columns  in the order of preference: what comes first stays
 std::vector<Dependency> find_dependencies(const SymbolicRobot& robot,

@@ -66,7 +66,8 @@ struct LinkState {
 };
 
 template <class T>
-std::vector<LinkState<T>> link_states(const NumericGeometry<T>& geometry, const RandomState& state) {
+std::vector<LinkState<T>> link_states(const NumericGeometry<T>& geometry,
+                                      const RandomState& state) {
   using std::cos;
   using std::sin;
   const T zero = T(0);
@@ -96,8 +97,8 @@ std::vector<LinkState<T>> link_states(const NumericGeometry<T>& geometry, const 
     }
     own.pose.p = {link.d, -along * link.sin_alpha, along * link.cos_alpha};
     const Vector<T>& p = own.pose.p;
-    const Vector<T> carried = sum(sum(parent.vp, cross(parent.wp, p)),
-                                  cross(parent.w, cross(parent.w, p)));
+    const Vector<T> carried =
+        sum(sum(parent.vp, cross(parent.wp, p)), cross(parent.w, cross(parent.w, p)));
     own.w = own.pose.to_child(parent.w);
     own.wp = own.pose.to_child(parent.wp);
     own.vp = own.pose.to_child(carried);
@@ -215,7 +216,8 @@ template NumericGeometry<long double> numeric_geometry(const SymbolicRobot&, con
 template NumericGeometry<cln::cl_R> numeric_geometry(const SymbolicRobot&, const GiNaC::exmap&);
 template std::vector<std::vector<long double>> numeric_regressor(
     const NumericGeometry<long double>&, const RandomState&, const std::vector<Column>&);
-template std::vector<std::vector<cln::cl_R>> numeric_regressor(
-    const NumericGeometry<cln::cl_R>&, const RandomState&, const std::vector<Column>&);
+template std::vector<std::vector<cln::cl_R>> numeric_regressor(const NumericGeometry<cln::cl_R>&,
+                                                               const RandomState&,
+                                                               const std::vector<Column>&);
 
 }  // namespace dyngen

@@ -46,7 +46,6 @@ class Diagnostics {
   [[nodiscard]] bool has_errors() const { return error_count_ > 0; }
   [[nodiscard]] bool full() const { return error_count_ >= kMaxErrors; }
   [[nodiscard]] const std::vector<Diagnostic>& all() const { return all_; }
-  [[nodiscard]] const std::string& file_name() const { return file_name_; }
 
   /// Everything collected, in the order of the text, each as
   /// `file:line:col: error: message`, the line itself, and a caret line with the hint.

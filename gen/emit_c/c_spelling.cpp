@@ -32,10 +32,12 @@ std::string CSpelling::number(const GiNaC::ex& value) const {
 std::string CSpelling::symbol(const GiNaC::ex& symbol) const {
   const SymbolInfo& info = symbols_.info(symbol);
   switch (info.kind) {
-    case SymbolKind::kInput: return info.array + "[" + std::to_string(info.index) + "]";
+    case SymbolKind::kInput:
+      return info.array + "[" + std::to_string(info.index) + "]";
     case SymbolKind::kParameter:
       return info.array + "[" + upper_case(options_.prefix) + "_" + info.name + "]";
-    default: return info.name;
+    default:
+      return info.name;
   }
 }
 
@@ -62,7 +64,8 @@ std::string wrap_statement(const std::string& statement) {
   while (line.size() > kColumns) {
     std::size_t cut = std::string::npos;
     for (std::size_t i = indent.size() + 1; i + 2 < line.size() && i < kColumns; ++i) {
-      const bool sum = line[i] == ' ' && (line[i + 1] == '+' || line[i + 1] == '-') && line[i + 2] == ' ';
+      const bool sum =
+          line[i] == ' ' && (line[i + 1] == '+' || line[i + 1] == '-') && line[i + 2] == ' ';
       if (sum) cut = i;
     }
     if (cut == std::string::npos) break;

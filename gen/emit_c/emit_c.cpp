@@ -3,9 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
+#include "gen/diagnostic/diagnostic.h"
 #include "gen/emit_c/c_spelling.h"
 #include "gen/emit_c/function_text.h"
 #include "gen/emit_c/inline_trig.h"
+#include "gen/symbols/exact.h"
 
 namespace dyngen {
 namespace {
@@ -51,7 +56,9 @@ std::string chi_enum(const CodeModel& code, const EmitOptions& options) {
 
 std::string chi_values(const CodeModel& code, const EmitOptions& options) {
   const CSpelling spelling(options, code.inputs);
-  std::string text = fmt::format("const {} {}_chi_values[] = {{\n", spelling.scalar(), options.prefix);
+  std::string text =
+      fmt::format("const {} {}_chi_values[] = {{\n", spelling.scalar(), options.prefix);
+  if (code.chi.empty()) text += "    0, /* there are none */\n";
   for (const ChiEntry& entry : code.chi) {
     const std::string value =
         entry.value ? spelling.number(*entry.value) : fmt::format("({})NAN", spelling.scalar());
@@ -70,7 +77,8 @@ std::string helpers(const std::vector<RobotFunction>& functions, const EmitOptio
   std::string text;
   if (sign) {
     text += fmt::format(
-        "/* -1, 0 or 1 */\nstatic {0} {1}_sign({0} x) {{\n  return ({0})((x > 0) - (x < 0));\n}}\n\n",
+        "/* -1, 0 or 1 */\nstatic {0} {1}_sign({0} x) {{\n  return ({0})((x > 0) - (x < "
+        "0));\n}}\n\n",
         options.scalar == Scalar::kDouble ? "double" : "float", options.prefix);
   }
   if (trig && options.trig == Trig::kInline) text += sincos_helper(options.prefix) + "\n";
@@ -84,7 +92,8 @@ std::string make_header(const CodeModel& code, const std::vector<RobotFunction>&
   text += fmt::format("#ifndef {0}_H\n#define {0}_H\n\n", upper);
   text += guard("extern \"C\" {");
   text += fmt::format(
-      "\n#define {0}_NQ {1}    /* joint coordinates */\n#define {0}_NCHI {2}  /* parameters in chi */\n"
+      "\n#define {0}_NQ {1}    /* joint coordinates */\n#define {0}_NCHI {2}  /* parameters in chi "
+      "*/\n"
       "#define {0}_NBETA {3} /* base parameters */\n",
       upper, code.coordinate_names.size(), code.chi.size(), code.beta.size());
   text += chi_enum(code, options);
@@ -93,11 +102,11 @@ std::string make_header(const CodeModel& code, const std::vector<RobotFunction>&
       "extern const char *const {0}_joint_names[];\nextern const char *const {0}_chi_names[];\n"
       "extern const char *const {0}_beta_names[];\n",
       options.prefix);
-  if (!code.chi.empty()) {
+  if (code.takes_chi || !code.chi.empty()) {
     text += fmt::format(
         "\n/* The numbers of the robot file, in the order of chi; NaN where the file says '*'. */\n"
-        "extern const {} {}_chi_values[{}_NCHI];\n",
-        options.scalar == Scalar::kDouble ? "double" : "float", options.prefix, upper);
+        "extern const {} {}_chi_values[];\n",
+        options.scalar == Scalar::kDouble ? "double" : "float", options.prefix);
   }
   for (const RobotFunction& function : functions) {
     text += "\n" + function_comment(code, function, options);
@@ -114,7 +123,7 @@ std::string make_source(const CodeModel& code, const std::vector<RobotFunction>&
   text += name_table(options.prefix + "_joint_names", code.coordinate_names) + "\n";
   text += name_table(options.prefix + "_chi_names", chi_names(code)) + "\n";
   text += name_table(options.prefix + "_beta_names", code.beta) + "\n";
-  if (!code.chi.empty()) text += chi_values(code, options) + "\n";
+  if (code.takes_chi || !code.chi.empty()) text += chi_values(code, options) + "\n";
   text += helpers(functions, options);
   for (std::size_t i = 0; i < functions.size(); ++i) {
     text += (i > 0 ? "\n" : "") + function_definition(code, functions[i], options);
@@ -122,10 +131,36 @@ std::string make_source(const CodeModel& code, const std::vector<RobotFunction>&
   return text;
 }
 
+/// A number of the robot may be too large for the arithmetic of the code.
+void check_range(const CodeModel& code, const std::vector<RobotFunction>& functions,
+                 const EmitOptions& options) {
+  const bool single = options.scalar == Scalar::kFloat;
+  const double largest = single ? static_cast<double>(std::numeric_limits<float>::max())
+                                : std::numeric_limits<double>::max();
+  const auto check = [&](const std::string& name, const std::string& comment,
+                         const GiNaC::ex& value) {
+    if (std::abs(to_double(value)) <= largest) return;
+    throw ModelError(fmt::format("{}: error: {} ({}) is too large for {}: expected at most {}\n",
+                                 code.file_name, name, comment, single ? "float" : "double",
+                                 largest));
+  };
+  const auto check_table = [&](const SymbolTable& table) {
+    for (const SymbolInfo& info : table.own()) {
+      if (info.kind == SymbolKind::kConstant) check(info.name, info.comment, info.value);
+    }
+  };
+  for (const ChiEntry& entry : code.chi) {
+    if (entry.value) check(entry.name, entry.comment, *entry.value);
+  }
+  check_table(code.inputs);
+  for (const RobotFunction& function : functions) check_table(function.trace.symbols());
+}
+
 }  // namespace
 
 CText emit_c(const CodeModel& code, const std::vector<RobotFunction>& functions,
              const EmitOptions& options) {
+  check_range(code, functions, options);
   return {make_header(code, functions, options), make_source(code, functions, options)};
 }
 

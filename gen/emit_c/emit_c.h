@@ -18,10 +18,10 @@ enum class Trig {
 
 /// How the C text is spelled.
 struct EmitOptions {
-  std::string prefix;       ///< a C identifier, in front of every external name
+  std::string prefix;  ///< a C identifier, in front of every external name
   Scalar scalar = Scalar::kDouble;
   Trig trig = Trig::kInline;  ///< kLibm with kFloat
-  std::string header_name;  ///< what the source includes
+  std::string header_name;    ///< what the source includes
 };
 
 /// The two files that make up a generated model.
@@ -31,6 +31,8 @@ struct CText {
 };
 
 /// C99 that is also C++20: no allocation, no state, silent under the usual warnings.
+///
+/// @throws ModelError  if a number of the robot is too large for the arithmetic
 ///
 /// The text depends on nothing but the arguments: the same input gives the same bytes.
 CText emit_c(const CodeModel& code, const std::vector<RobotFunction>& functions,

@@ -13,8 +13,8 @@ namespace {
 
 /// What one function reads, found in its statements.
 struct Reads {
-  std::set<std::string> arrays;     // "q", "chi"
-  std::set<int> constant_places;    // named numbers
+  std::set<std::string> arrays;   // "q", "chi"
+  std::set<int> constant_places;  // named numbers
 };
 
 Reads find_reads(const Trace& trace) {
@@ -72,7 +72,8 @@ std::string statement(const Assignment& assignment, const CSpelling& spelling) {
                                     spelling.expression(assignment.value)));
 }
 
-/// The sines and cosines of all angles at once, before everything else: angles depend on inputs alone.
+/// The sines and cosines of all angles at once, before everything else: angles depend on inputs
+/// alone.
 std::string gathered_angles(const Trace& trace, const std::vector<GiNaC::ex>& angles,
                             const CSpelling& spelling, const EmitOptions& options) {
   std::string text;
@@ -107,8 +108,13 @@ std::string function_comment(const CodeModel& code, const RobotFunction& functio
   std::string arguments;
   for (const std::string_view input : spec.inputs) {
     const bool q = input == "q", dq = input == "dq";
-    arguments += array_legend(code, input, q ? "rad" : dq ? "rad/s" : "rad/s^2",
-                              q ? "m" : dq ? "m/s" : "m/s^2") +
+    arguments += array_legend(code, input,
+                              q    ? "rad"
+                              : dq ? "rad/s"
+                                   : "rad/s^2",
+                              q    ? "m"
+                              : dq ? "m/s"
+                                   : "m/s^2") +
                  "   ";
   }
   if (code.takes_chi) {
@@ -117,9 +123,9 @@ std::string function_comment(const CodeModel& code, const RobotFunction& functio
   arguments += array_legend(code, spec.output, "N m", "N") + ", out";
   text += " *   " + arguments + "\n";
   const OperationCount count = function.trace.count();
-  text += fmt::format(" * {} mul, {} add, {} sin/cos, {} sgn.  Reads every input before writing {}. */\n",
-                      count.multiplications, count.additions, count.sin_cos_pairs, count.signs,
-                      spec.output);
+  text += fmt::format(
+      " * {} mul, {} add, {} sin/cos, {} sgn.  Reads every input before writing {}. */\n",
+      count.multiplications, count.additions, count.sin_cos_pairs, count.signs, spec.output);
   return text;
 }
 

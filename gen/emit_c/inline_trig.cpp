@@ -16,17 +16,23 @@ bool is_sin_or_cos(const GiNaC::ex& value) {
   return name == "sin" || name == "cos";
 }
 
-// {0} is the prefix. The tail t of the reduced angle r + t keeps the last bit right near multiples of pi/2.
-constexpr const char* kHelper = R"(/* Sines and cosines of four angles at once, without a branch that depends on them: compilers vectorise
- * it.  Within 1 ulp for |x| < 1e5; beyond, for what is not finite, on other processors and under
- * -ffast-math the C library is called.  Reduction by pi/2 in three parts (Cody and Waite 1980), coefficients
- * of fdlibm (Sun Microsystems 1993). */
+// {0} is the prefix. The tail t of the reduced angle r + t keeps the last bit right near multiples
+// of pi/2.
+constexpr const char* kHelper =
+    R"(/* Sines and cosines of four angles at once, without a branch that depends on them: compilers
+ * vectorise it.  Within 1 ulp for |x| < 1e5, rounding to nearest; beyond, for what is not finite, on
+ * other processors and under -ffast-math the C library is called.  Reduction by pi/2 in three parts
+ * (Cody and Waite 1980), coefficients of fdlibm (Sun Microsystems 1993). */
 static void {0}_sincos4(const double x[4], double sine[4], double cosine[4]) {{
   int i;
-#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__FAST_MATH__)
+#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__FAST_MATH__) && \
+    !defined(__ASSOCIATIVE_MATH__)
   double s[4], c[4], size = 0.0;
   for (i = 0; i < 4; ++i) size += x[i] * x[i];
   if (size < 1e10) {{
+#ifdef __clang__
+#pragma clang fp reassociate(off)
+#endif
     const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
     for (i = 0; i < 4; ++i) {{
       const double k = (x[i] * 0.6366197723675814 + whole) - whole; /* right angles in x */
@@ -105,15 +111,18 @@ std::string sincos_call(const std::vector<std::string>& angles, const std::strin
   for (std::size_t i = 0; i < size; ++i) {
     list += (i > 0 ? ", " : "") + (i < angles.size() ? angles[i] : std::string("0.0"));
   }
-  std::string text = fmt::format("  const double angle[{0}] = {{{1}}};\n  double sine[{0}], cosine[{0}];\n",
-                                 size, list);
+  std::string text = fmt::format(
+      "  const double angle[{0}] = {{{1}}};\n  double sine[{0}], cosine[{0}];\n", size, list);
   for (std::size_t i = 0; i < size; i += kLanes) {
-    text += i == 0 ? fmt::format("  {}_sincos4(angle, sine, cosine);\n", prefix)
-                   : fmt::format("  {0}_sincos4(angle + {1}, sine + {1}, cosine + {1});\n", prefix, i);
+    text += i == 0
+                ? fmt::format("  {}_sincos4(angle, sine, cosine);\n", prefix)
+                : fmt::format("  {0}_sincos4(angle + {1}, sine + {1}, cosine + {1});\n", prefix, i);
   }
   return text;
 }
 
-std::string sincos_helper(const std::string& prefix) { return fmt::format(fmt::runtime(kHelper), prefix); }
+std::string sincos_helper(const std::string& prefix) {
+  return fmt::format(fmt::runtime(kHelper), prefix);
+}
 
 }  // namespace dyngen

@@ -12,9 +12,9 @@ namespace dyngen {
 
 /// A function that dyngen can write: the one place that knows its name, inputs and meaning.
 struct FunctionSpec {
-  std::string_view name;                  ///< without the prefix
-  std::vector<std::string_view> inputs;   ///< "q", "dq", "ddq", each with one value per coordinate
-  std::string_view output;                ///< "tau", one value per coordinate
+  std::string_view name;                 ///< without the prefix
+  std::vector<std::string_view> inputs;  ///< "q", "dq", "ddq", each with one value per coordinate
+  std::string_view output;               ///< "tau", one value per coordinate
   std::string_view summary;
   void (*write)(Trace&, const CodeModel&);
 };

@@ -29,8 +29,8 @@ std::string catalogue_names() {
 void GeneratorOptions::validate() const {
   for (const std::string& name : functions) {
     if (find_function(name) == nullptr) {
-      throw std::invalid_argument(fmt::format("--functions: unknown function '{}'; expected {} or all",
-                                              name, catalogue_names()));
+      throw std::invalid_argument(fmt::format(
+          "--functions: unknown function '{}'; expected {} or all", name, catalogue_names()));
     }
   }
   if (!prefix.empty() && !is_c_identifier(prefix)) {
@@ -78,14 +78,15 @@ std::string count_table(const CodeModel& code, const std::vector<RobotFunction>&
                       "sin/cos", "sgn");
   for (const RobotFunction& function : functions) {
     const OperationCount count = function.trace.count();
-    text += fmt::format("{:<12}{:>6}{:>6}{:>8}{:>9}{:>6}\n", function.spec->name,
-                        count.multiplications, count.additions, count.total(), count.sin_cos_pairs,
-                        count.signs);
+    text +=
+        fmt::format("{:<12}{:>6}{:>6}{:>8}{:>9}{:>6}\n", function.spec->name, count.multiplications,
+                    count.additions, count.total(), count.sin_cos_pairs, count.signs);
   }
-  const int n = code.size();
+  const int n = static_cast<int>(code.coordinate_names.size());
   const int mul = 105 * n - 92, add = 94 * n - 86;
-  text += fmt::format("{:<12}{:>6}{:>6}{:>8}   (105n - 92, 94n - 86: inverse dynamics of any arm, n = {})\n",
-                      "bound", mul, add, mul + add, n);
+  text += fmt::format(
+      "{:<12}{:>6}{:>6}{:>8}   (105n - 92, 94n - 86: inverse dynamics of any arm, n = {})\n",
+      "bound", mul, add, mul + add, n);
   return text;
 }
 

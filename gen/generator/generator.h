@@ -15,11 +15,11 @@ namespace dyngen {
 struct GeneratorOptions {
   std::vector<std::string> functions;  ///< names of the catalogue; empty: all
   ParameterMode parameters = ParameterMode::kBaked;
-  bool regroup = true;                 ///< use base parameters
+  bool regroup = true;  ///< use base parameters
   Scalar scalar = Scalar::kDouble;
-  Trig trig = Trig::kInline;           ///< the C library's with kFloat, whatever this says
-  std::string prefix;                  ///< empty: the robot's name
-  std::string header_name;             ///< what the source includes
+  Trig trig = Trig::kInline;  ///< the C library's with kFloat, whatever this says
+  std::string prefix;         ///< empty: the robot's name
+  std::string header_name;    ///< what the source includes
 
   /// @throws std::invalid_argument  naming the option, what was found and what was expected
   void validate() const;

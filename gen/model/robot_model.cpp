@@ -75,7 +75,8 @@ RobotModel build_model(const RobotFile& file) {
   for (std::size_t k = 0; k < 3; ++k) model.gravity[k] = quantity(file, kGravityRows[k], 0);
   if (model.coordinate_count == 0) {
     const Row& sigma = file.row(RowKey::kSigma);
-    diagnostics.error(sigma.keyword, 5, "every joint is fixed (sigma 2): expected a joint that moves");
+    diagnostics.error(sigma.keyword, 5,
+                      "every joint is fixed (sigma 2): expected a joint that moves");
   }
   if (diagnostics.has_errors()) throw ModelError(diagnostics.render());
   return model;

@@ -26,14 +26,14 @@ struct Quantity {
 /// One row of the DH table and the link that hangs on it, as the file gives them.
 struct JointModel {
   JointType type = JointType::kRevolute;
-  int parent = 0;        ///< 1-based, 0 is the base
-  GiNaC::ex alpha = 0;   ///< rad
-  GiNaC::ex theta = 0;   ///< rad, added to q of a revolute joint
-  Quantity d;            ///< m
-  Quantity r;            ///< m, added to q of a prismatic joint
+  int parent = 0;       ///< 1-based, 0 is the base
+  GiNaC::ex alpha = 0;  ///< rad
+  GiNaC::ex theta = 0;  ///< rad, added to q of a revolute joint
+  Quantity d;           ///< m
+  Quantity r;           ///< m, added to q of a prismatic joint
   std::array<Quantity, kChiCount> chi;
   std::string name;
-  int coordinate = -1;   ///< its place in q, dq, ddq, tau; -1 for a fixed joint
+  int coordinate = -1;  ///< its place in q, dq, ddq, tau; -1 for a fixed joint
 };
 
 /// A robot that has been checked: joints in file order, parents before children.
@@ -41,10 +41,10 @@ struct RobotModel {
   std::string name;       ///< a C identifier
   std::string file_name;  ///< as the user gave it
   DhConvention convention = DhConvention::kModified;
-  std::vector<JointModel> joints;       ///< joints[j - 1] is joint j
-  std::array<Quantity, 3> gravity;      ///< acceleration of the base, -g, m/s^2, in frame 0
+  std::vector<JointModel> joints;   ///< joints[j - 1] is joint j
+  std::array<Quantity, 3> gravity;  ///< acceleration of the base, -g, m/s^2, in frame 0
   std::vector<EffectRow> effects;
-  int coordinate_count = 0;             ///< moving joints
+  int coordinate_count = 0;  ///< moving joints
 
   [[nodiscard]] int size() const { return static_cast<int>(joints.size()); }
   [[nodiscard]] const JointModel& joint(int j) const {
@@ -53,7 +53,8 @@ struct RobotModel {
 };
 
 /// Checks what the rows mean together and builds the model.
-/// @throws ModelError  positioned: no moving joint; a moving joint's IA, Fs, Fv or off on a fixed one
+/// @throws ModelError  positioned: no moving joint; a moving joint's IA, Fs, Fv or off on a fixed
+/// one
 RobotModel build_model(const RobotFile& file);
 
 }  // namespace dyngen

@@ -10,7 +10,8 @@
 namespace dyngen {
 namespace {
 
-constexpr std::size_t kBlock = 64;  // samples at once: registers of a 7-joint program stay in the cache
+constexpr std::size_t kBlock =
+    64;  // samples at once: registers of a 7-joint program stay in the cache
 
 std::span<const double> input_array(const BatchInputs& inputs, const std::string& name) {
   if (name == "q") return inputs.q;
@@ -48,13 +49,27 @@ void run(const Instruction& instruction, double* registers, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) target[k] = operation(a[k], b[k]);
   };
   switch (instruction.op) {
-    case Op::kAdd: each([](double x, double y) { return x + y; }); break;
-    case Op::kSubtract: each([](double x, double y) { return x - y; }); break;
-    case Op::kMultiply: each([](double x, double y) { return x * y; }); break;
-    case Op::kNegate: each([](double x, double) { return -x; }); break;
-    case Op::kSin: each([](double x, double) { return std::sin(x); }); break;
-    case Op::kCos: each([](double x, double) { return std::cos(x); }); break;
-    case Op::kSign: each([](double x, double) { return sign(x); }); break;
+    case Op::kAdd:
+      each([](double x, double y) { return x + y; });
+      break;
+    case Op::kSubtract:
+      each([](double x, double y) { return x - y; });
+      break;
+    case Op::kMultiply:
+      each([](double x, double y) { return x * y; });
+      break;
+    case Op::kNegate:
+      each([](double x, double) { return -x; });
+      break;
+    case Op::kSin:
+      each([](double x, double) { return std::sin(x); });
+      break;
+    case Op::kCos:
+      each([](double x, double) { return std::cos(x); });
+      break;
+    case Op::kSign:
+      each([](double x, double) { return sign(x); });
+      break;
   }
 }
 
@@ -64,7 +79,9 @@ void evaluate(const Program& program, std::size_t samples, const BatchInputs& in
               std::span<double> tau) {
   check_sizes(program, samples, inputs, tau);
   std::vector<double> registers(static_cast<std::size_t>(program.register_count) * kBlock, 0.0);
-  const auto at = [&](int reg) { return registers.data() + static_cast<std::size_t>(reg) * kBlock; };
+  const auto at = [&](int reg) {
+    return registers.data() + static_cast<std::size_t>(reg) * kBlock;
+  };
   for (const Program::Constant& constant : program.constants) {
     std::fill_n(at(constant.reg), kBlock, constant.value);
   }

@@ -42,7 +42,8 @@ class Lowering {
     const SymbolInfo& info = symbols_.info(symbol);
     if (info.kind == SymbolKind::kConstant) return number(to_double(info.value));
     if (const auto it = registers_.find(info.name); it != registers_.end()) return it->second;
-    DYNGEN_ASSERT(info.kind != SymbolKind::kIntermediate, info.name + " is read before it is written");
+    DYNGEN_ASSERT(info.kind != SymbolKind::kIntermediate,
+                  info.name + " is read before it is written");
     const int reg = new_register();
     program.inputs.push_back({info.array, info.index, reg});
     registers_.emplace(info.name, reg);
@@ -57,8 +58,10 @@ class Lowering {
 
   int lower_form(const Form& form) {
     switch (form.kind) {
-      case Form::Kind::kNumber: return number(to_double(form.leaf));
-      case Form::Kind::kSymbol: return symbol(form.leaf);
+      case Form::Kind::kNumber:
+        return number(to_double(form.leaf));
+      case Form::Kind::kSymbol:
+        return symbol(form.leaf);
       case Form::Kind::kCall: {
         const Op op = form.call == "sin" ? Op::kSin : form.call == "cos" ? Op::kCos : Op::kSign;
         return emit(op, lower_form(form.parts[0]));
@@ -107,7 +110,8 @@ void reuse_registers(Program& program) {
   for (const auto& constant : program.constants) {
     last_use[static_cast<std::size_t>(constant.reg)] = kForever;
   }
-  for (const auto& result : program.results) last_use[static_cast<std::size_t>(result.reg)] = kForever;
+  for (const auto& result : program.results)
+    last_use[static_cast<std::size_t>(result.reg)] = kForever;
 
   std::vector<int> place(static_cast<std::size_t>(program.register_count), -1);
   std::vector<int> free;

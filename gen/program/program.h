@@ -19,7 +19,8 @@ struct Instruction {
   int b = 0;  ///< of the operations with two operands
 };
 
-/// A function as a flat list of operations: evaluated without a compiler, over many samples at once.
+/// A function as a flat list of operations: evaluated without a compiler, over many samples at
+/// once.
 ///
 /// The operations and their order are those of the emitted C, so both round alike.
 struct Program {
@@ -47,7 +48,8 @@ struct Program {
 /// Lowers a function; registers are used again when their value is not needed any more.
 Program lower(const Trace& trace);
 
-/// Samples of one input: array[j * samples + k] is element j of sample k. chi has one sample for all.
+/// Samples of one input: array[j * samples + k] is element j of sample k. chi has one sample for
+/// all.
 struct BatchInputs {
   std::span<const double> q, dq, ddq;
   std::span<const double> chi;

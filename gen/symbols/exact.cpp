@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gen/symbols/exact.h"
 
+#include <cln/integer.h>
+#include <cln/rational.h>
+#include <cln/real.h>
 #include <fmt/format.h>
 
 #include "gen/diagnostic/assert.h"
@@ -14,6 +17,11 @@ GiNaC::numeric approximate(const GiNaC::ex& value) {
   const GiNaC::numeric& number = GiNaC::ex_to<GiNaC::numeric>(result);
   return number.is_real() ? number : number.real();
 }
+
+// 60 digits less what sums of some hundred terms lose; a number that is no short fraction comes
+// within 1e-30 of one with this denominator, far from the tolerance.
+constexpr const char* kTolerance = "1/1000000000000000000000000000000000000000000";
+constexpr const char* kLargestDenominator = "1000000000000000";
 
 std::string with_point(std::string text) {
   if (text.find_first_of(".eE") == std::string::npos) text += ".0";
@@ -44,10 +52,32 @@ int number_sign(const GiNaC::ex& value) {
   return approximate(value).is_positive() ? 1 : -1;
 }
 
+GiNaC::ex settle_number(const GiNaC::ex& value) {
+  if (!GiNaC::is_a<GiNaC::numeric>(value) || value.info(GiNaC::info_flags::rational)) return value;
+  const cln::cl_R number = cln::the<cln::cl_R>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
+  const cln::cl_R tolerance = cln::abs(number) * cln::cl_RA(kTolerance) + cln::cl_RA(kTolerance);
+  // convergents of the continued fraction
+  cln::cl_R rest = number;
+  cln::cl_I p0 = 0, q0 = 1, p1 = 1, q1 = 0;
+  while (true) {
+    const cln::cl_I whole = cln::floor1(rest);
+    const cln::cl_I p2 = whole * p1 + p0;
+    const cln::cl_I q2 = whole * q1 + q0;
+    p0 = p1;
+    q0 = q1;
+    p1 = p2;
+    q1 = q2;
+    if (q1 > cln::cl_I(kLargestDenominator)) return value;
+    const cln::cl_RA fraction = cln::cl_RA(p1) / q1;
+    if (cln::abs(number - fraction) < tolerance) return GiNaC::numeric(fraction);
+    rest = 1 / (rest - cln::cl_R(whole));
+  }
+}
+
 GiNaC::ex rational_or_float(const GiNaC::ex& value) {
-  if (GiNaC::is_a<GiNaC::numeric>(value)) return value;
+  if (GiNaC::is_a<GiNaC::numeric>(value)) return settle_number(value);
   const PrecisionScope precision;
-  return approximate(value);
+  return settle_number(approximate(value));
 }
 
 GiNaC::ex exact_sin(const GiNaC::ex& angle) { return rational_or_float(GiNaC::sin(angle)); }
@@ -55,22 +85,21 @@ GiNaC::ex exact_cos(const GiNaC::ex& angle) { return rational_or_float(GiNaC::co
 
 namespace {
 
-bool is_rounding(const GiNaC::ex& term) {
-  GiNaC::ex number = term;
-  if (GiNaC::is_a<GiNaC::mul>(term)) number = term.op(term.nops() - 1);  // where GiNaC keeps it
-  return GiNaC::is_a<GiNaC::numeric>(number) &&
-         GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(number)) < GiNaC::numeric("1e-45");
+/// A term with its number settled.
+GiNaC::ex settle_term(const GiNaC::ex& term) {
+  if (!GiNaC::is_a<GiNaC::mul>(term)) return settle_number(term);
+  const GiNaC::ex number = term.op(term.nops() - 1);  // where GiNaC keeps it
+  const GiNaC::ex settled = settle_number(number);
+  return settled.is_equal(number) ? term : (term / number) * settled;
 }
 
 }  // namespace
 
 GiNaC::ex drop_rounding(const GiNaC::ex& expression) {
   const GiNaC::ex expanded = expression.expand();
-  if (!GiNaC::is_a<GiNaC::add>(expanded)) return is_rounding(expanded) ? GiNaC::ex(0) : expanded;
+  if (!GiNaC::is_a<GiNaC::add>(expanded)) return settle_term(expanded);
   GiNaC::ex sum = 0;
-  for (std::size_t i = 0; i < expanded.nops(); ++i) {
-    if (!is_rounding(expanded.op(i))) sum += expanded.op(i);
-  }
+  for (std::size_t i = 0; i < expanded.nops(); ++i) sum += settle_term(expanded.op(i));
   return sum;
 }
 

@@ -53,10 +53,11 @@ int SymbolTable::place(const GiNaC::ex& symbol) const {
 GiNaC::ex add_constant(SymbolTable& table, const std::string& name, const GiNaC::ex& value,
                        const std::string& unit, const std::string& comment) {
   DYNGEN_ASSERT(is_number(value), name);
-  if (is_zero_number(value)) return 0;
-  if (value.is_equal(1) || value.is_equal(-1)) return value;
-  if (const SymbolInfo* found = table.find_name(name);
-      found != nullptr && found->kind == SymbolKind::kConstant && found->value.is_equal(value)) {
+  const GiNaC::ex settled = rational_or_float(value);
+  if (settled.is_zero() || settled.is_equal(1) || settled.is_equal(-1)) return settled;
+  if (const SymbolInfo* found = table.find_name(name); found != nullptr &&
+                                                       found->kind == SymbolKind::kConstant &&
+                                                       is_zero_number(found->value - settled)) {
     return found->symbol;
   }
   SymbolInfo info;
@@ -64,7 +65,7 @@ GiNaC::ex add_constant(SymbolTable& table, const std::string& name, const GiNaC:
   info.kind = SymbolKind::kConstant;
   info.unit = unit;
   info.comment = comment;
-  info.value = value;
+  info.value = settled;
   return table.add(std::move(info));
 }
 

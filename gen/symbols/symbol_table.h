@@ -19,19 +19,20 @@ enum class SymbolKind {
 /// What is known of a symbol.
 struct SymbolInfo {
   GiNaC::symbol symbol{};
-  std::string name{};   ///< unique in its table; also the C name of constants and intermediates
+  std::string name{};  ///< unique in its table; also the C name of constants and intermediates
   SymbolKind kind = SymbolKind::kIntermediate;
   std::string unit{};
   std::string comment{};  ///< where it comes from ("ur10e.robot:9"); may be empty
-  GiNaC::ex value = 0;  ///< of a constant: exact
-  std::string array{};  ///< of an input or parameter: the C array that holds it ("q", "chi")
-  int index = -1;       ///< its place in that array
+  GiNaC::ex value = 0;    ///< of a constant: exact
+  std::string array{};    ///< of an input or parameter: the C array that holds it ("q", "chi")
+  int index = -1;         ///< its place in that array
 };
 
 /// Makes each symbol once and remembers its place: the only source of order in the output.
 ///
-/// GiNaC orders symbols by a serial number and a hash that change from run to run, so everything that is
-/// written is sorted by these places. A table may stand on a parent's: its places come after the parent's.
+/// GiNaC orders symbols by a serial number and a hash that change from run to run, so everything
+/// that is written is sorted by these places. A table may stand on a parent's: its places come
+/// after the parent's.
 class SymbolTable {
  public:
   SymbolTable() = default;

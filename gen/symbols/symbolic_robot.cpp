@@ -102,8 +102,8 @@ Inertial move_to_parent(const Inertial& inertial, const ex& alpha, const ex& d, 
     }
     return drop_rounding(sum);
   };
-  Inertial result = {element(0, 0), element(0, 1), element(0, 2), element(1, 1),
-                     element(1, 2), element(2, 2)};
+  Inertial result = {element(0, 0), element(0, 1), element(0, 2),
+                     element(1, 1), element(1, 2), element(2, 2)};
   for (std::size_t i = 0; i < 3; ++i) {
     result[index(Chi::kMX) + i] = drop_rounding(s[i] + mass * p[i]);
   }

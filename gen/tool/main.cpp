@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <vector>
 
@@ -15,14 +16,15 @@ namespace {
 
 constexpr int kDone = 0, kInputWrong = 1, kOurBug = 70;
 
-void print_warnings(const RobotFile& file) {
+void print_warnings(const RobotFile& file, const RobotModel& model) {
   Diagnostics diagnostics(file.file_name, file.text);
   for (const Diagnostic& warning : file.warnings) {
     diagnostics.warning(warning.position, warning.length, warning.message, warning.hint);
   }
-  for (const EffectRow& effect : file.effects) {
-    diagnostics.warning(effect.position, static_cast<int>(effect.name.size()),
-                        "effect '" + effect.name + "' is read but not part of the emitted functions");
+  for (const EffectRow& effect : model.effects) {
+    diagnostics.warning(
+        effect.position, static_cast<int>(effect.name.size()),
+        "effect '" + effect.name + "' is read but not part of the emitted functions");
   }
   std::cerr << diagnostics.render();
 }
@@ -30,19 +32,21 @@ void print_warnings(const RobotFile& file) {
 void run(const ToolOptions& options) {
   const RobotFile file = read_robot_file(options.robot);
   const RobotModel model = build_model(file);
-  print_warnings(file);
+  print_warnings(file, model);
   if (!options.output.empty()) {
     const CText text = generate(model, options.generator);
-    std::vector<OutputFile> files = {{options.output, text.source}, {options.header(), text.header}};
+    std::vector<OutputFile> files = {{options.output, text.source},
+                                     {options.header(), text.header}};
     if (!options.depfile.empty()) {
-      files.push_back({options.depfile,
-                       depfile_text({options.output, options.header()}, options.robot)});
+      files.push_back(
+          {options.depfile, depfile_text({options.output, options.header()}, options.robot)});
     }
     write_files(files);
   }
   if (options.count) {
     const CodeModel code = make_code_model(model, options.generator);
-    std::cout << count_table(code, write_functions(code, options.generator));
+    std::cout << count_table(code, write_functions(code, options.generator)) << std::flush;
+    if (!std::cout) throw OutputError("standard output: error: cannot write");
   }
 }
 
@@ -58,10 +62,13 @@ int guarded_main(int argc, const char* const* argv) {
   } catch (const OutputError& error) {
     std::cerr << error.what() << "\n";
     return kInputWrong;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << "dyngen: error: " << error.what() << "\n";
+    return kInputWrong;
   } catch (const std::exception& error) {
     std::cerr << "dyngen: internal error: " << error.what()
-              << "\nThis is a bug of dyngen. Please report it with the file " << parsed.options.robot
-              << ".\n";
+              << "\nThis is a bug of dyngen. Please report it with the file "
+              << parsed.options.robot << ".\n";
     return kOurBug;
   }
 }

@@ -30,6 +30,28 @@ Value meaning(const std::string& option, const std::string& word,
   throw std::invalid_argument(option + ": '" + word + "' is unknown; expected " + expected);
 }
 
+/// No file may be written over another one of the same call.
+void check_paths(const ToolOptions& options) {
+  if (options.output.empty()) return;
+  if (options.output.find_first_of("\"\\\n") != std::string::npos) {
+    throw std::invalid_argument(
+        "-o: a file name with quotes, backslashes or line ends cannot be included");
+  }
+  std::vector<std::pair<std::string, std::string>> files = {
+      {"the robot file", options.robot}, {"-o", options.output}, {"the header", options.header()}};
+  if (!options.depfile.empty()) files.emplace_back("--depfile", options.depfile);
+  std::error_code ignored;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (std::filesystem::weakly_canonical(files[i].second, ignored) ==
+          std::filesystem::weakly_canonical(files[k].second, ignored)) {
+        throw std::invalid_argument(files[i].first + " and " + files[k].first +
+                                    " are the same file: '" + files[i].second + "'");
+      }
+    }
+  }
+}
+
 void check(ToolOptions& options) {
   if (options.output.empty() && !options.count) {
     throw std::invalid_argument("nothing to do: give -o FILE, or --count");
@@ -41,6 +63,7 @@ void check(ToolOptions& options) {
   if (!options.depfile.empty() && options.output.empty()) {
     throw std::invalid_argument("--depfile needs -o FILE");
   }
+  check_paths(options);
   auto& functions = options.generator.functions;
   if (functions.size() == 1 && functions[0] == "all") functions.clear();
   if (!options.output.empty()) {
@@ -77,10 +100,11 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   std::string scalar = "double";
   app.add_option("--scalar", scalar, "Arithmetic of the code (default: double)")
       ->type_name("double|float");
-  std::string trig = "inline";
-  app.add_option("--trig", trig,
-                 "Sines and cosines: inline, all angles at once in the code (default; double only), "
-                 "or libm, calls of the C library")
+  std::string trig;
+  app.add_option(
+         "--trig", trig,
+         "Sines and cosines: inline, all angles at once in the code (default; double only), "
+         "or libm, calls of the C library")
       ->type_name("inline|libm");
   app.add_option("--prefix", options.generator.prefix,
                  "Begins every external name (default: the robot's name)")
@@ -99,8 +123,14 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
         {{"baked", ParameterMode::kBaked}, {"runtime", ParameterMode::kRuntime}});
     options.generator.scalar = meaning<Scalar>(
         "--scalar", scalar, {{"double", Scalar::kDouble}, {"float", Scalar::kFloat}});
-    options.generator.trig =
-        meaning<Trig>("--trig", trig, {{"inline", Trig::kInline}, {"libm", Trig::kLibm}});
+    if (trig == "inline" && options.generator.scalar == Scalar::kFloat) {
+      throw std::invalid_argument("--trig: inline is for --scalar double only; expected libm");
+    }
+    options.generator.trig = meaning<Trig>("--trig", trig.empty() ? "inline" : trig,
+                                           {{"inline", Trig::kInline}, {"libm", Trig::kLibm}});
+    if (app.count("--prefix") > 0 && options.generator.prefix.empty()) {
+      throw std::invalid_argument("--prefix: it is empty; expected a C identifier");
+    }
     options.generator.regroup = !keep_standard;
     check(options);
   } catch (const CLI::Success& success) {

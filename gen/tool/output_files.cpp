@@ -33,7 +33,7 @@ class Temporaries {
 std::string escape(const std::string& path) {
   std::string result;
   for (const char c : path) {
-    if (c == ' ' || c == '#' || c == '\\') result += '\\';
+    if (c == ' ' || c == '#' || c == ':' || c == '\\') result += '\\';
     if (c == '$') result += '$';
     result += c;
   }
@@ -45,7 +45,8 @@ std::string escape(const std::string& path) {
 void write_files(const std::vector<OutputFile>& files) {
   Temporaries temporaries;
   for (const OutputFile& file : files) {
-    if (fs::is_directory(file.path)) fail(file.path, "it is a directory");
+    std::error_code ignored;
+    if (fs::is_directory(file.path, ignored)) fail(file.path, "it is a directory");
     const std::string temporary = file.path + ".tmp" + std::to_string(getpid());
     errno = 0;
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
@@ -64,11 +65,14 @@ void write_files(const std::vector<OutputFile>& files) {
 }
 
 std::string depfile_text(const std::vector<std::string>& targets, const std::string& dependency) {
+  const auto absolute = [](const std::string& path) {  // a ".." behind a link is not what it seems
+    return fs::weakly_canonical(fs::absolute(path)).string();
+  };
   std::string text;
   for (const std::string& target : targets) {
-    text += (text.empty() ? "" : " ") + escape(fs::absolute(target).lexically_normal().string());
+    text += (text.empty() ? "" : " ") + escape(absolute(target));
   }
-  return text + ": " + escape(fs::absolute(dependency).lexically_normal().string()) + "\n";
+  return text + ": " + escape(absolute(dependency)) + "\n";
 }
 
 }  // namespace dyngen

@@ -19,8 +19,9 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes all files or none: each goes to a temporary file beside its place, then all are renamed.
-/// @throws OutputError  nothing half-written stays behind
+/// Writes all files: each goes to a temporary file beside its place, and when all are whole they
+/// are renamed.
+/// @throws OutputError  nothing half-written stays behind: what could not be written is as it was
 void write_files(const std::vector<OutputFile>& files);
 
 /// A Make rule that says the targets depend on the robot file, with absolute paths.

@@ -26,12 +26,16 @@ struct Key {
 
 void collect_key(const Form& form, const SymbolTable& symbols, Key& key) {
   switch (form.kind) {
-    case Form::Kind::kNumber: key.numbers += shortest_decimal(form.leaf) + " "; break;
+    case Form::Kind::kNumber:
+      key.numbers += shortest_decimal(form.leaf) + " ";
+      break;
     case Form::Kind::kSymbol:
       key.places.push_back(symbols.place(form.leaf));
       key.last = std::max(key.last, key.places.back());
       break;
-    case Form::Kind::kCall: key.numbers += form.call + " "; [[fallthrough]];
+    case Form::Kind::kCall:
+      key.numbers += form.call + " ";
+      [[fallthrough]];
     case Form::Kind::kSum:
     case Form::Kind::kProduct:
       for (const Form& part : form.parts) collect_key(part, symbols, key);
@@ -113,8 +117,8 @@ std::vector<Operand> sorted_terms(const ex& sum, const SymbolTable& symbols) {
 }
 
 Form sum_of(std::vector<Operand> terms) {
-  const auto positive = std::find_if(terms.begin(), terms.end(),
-                                     [](const Operand& term) { return !term.negative; });
+  const auto positive =
+      std::find_if(terms.begin(), terms.end(), [](const Operand& term) { return !term.negative; });
   if (positive != terms.end()) std::rotate(terms.begin(), positive, positive + 1);
   Form form;
   form.kind = Form::Kind::kSum;
@@ -129,8 +133,8 @@ Form sum_form(const ex& sum, const SymbolTable& symbols) {
   return sum_of(sorted_terms(sum, symbols));
 }
 
-/// A sum inside a product. GiNaC may hold a (b - c) as -a (c - b), one way or the other from run to run:
-/// the sign that makes the first term positive is ours.
+/// A sum inside a product. GiNaC may hold a (b - c) as -a (c - b), one way or the other from run to
+/// run: the sign that makes the first term positive is ours.
 Operand inner_sum(const ex& sum, const SymbolTable& symbols) {
   std::vector<Operand> terms = sorted_terms(sum, symbols);
   const bool negative = terms.front().negative;

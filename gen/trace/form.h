@@ -13,21 +13,22 @@ namespace dyngen {
 
 /// An expression in the one order in which it is written, counted and evaluated.
 ///
-/// A sum lists its terms with their signs, a product its factors; operands stand in the order of the
-/// symbol table's places, so the same expression has the same form on every run.
+/// A sum lists its terms with their signs, a product its factors; operands stand in the order of
+/// the symbol table's places, so the same expression has the same form on every run.
 struct Form {
   enum class Kind { kNumber, kSymbol, kSum, kProduct, kCall };
   Kind kind = Kind::kNumber;
-  GiNaC::ex leaf = 0;           ///< of kNumber (positive, exact) and kSymbol
-  std::string call;             ///< of kCall: "sin", "cos" or "sign"
-  std::vector<Form> parts;      ///< terms, factors, or the argument
-  std::vector<bool> negative;   ///< of kSum: the sign of each term
+  GiNaC::ex leaf = 0;          ///< of kNumber (positive, exact) and kSymbol
+  std::string call;            ///< of kCall: "sin", "cos" or "sign"
+  std::vector<Form> parts;     ///< terms, factors, or the argument
+  std::vector<bool> negative;  ///< of kSum: the sign of each term
 };
 
 /// The form of an expression: always a kSum at the top, with one term or more (0 is the number 0).
 ///
 /// The first term is a positive one where there is one, since a leading minus costs an operation;
-/// otherwise terms follow the place of the symbol that is ready last, so sums wait as little as they can.
+/// otherwise terms follow the place of the symbol that is ready last, so sums wait as little as
+/// they can.
 Form canonical_form(const GiNaC::ex& expression, const SymbolTable& symbols);
 
 /// The operands of a sum or product with the operators and brackets between them: "a * (b - c)".

@@ -98,10 +98,9 @@ ex Trace::fold_constants(const ex& value) {
     terms.push_back(split_term(value));
   }
   // new constants get their places in the order of their names: GiNaC's order of terms is none
-  std::sort(terms.begin(), terms.end(),
-            [](const FoldedTerm& a, const FoldedTerm& b) {
-              return a.name != b.name ? a.name < b.name : to_double(a.value) < to_double(b.value);
-            });
+  std::sort(terms.begin(), terms.end(), [](const FoldedTerm& a, const FoldedTerm& b) {
+    return a.name != b.name ? a.name < b.name : to_double(a.value) < to_double(b.value);
+  });
   ex sum = 0;
   for (const FoldedTerm& term : terms) {
     sum += term.name.empty() ? term.rest : term.sign * constant(term.name, term.value) * term.rest;
@@ -163,13 +162,21 @@ Trace::SinCos Trace::sin_cos(const std::string& suffix, const ex& angle) {
   if (quarters.info(GiNaC::info_flags::integer) && !offset.is_zero()) {
     const SinCos plain = sin_cos(suffix, moving);
     switch (GiNaC::mod(GiNaC::ex_to<GiNaC::numeric>(quarters), 4).to_int()) {
-      case 1: return {plain.cos, -plain.sin};
-      case 2: return {-plain.sin, -plain.cos};
-      case 3: return {-plain.cos, plain.sin};
-      default: return plain;
+      case 1:
+        return {plain.cos, -plain.sin};
+      case 2:
+        return {-plain.sin, -plain.cos};
+      case 3:
+        return {-plain.cos, plain.sin};
+      default:
+        return plain;
     }
   }
   const ex argument = assign("Q" + suffix, moving + constant("TH" + suffix, offset, "rad"));
+  if (!GiNaC::is_a<GiNaC::symbol>(argument)) {  // stored with its sign changed
+    return {-assign("S" + suffix, GiNaC::sin(-argument)),
+            assign("C" + suffix, GiNaC::cos(-argument))};
+  }
   return {assign("S" + suffix, GiNaC::sin(argument)), assign("C" + suffix, GiNaC::cos(argument))};
 }
 

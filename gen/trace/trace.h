@@ -28,12 +28,12 @@ struct Output {
 
 /// A program being written: ordered assignments to named scalars.
 ///
-/// GiNaC does the algebra inside a value; the order of the statements is the order in which an algorithm
-/// makes them. What is zero, one, a copy, a negation, a number or already assigned (up to sign) makes no
-/// statement: assign() returns the expression that stands for it.
+/// GiNaC does the algebra inside a value; the order of the statements is the order in which an
+/// algorithm makes them. What is zero, one, a copy, a negation, a number or already assigned (up to
+/// sign) makes no statement: assign() returns the expression that stands for it.
 ///
-/// Source of the method: Khalil and Kleinfinger, "Minimum operations and minimum parameters of the dynamic
-/// models of tree structure robots" (IEEE J. Robotics and Automation, 1987).
+/// Source of the method: Khalil and Kleinfinger, "Minimum operations and minimum parameters of the
+/// dynamic models of tree structure robots" (IEEE J. Robotics and Automation, 1987).
 class Trace {
  public:
   /// @param inputs  the robot's inputs and parameters; must outlive the trace
@@ -42,8 +42,8 @@ class Trace {
   /// Statements that follow belong to this section (a comment in the emitted code).
   void section(std::string title);
 
-  /// name = value, unless the value needs no statement. A value of mostly negative terms is stored with
-  /// its sign changed, under the name "m" + name.
+  /// name = value, unless the value needs no statement. A value of mostly negative terms is stored
+  /// with its sign changed, under the name "m" + name.
   GiNaC::ex assign(const std::string& name, const GiNaC::ex& value);
 
   /// A named number. @return the symbol, or the number itself if it is 0, 1 or -1

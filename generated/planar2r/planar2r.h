@@ -32,7 +32,7 @@ extern const char *const planar2r_chi_names[];
 extern const char *const planar2r_beta_names[];
 
 /* The numbers of the robot file, in the order of chi; NaN where the file says '*'. */
-extern const double planar2r_chi_values[PLANAR2R_NCHI];
+extern const double planar2r_chi_values[];
 
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].

@@ -138,16 +138,20 @@ static double puma560_sign(double x) {
   return (double)((x > 0) - (x < 0));
 }
 
-/* Sines and cosines of four angles at once, without a branch that depends on them: compilers vectorise
- * it.  Within 1 ulp for |x| < 1e5; beyond, for what is not finite, on other processors and under
- * -ffast-math the C library is called.  Reduction by pi/2 in three parts (Cody and Waite 1980), coefficients
- * of fdlibm (Sun Microsystems 1993). */
+/* Sines and cosines of four angles at once, without a branch that depends on them: compilers
+ * vectorise it.  Within 1 ulp for |x| < 1e5, rounding to nearest; beyond, for what is not finite, on
+ * other processors and under -ffast-math the C library is called.  Reduction by pi/2 in three parts
+ * (Cody and Waite 1980), coefficients of fdlibm (Sun Microsystems 1993). */
 static void puma560_sincos4(const double x[4], double sine[4], double cosine[4]) {
   int i;
-#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__FAST_MATH__)
+#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__FAST_MATH__) && \
+    !defined(__ASSOCIATIVE_MATH__)
   double s[4], c[4], size = 0.0;
   for (i = 0; i < 4; ++i) size += x[i] * x[i];
   if (size < 1e10) {
+#ifdef __clang__
+#pragma clang fp reassociate(off)
+#endif
     const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
     for (i = 0; i < 4; ++i) {
       const double k = (x[i] * 0.6366197723675814 + whole) - whole; /* right angles in x */

@@ -65,7 +65,7 @@ extern const char *const puma560_chi_names[];
 extern const char *const puma560_beta_names[];
 
 /* The numbers of the robot file, in the order of chi; NaN where the file says '*'. */
-extern const double puma560_chi_values[PUMA560_NCHI];
+extern const double puma560_chi_values[];
 
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].

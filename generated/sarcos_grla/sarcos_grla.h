@@ -35,7 +35,7 @@ extern const char *const sarcos_grla_chi_names[];
 extern const char *const sarcos_grla_beta_names[];
 
 /* The numbers of the robot file, in the order of chi; NaN where the file says '*'. */
-extern const double sarcos_grla_chi_values[SARCOS_GRLA_NCHI];
+extern const double sarcos_grla_chi_values[];
 
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].

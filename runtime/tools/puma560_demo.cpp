@@ -111,15 +111,16 @@ double median_nanoseconds(const ModelFunctions& robot) {
 
 int main() {
   const ModelFunctions robot{
-      "puma560",        PUMA560_NQ,        {puma560_joint_names, puma560_joint_names + PUMA560_NQ},
-      puma560_id,       puma560_gravity,   puma560_coriolis,
+      "puma560",       PUMA560_NQ,      {puma560_joint_names, puma560_joint_names + PUMA560_NQ},
+      puma560_id,      puma560_gravity, puma560_coriolis,
       puma560_friction};
   robot.validate();
   print_gravity(robot);
   print_motion(robot);
   const double time = median_nanoseconds(robot);
   fmt::print(
-      "\nSpeed: inverse dynamics of all {} joints takes {:.0f} ns, {:.1f} million calls a second on one "
+      "\nSpeed: inverse dynamics of all {} joints takes {:.0f} ns, {:.1f} million calls a second "
+      "on one "
       "core\n       (median of 201 rounds over 4096 random states).\n",
       robot.nq, time, 1e3 / time);
 }

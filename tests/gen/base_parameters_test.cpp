@@ -77,8 +77,8 @@ TEST(BaseParameters, CountsAreTheJudgesRanksInStandardFramesToo) {
 
 /// The relations of tests/data/oracles/puma3_info.json for joint offsets r2 = r3 = 0.
 TEST(BaseParameters, Puma3RelationsAreTheClosedForm) {
-  const SymbolicRobot robot = make_symbolic(
-      with_unknown_parameters(read_model("robots/puma560_3dof.robot"), true));
+  const SymbolicRobot robot =
+      make_symbolic(with_unknown_parameters(read_model("robots/puma560_3dof.robot"), true));
   const auto symbol = [&](const std::string& name) -> GiNaC::ex {
     for (const FileSymbol& entry : robot.parameters) {
       if (entry.name == name) return entry.symbol;
@@ -87,22 +87,21 @@ TEST(BaseParameters, Puma3RelationsAreTheClosedForm) {
   };
   const GiNaC::ex L = GiNaC::numeric(4318, 10000);
   const GiNaC::ex M3 = symbol("M3"), YY2 = symbol("YY2"), YY3 = symbol("YY3");
-  const std::map<std::string, GiNaC::ex> wanted = {
-      {"ZZR1", symbol("ZZ1") + YY2 + YY3 + L * L * M3},
-      {"XXR2", symbol("XX2") - YY2 - L * L * M3},
-      {"XY2", symbol("XY2")},
-      {"XZR2", symbol("XZ2") - L * symbol("MZ3")},
-      {"YZ2", symbol("YZ2")},
-      {"ZZR2", symbol("ZZ2") + L * L * M3},
-      {"MXR2", symbol("MX2") + L * M3},
-      {"MY2", symbol("MY2")},
-      {"XXR3", symbol("XX3") - YY3},
-      {"XY3", symbol("XY3")},
-      {"XZ3", symbol("XZ3")},
-      {"YZ3", symbol("YZ3")},
-      {"ZZ3", symbol("ZZ3")},
-      {"MX3", symbol("MX3")},
-      {"MY3", symbol("MY3")}};
+  const std::map<std::string, GiNaC::ex> wanted = {{"ZZR1", symbol("ZZ1") + YY2 + YY3 + L * L * M3},
+                                                   {"XXR2", symbol("XX2") - YY2 - L * L * M3},
+                                                   {"XY2", symbol("XY2")},
+                                                   {"XZR2", symbol("XZ2") - L * symbol("MZ3")},
+                                                   {"YZ2", symbol("YZ2")},
+                                                   {"ZZR2", symbol("ZZ2") + L * L * M3},
+                                                   {"MXR2", symbol("MX2") + L * M3},
+                                                   {"MY2", symbol("MY2")},
+                                                   {"XXR3", symbol("XX3") - YY3},
+                                                   {"XY3", symbol("XY3")},
+                                                   {"XZ3", symbol("XZ3")},
+                                                   {"YZ3", symbol("YZ3")},
+                                                   {"ZZ3", symbol("ZZ3")},
+                                                   {"MX3", symbol("MX3")},
+                                                   {"MY3", symbol("MY3")}};
   const Regrouping grouping = regroup(robot);
   ASSERT_EQ(grouping.parameters.size(), wanted.size());
   for (const GroupedParameter& parameter : grouping.parameters) {
@@ -114,8 +113,8 @@ TEST(BaseParameters, Puma3RelationsAreTheClosedForm) {
 }
 
 TEST(BaseParameters, FirstRotorIsGroupedWithTheFirstInertia) {
-  const Regrouping grouping = regroup(make_symbolic(
-      with_unknown_parameters(read_model("robots/planar2r.robot"), false)));
+  const Regrouping grouping =
+      regroup(make_symbolic(with_unknown_parameters(read_model("robots/planar2r.robot"), false)));
   EXPECT_EQ(grouping.parameters.front().name(), "ZZR1");
   for (const GroupedParameter& parameter : grouping.parameters) {
     EXPECT_FALSE(parameter.column == (Column{1, Chi::kIA}));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The whole text of three tiny robots: what a change of the generator does to the code shows in review.
+// The whole text of three tiny robots: what a change of the generator does to the code shows in
+// review.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

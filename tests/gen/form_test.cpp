@@ -53,9 +53,7 @@ TEST_F(FormTest, SquareIsAProduct) {
   EXPECT_EQ(count(s(0) * s(0)).multiplications, 1);
 }
 
-TEST_F(FormTest, InnerSumKeepsItsBrackets) {
-  EXPECT_EQ(text(s(0) * (s(1) - s(2))), "a * (b - c)");
-}
+TEST_F(FormTest, InnerSumKeepsItsBrackets) { EXPECT_EQ(text(s(0) * (s(1) - s(2))), "a * (b - c)"); }
 
 TEST_F(FormTest, NumbersCountAsFactorsButSignsDoNot) {
   EXPECT_EQ(text(2 * s(0) - s(1)), "2.0 * a - b");
@@ -83,7 +81,8 @@ TEST(Exact, ZeroIsSeenThroughTwoRoads) {
   const GiNaC::ex same = GiNaC::sqrt(GiNaC::ex(2)) / 2 - GiNaC::sin(GiNaC::Pi / 4);
   EXPECT_TRUE(is_zero_number(same));
   EXPECT_TRUE(is_zero_number(exact_sin(GiNaC::numeric(3, 10)) * exact_sin(GiNaC::numeric(3, 10)) +
-                             exact_cos(GiNaC::numeric(3, 10)) * exact_cos(GiNaC::numeric(3, 10)) - 1));
+                             exact_cos(GiNaC::numeric(3, 10)) * exact_cos(GiNaC::numeric(3, 10)) -
+                             1));
   EXPECT_FALSE(is_zero_number(GiNaC::numeric(1) / GiNaC::pow(GiNaC::numeric(10), 60)));
 }
 

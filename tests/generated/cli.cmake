@@ -83,7 +83,18 @@ refuse(1 "a folder as header" ARGUMENTS ${robot} -o out/header_is_folder.c
 refuse(1 "a depfile that cannot be written" ARGUMENTS ${robot} -o out/x.c --depfile out/none/x.d
   SAYS "out/none/x.d: error: cannot write")
 
+# Numbers that the arithmetic cannot hold.
+file(WRITE ${WORK}/large.robot "number_link 2\nd 0 1\nm 1 1e39\nZZ 1 1\ngy 9.81\nstop\n")
+refuse(1 "too large for float" ARGUMENTS large.robot -o out/x.c --scalar float
+  SAYS "large.robot: error: ZZR1" "too large for float")
+
 # Wrong usage: exit 2.
+file(WRITE ${WORK}/robot.c "number_link 1\nZZ 1\ngy 9.81\nstop\n")
+refuse(2 "the robot file as output" ARGUMENTS robot.c -o robot.c SAYS "same file")
+refuse(2 "the output as depfile" ARGUMENTS ${robot} -o out/x.c --depfile out/x.c SAYS "same file")
+refuse(2 "the header as depfile" ARGUMENTS ${robot} -o out/x.c --depfile out/x.h SAYS "same file")
+refuse(2 "empty prefix" ARGUMENTS ${robot} -o out/x.c --prefix "" SAYS "--prefix")
+refuse(2 "inline float" ARGUMENTS ${robot} -o out/x.c --scalar float --trig inline SAYS "--trig")
 refuse(2 "no arguments" SAYS robot --help)
 refuse(2 "nothing to do" ARGUMENTS ${robot} SAYS "-o" "--count")
 refuse(2 "unknown option" ARGUMENTS ${robot} -o out/x.c --frobnicate SAYS --frobnicate --help)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sines and cosines that stand in the emitted code, against the C library in extended precision.
+// The sines and cosines that stand in the emitted code, against the C library in extended
+// precision.
 #include "gen/emit_c/inline_trig.h"
 
 #include <gtest/gtest.h>
@@ -49,9 +50,9 @@ TEST_P(InlineTrig, ErrorIsBelowOneUlp) {
   double worst = 0;
   for (int i = 0; i < kPoints; i += 4) {
     double x[4], s[4], c[4];
-    x[0] = 4.0 * unit(random);                                      // where joints are
-    x[1] = 4.9e4 * unit(random);                                    // the whole range
-    x[2] = std::round(3e4 * unit(random)) * 1.5707963267948966;     // next to zeros of sin and cos
+    x[0] = 4.0 * unit(random);                                   // where joints are
+    x[1] = 4.9e4 * unit(random);                                 // the whole range
+    x[2] = std::round(3e4 * unit(random)) * 1.5707963267948966;  // next to zeros of sin and cos
     x[3] = std::ldexp(unit(random), -static_cast<int>(random() % 60));  // small
     sincos4_(x, s, c);
     for (int k = 0; k < 4; ++k) {
@@ -94,7 +95,8 @@ INSTANTIATE_TEST_SUITE_P(Flags, InlineTrig,
                          [](const auto& flags) {
                            std::string name = flags.param;
                            std::replace_if(
-                               name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+                               name.begin(), name.end(), [](char c) { return !std::isalnum(c); },
+                               '_');
                            return name;
                          });
 

@@ -22,12 +22,19 @@ double thousandths(int range) { return *rc::gen::inRange(-range, range + 1) / 10
 double random_angle() {
   const double pi = std::acos(-1.0);
   switch (*rc::gen::inRange(0, 7)) {
-    case 0: case 1: return 0;
-    case 2: return pi / 2;
-    case 3: return -pi / 2;
-    case 4: return pi;
-    case 5: return pi / 3;
-    default: return thousandths(3000);
+    case 0:
+    case 1:
+      return 0;
+    case 2:
+      return pi / 2;
+    case 3:
+      return -pi / 2;
+    case 4:
+      return pi;
+    case 5:
+      return pi / 3;
+    default:
+      return thousandths(3000);
   }
 }
 

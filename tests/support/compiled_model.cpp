@@ -23,14 +23,18 @@ std::vector<double> call_as(void* function, const FunctionSpec& spec, const Moti
   const T* c = inputs.size() > 2 ? inputs[2].data() : nullptr;
   const T* d = inputs.size() > 3 ? inputs[3].data() : nullptr;
   switch (inputs.size()) {
-    case 1: reinterpret_cast<void (*)(const T*, T*)>(function)(a, tau.data()); break;
-    case 2: reinterpret_cast<void (*)(const T*, const T*, T*)>(function)(a, b, tau.data()); break;
+    case 1:
+      reinterpret_cast<void (*)(const T*, T*)>(function)(a, tau.data());
+      break;
+    case 2:
+      reinterpret_cast<void (*)(const T*, const T*, T*)>(function)(a, b, tau.data());
+      break;
     case 3:
       reinterpret_cast<void (*)(const T*, const T*, const T*, T*)>(function)(a, b, c, tau.data());
       break;
     default:
-      reinterpret_cast<void (*)(const T*, const T*, const T*, const T*, T*)>(function)(
-          a, b, c, d, tau.data());
+      reinterpret_cast<void (*)(const T*, const T*, const T*, const T*, T*)>(function)(a, b, c, d,
+                                                                                       tau.data());
   }
   return std::vector<double>(tau.begin(), tau.end());
 }

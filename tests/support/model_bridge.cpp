@@ -24,7 +24,8 @@ GiNaC::ex exact_decimal(double value) {
   const std::string shortest = fmt::format("{}", std::fabs(value));
   const std::size_t exponent_at = shortest.find('e');
   std::string digits = shortest.substr(0, exponent_at);
-  long exponent = exponent_at == std::string::npos ? 0 : std::stol(shortest.substr(exponent_at + 1));
+  long exponent =
+      exponent_at == std::string::npos ? 0 : std::stol(shortest.substr(exponent_at + 1));
   if (const std::size_t point = digits.find('.'); point != std::string::npos) {
     exponent -= static_cast<long>(digits.size() - point - 1);
     digits.erase(point, 1);

@@ -16,8 +16,8 @@ namespace dyngen::test {
 /// The model's numbers for the judge. @throws std::invalid_argument if something is unknown
 NumericRobot numeric_robot(const RobotModel& model);
 
-/// A model with the judge's numbers. Angles within 1e-12 of a multiple of pi/12 become exactly that,
-/// since the numbers of an oracle cannot say "right angle".
+/// A model with the judge's numbers. Angles within 1e-12 of a multiple of pi/12 become exactly
+/// that, since the numbers of an oracle cannot say "right angle".
 RobotModel robot_model(const NumericRobot& robot, const std::string& name = "robot");
 
 RobotModel read_model(const std::string& path_in_project);
@@ -43,8 +43,10 @@ std::vector<double> judge(const RobotModel& model, const NumericRobot& robot,
 /// A generated model that runs without a compiler.
 class EvaluatedModel {
  public:
-  /// @param values  a model with the same structure in which every quantity is known: where chi comes from
-  EvaluatedModel(const RobotModel& model, const RobotModel& values, const GeneratorOptions& options);
+  /// @param values  a model with the same structure in which every quantity is known: where chi
+  /// comes from
+  EvaluatedModel(const RobotModel& model, const RobotModel& values,
+                 const GeneratorOptions& options);
   /// The model's own numbers.
   EvaluatedModel(const RobotModel& model, const GeneratorOptions& options)
       : EvaluatedModel(model, model, options) {}

@@ -35,7 +35,8 @@ void run(const std::string& command) {
 
 }  // namespace
 
-SharedObject::SharedObject(const std::map<std::string, std::string>& files, const std::string& flags)
+SharedObject::SharedObject(const std::map<std::string, std::string>& files,
+                           const std::string& flags)
     : folder_(make_folder()) {
   const std::string object = folder_ + "/model.so";
   std::string command =

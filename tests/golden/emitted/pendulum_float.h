@@ -24,7 +24,7 @@ extern const char *const pendulum_chi_names[];
 extern const char *const pendulum_beta_names[];
 
 /* The numbers of the robot file, in the order of chi; NaN where the file says '*'. */
-extern const float pendulum_chi_values[PENDULUM_NCHI];
+extern const float pendulum_chi_values[];
 
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
