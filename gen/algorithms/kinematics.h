@@ -32,7 +32,7 @@ struct MotionTerms {
 
 /// Writes the forward recursion of customised Newton-Euler; element 0 is the base.
 ///
-/// Source: Khalil and Dombre, "Modeling, Identification and Control of Robots", 2002, section 9.5
+/// Source: Khalil and Dombre, "Modeling, Identification and Control of Robots", 2002, ch. 9
 /// (forward recursive computation with the matrices U). Where the axes are at right angles or
 /// parallel, the third column of U is carried over from the parent instead of WP: both links share
 /// the axis z, so U z is the same vector in both, and it does not depend on the joint's own rate.

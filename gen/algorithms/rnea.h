@@ -16,7 +16,7 @@ struct RneaTerms {
 
 /// Writes tau by customised Newton-Euler, as the output array "tau" (N m, N if prismatic).
 ///
-/// Source: Khalil and Dombre 2002, sections 9.5 and 9.6. The moment J WP + W x (J W) is written
+/// Source: Khalil and Dombre 2002, ch. 9. The moment J WP + W x (J W) is written
 /// with the elements of U, which the forces need anyway:
 ///   N1 = XX WP1 + (ZZ - YY) W2 W3 + XZ U21 - XY U31 + YZ (W2^2 - W3^2), and cyclically.
 void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms);
