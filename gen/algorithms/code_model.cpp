@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <functional>
 #include <utility>
 
@@ -14,10 +15,10 @@ namespace {
 
 using GiNaC::ex;
 
+/// "puma560.robot:9": without folders, since what is written must not depend on where dyngen ran.
 std::string origin(const std::string& file_name, int line) {
-  const std::size_t slash = file_name.find_last_of('/');
-  const std::string base = slash == std::string::npos ? file_name : file_name.substr(slash + 1);
-  return line > 0 ? fmt::format("{}:{}", base, line) : base;
+  const std::string name = std::filesystem::path(file_name).filename().string();
+  return line > 0 ? fmt::format("{}:{}", name, line) : name;
 }
 
 ex add_input(SymbolTable& table, const std::string& array, int index, int joint,

@@ -89,11 +89,6 @@ std::string wrap_arguments(const std::string& declaration) {
   return result + line;
 }
 
-std::string base_name(const std::string& path) {
-  const std::size_t slash = path.find_last_of('/');
-  return slash == std::string::npos ? path : path.substr(slash + 1);
-}
-
 std::string wrap_comment(const std::string& text, const std::string& first,
                          const std::string& next) {
   std::istringstream words(text);

@@ -38,9 +38,6 @@ std::string wrap_statement(const std::string& statement);
 /// Breaks a declaration at its commas, under the opening bracket.
 std::string wrap_arguments(const std::string& declaration);
 
-/// The file name without its folders: what is written must not depend on where it was run.
-std::string base_name(const std::string& path);
-
 /// A comment block of wrapped lines: " * text". @param first  what the first line starts with
 std::string wrap_comment(const std::string& text, const std::string& first,
                          const std::string& next);

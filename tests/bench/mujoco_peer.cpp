@@ -16,9 +16,9 @@
 namespace dyngen::bench {
 namespace {
 
-/// The tree with its geometry. The inertias are placeholders: MuJoCo's compiler refuses those that
-/// no solid body can have, such as the published link 3 of the PUMA 560, and they are set
-/// afterwards.
+/// The tree with its geometry. The inertias are not the robot's yet: MuJoCo's compiler refuses
+/// those that no solid body can have, such as the published link 3 of the PUMA 560, and they are
+/// set afterwards.
 std::string mjcf(const test::NumericRobot& robot) {
   const auto& a = robot.base_acceleration;
   std::string text =

@@ -51,9 +51,8 @@ TEST_P(EveryRobot, CompiledEqualsEvaluatedToTheLastBits) {
     GeneratorOptions options;
     options.parameters = mode;
     options.trig = Trig::kLibm;
-    // the same operations in the same order; the sine of another build of the library may differ in
-    // the last bit, and a long sum carries that to a few units of the largest torque's
-    EXPECT_LT(largest_difference(model, options), 2e-15) << GetParam();
+    // the same operations in the same order
+    EXPECT_LT(largest_difference(model, options), 4e-16) << GetParam();
     options.trig = Trig::kInline;
     // sines and cosines that differ in the last bit
     EXPECT_LT(largest_difference(model, options), 4e-15) << GetParam();
