@@ -6,6 +6,9 @@ dyngen_add_robot(<target> ROBOT file
   [PARAMETERS baked|runtime]      # default: baked
   [SCALAR double|float]           # default: double
   [TRIG inline|libm]              # sines and cosines; default: inline
+  [GRAVITY file|runtime]          # default: file
+  [WRENCH] [PAYLOAD]              # arguments of the functions: a wrench, a body on the last link
+  [NO_REGROUP]                    # keep the standard parameters
   [OUTPUT_DIR dir]                # in the build tree; default: dyngen/<target>
   [GENERATOR exe]                 # a program or a target that runs on this machine
   [CHECKED_IN dir])               # in the source tree: committed copies of <target>.c, <target>.h
@@ -27,8 +30,9 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.20...3.25)
 
 function(dyngen_add_robot target)
-  set(one_value ROBOT PREFIX PARAMETERS SCALAR TRIG OUTPUT_DIR GENERATOR CHECKED_IN)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "${one_value}" "FUNCTIONS")
+  set(flags WRENCH PAYLOAD NO_REGROUP)
+  set(one_value ROBOT PREFIX PARAMETERS SCALAR TRIG GRAVITY OUTPUT_DIR GENERATOR CHECKED_IN)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "${flags}" "${one_value}" "FUNCTIONS")
   set(where "dyngen_add_robot(${target})")
 
   # What was asked for.
@@ -39,7 +43,9 @@ function(dyngen_add_robot target)
   if(arg_UNPARSED_ARGUMENTS)
     list(GET arg_UNPARSED_ARGUMENTS 0 word)
     list(JOIN one_value ", " expected)
-    message(FATAL_ERROR "${where}: unknown argument '${word}'; expected ${expected}, FUNCTIONS")
+    list(JOIN flags ", " expected_flags)
+    message(FATAL_ERROR
+      "${where}: unknown argument '${word}'; expected ${expected}, ${expected_flags}, FUNCTIONS")
   endif()
   if(TARGET ${target})
     message(FATAL_ERROR "${where}: a target of this name exists already")
@@ -51,10 +57,11 @@ function(dyngen_add_robot target)
   if(NOT EXISTS "${robot}" OR IS_DIRECTORY "${robot}")
     message(FATAL_ERROR "${where}: ROBOT: there is no file '${robot}'")
   endif()
-  _dyngen_check_choice(FUNCTIONS arg_FUNCTIONS all id gravity coriolis friction)
+  _dyngen_check_choice(FUNCTIONS arg_FUNCTIONS all id id_rigid gravity coriolis friction)
   _dyngen_check_choice(PARAMETERS arg_PARAMETERS baked runtime)
   _dyngen_check_choice(SCALAR arg_SCALAR double float)
   _dyngen_check_choice(TRIG arg_TRIG inline libm)
+  _dyngen_check_choice(GRAVITY arg_GRAVITY file runtime)
   set(identifier "^[A-Za-z_][A-Za-z0-9_]*$")
   if(DEFINED arg_PREFIX AND NOT arg_PREFIX MATCHES "${identifier}")
     message(FATAL_ERROR "${where}: PREFIX: '${arg_PREFIX}' is not a C identifier; "
@@ -104,10 +111,17 @@ function(dyngen_add_robot target)
       list(JOIN arg_FUNCTIONS "," functions)
       list(APPEND options --functions ${functions})
     endif()
-    foreach(keyword IN ITEMS PARAMETERS SCALAR TRIG)
+    foreach(keyword IN ITEMS PARAMETERS SCALAR TRIG GRAVITY)
       if(DEFINED arg_${keyword})
         string(TOLOWER ${keyword} option)
         list(APPEND options --${option} ${arg_${keyword}})
+      endif()
+    endforeach()
+    foreach(flag IN LISTS flags)
+      if(arg_${flag})
+        string(TOLOWER ${flag} option)
+        string(REPLACE "_" "-" option ${option})
+        list(APPEND options --${option})
       endif()
     endforeach()
     file(MAKE_DIRECTORY "${output}")

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <utility>
@@ -21,11 +22,13 @@ std::string origin(const std::string& file_name, int line) {
   return line > 0 ? fmt::format("{}:{}", name, line) : name;
 }
 
-ex add_input(SymbolTable& table, const std::string& array, int index, int joint,
-             const std::string& unit) {
+/// @param shared  one for all samples of a batch
+ex add_input(SymbolTable& table, const std::string& array, int index, const std::string& suffix,
+             const std::string& unit, bool shared = false) {
   SymbolInfo info;
-  info.name = fmt::format("{}_{}", array, joint);
+  info.name = fmt::format("{}_{}", array == "tau" ? "tau_in" : array, suffix);
   info.kind = SymbolKind::kInput;
+  info.shared = shared;
   info.unit = unit;
   info.array = array;
   info.index = index;
@@ -40,6 +43,7 @@ ex add_chi(CodeModel& code, ChiEntry entry) {
   info.comment = entry.comment;
   info.array = "chi";
   info.index = static_cast<int>(code.chi.size());
+  info.shared = true;
   code.takes_chi = true;
   code.chi.push_back(std::move(entry));
   return code.inputs.add(std::move(info));
@@ -91,15 +95,42 @@ std::string formula_text(const ex& value, const SymbolicRobot& robot) {
   return text;
 }
 
+bool is_gravity(const SymbolicRobot& robot, const ex& symbol) {
+  return std::any_of(robot.gravity.begin(), robot.gravity.end(),
+                     [&](const ex& component) { return component.is_equal(symbol); });
+}
+
+/// A body on the last link: its parameters add to the link's.
+void add_payload(CodeModel& code) {
+  CodeLink& last = code.links.back();
+  for (std::size_t k = 0; k < kInertialCount; ++k) {
+    last.chi[k] += add_input(code.inputs, "payload", static_cast<int>(k), std::string(kChiNames[k]),
+                             std::string(chi_unit(static_cast<Chi>(k), true)), true);
+  }
+}
+
+void add_wrench(CodeModel& code) {
+  for (std::size_t k = 0; k < code.wrench.size(); ++k) {
+    code.wrench[k] = add_input(code.inputs, "wrench", static_cast<int>(k), std::to_string(k + 1),
+                               k < 3 ? "N" : "N m");
+  }
+}
+
 }  // namespace
 
-CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> beta,
-                          ParameterMode mode) {
+CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedParameter>& base,
+                          const CodeOptions& options) {
+  const ParameterMode mode = options.parameters;
   const SymbolicRobot& robot = grouping.robot;
   CodeModel code;
   code.name = robot.name;
   code.file_name = robot.file_name;
-  code.beta = std::move(beta);
+  for (const GroupedParameter& parameter : base) {
+    code.beta.push_back(parameter.name());
+    code.beta_columns.push_back(parameter.column);
+  }
+  code.options = options;
+  code.wrench.fill(0);
   code.takes_chi = mode == ParameterMode::kRuntime;
 
   for (const SymbolicLink& link : robot.links) {
@@ -124,6 +155,7 @@ CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> b
     const Column column = parameter.column;
     const bool revolute = robot.link(column.link).type != JointType::kPrismatic;
     const ex value = with_known_values(parameter.value, robot);
+    code.chi_columns.push_back(column);
     ChiEntry entry;
     entry.name = parameter.name();
     entry.unit = chi_unit(column.kind, revolute);
@@ -143,6 +175,7 @@ CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> b
     }
   }
   for (const FileSymbol& length : robot.geometry) {
+    if (options.gravity && is_gravity(robot, length.symbol)) continue;
     geometry[length.symbol] = add_chi(
         code, {length.name, length.unit, origin(robot.file_name, length.line), std::nullopt});
   }
@@ -151,6 +184,7 @@ CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> b
         value.subs(geometry);
   }
 
+  if (options.payload) add_payload(code);
   for (std::size_t j = 0; j < robot.links.size(); ++j) {
     const SymbolicLink& link = robot.links[j];
     const auto length = [&](const ex& value, const char* name, int line) {
@@ -164,6 +198,12 @@ CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> b
   constexpr std::array<const char*, 3> kGravityNames = {"GX", "GY", "GZ"};
   for (std::size_t k = 0; k < 3; ++k) {
     const ex& value = robot.gravity[k];
+    if (options.gravity) {
+      code.gravity[k] = add_input(code.inputs, "gravity", static_cast<int>(k),
+                                  std::string(1, "xyz"[k]), "m/s^2", true);
+      geometry[value] = code.gravity[k];
+      continue;
+    }
     code.gravity[k] = is_number(value)
                           ? add_constant(code.inputs, kGravityNames[k], value, "m/s^2",
                                          origin(robot.file_name, robot.gravity_lines[k]))
@@ -175,13 +215,38 @@ CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> b
       CodeLink& link = code.links[static_cast<std::size_t>(j - 1)];
       if (link.coordinate < 0) continue;
       const std::string unit = (link.type == JointType::kRevolute ? "rad" : "m") + per_time;
-      link.*member = add_input(code.inputs, array, link.coordinate, j, unit);
+      link.*member = add_input(code.inputs, array, link.coordinate, std::to_string(j), unit);
     }
   };
   add_inputs("q", &CodeLink::q, "");
   add_inputs("dq", &CodeLink::dq, "/s");
   add_inputs("ddq", &CodeLink::ddq, "/s^2");
+  for (int j = 1; j <= code.size(); ++j) {
+    CodeLink& link = code.links[static_cast<std::size_t>(j - 1)];
+    if (link.coordinate < 0) continue;
+    link.tau = add_input(code.inputs, "tau", link.coordinate, std::to_string(j),
+                         link.type == JointType::kRevolute ? "N m" : "N");
+  }
+  if (options.wrench) add_wrench(code);
   return code;
+}
+
+std::vector<CodeLink> with_named_parameters(Trace& trace, const CodeModel& code) {
+  std::vector<CodeLink> links = code.links;
+  const auto is_sum = [](const ex& value) {
+    return !value.is_zero() && !GiNaC::is_a<GiNaC::symbol>(value) && !is_number(value);
+  };
+  const bool any = std::any_of(links.begin(), links.end(), [&](const CodeLink& link) {
+    return std::any_of(link.chi.begin(), link.chi.end(), is_sum);
+  });
+  if (any) trace.section("parameters that are sums");
+  for (int j = 1; j <= code.size(); ++j) {
+    for (std::size_t k = 0; k < kChiCount; ++k) {
+      ex& value = links[static_cast<std::size_t>(j - 1)].chi[k];
+      if (is_sum(value)) value = trace.assign(fmt::format("{}_{}", kChiNames[k], j), value);
+    }
+  }
+  return links;
 }
 
 }  // namespace dyngen

@@ -10,6 +10,7 @@
 
 #include "gen/base_parameters/base_parameters.h"
 #include "gen/symbols/symbol_table.h"
+#include "gen/trace/trace.h"
 
 namespace dyngen {
 
@@ -17,6 +18,14 @@ namespace dyngen {
 enum class ParameterMode {
   kBaked,   ///< numbers of the file stand in the code; only unknown ones are read from chi
   kRuntime  ///< all are read from chi
+};
+
+/// What the emitted functions take as arguments besides the motion.
+struct CodeOptions {
+  ParameterMode parameters = ParameterMode::kBaked;
+  bool gravity = false;  ///< gravity[3]: the base's acceleration -g in frame 0, m/s^2
+  bool wrench = false;   ///< wrench[6]: on the last link
+  bool payload = false;  ///< payload[10]: a body on the last link
 };
 
 /// One entry of chi.
@@ -36,8 +45,9 @@ struct CodeLink {
   GiNaC::ex theta = 0;  ///< exact
   GiNaC::ex d = 0;
   GiNaC::ex r = 0;
-  std::array<GiNaC::ex, kChiCount> chi;
-  GiNaC::ex q = 0, dq = 0, ddq = 0;  ///< inputs; 0 for a fixed joint
+  std::array<GiNaC::ex, kChiCount> chi;  ///< 0, a symbol, or a sum (see with_named_parameters())
+  GiNaC::ex q = 0, dq = 0, ddq = 0;      ///< inputs; 0 for a fixed joint
+  GiNaC::ex tau = 0;                     ///< input of the forward dynamics
   int coordinate = -1;
 };
 
@@ -48,19 +58,28 @@ struct CodeModel {
   SymbolTable inputs;           ///< q, dq, ddq, chi, and the named numbers of the file
   std::vector<CodeLink> links;  ///< links[j - 1] is link j
   std::array<GiNaC::ex, 3> gravity;
+  /// Force and moment about the last link's origin that its environment applies, in its frame.
+  std::array<GiNaC::ex, 6> wrench;
   std::vector<ChiEntry> chi;  ///< dynamic parameters, then unknown lengths and gravity components
-  std::vector<std::string> beta;  ///< names of the base parameters
+  std::vector<Column> chi_columns;  ///< what the dynamic parameters in chi are: its first entries
+  std::vector<std::string> beta;    ///< names of the base parameters
+  std::vector<Column> beta_columns;
   std::vector<std::string> coordinate_names;
   std::vector<bool> coordinate_revolute;
   bool takes_chi = false;  ///< the functions have an argument chi: some entry of it is read
+  CodeOptions options;
 
   [[nodiscard]] int size() const { return static_cast<int>(links.size()); }
   [[nodiscard]] const CodeLink& link(int j) const { return links[static_cast<std::size_t>(j - 1)]; }
 };
 
 /// @param grouping  the parameters to use: regroup(robot) or keep_standard(robot)
-/// @param beta      names of the base parameters (of regroup(robot))
-CodeModel make_code_model(const Regrouping& grouping, std::vector<std::string> beta,
-                          ParameterMode mode);
+/// @param base      the base parameters: of regroup(robot)
+CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedParameter>& base,
+                          const CodeOptions& options);
+
+/// The links with one name for each parameter that is a sum (with a payload, or of lengths).
+/// @param trace  gets the statements
+std::vector<CodeLink> with_named_parameters(Trace& trace, const CodeModel& code);
 
 }  // namespace dyngen

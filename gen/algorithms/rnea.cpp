@@ -72,6 +72,12 @@ void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms) {
 
   std::vector<Wrench> total(code.links.size() + 1);  // of the links that hang on each
   std::vector<ex> torque(code.links.size() + 1);
+  if (terms.wrench) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      total.back().force[k] = -code.wrench[k];
+      total.back().moment[k] = -code.wrench[k + 3];
+    }
+  }
   for (int j = code.size(); j >= 1; --j) {
     const CodeLink& link = code.link(j);
     const std::size_t at = static_cast<std::size_t>(j);

@@ -12,6 +12,7 @@ struct RneaTerms {
   MotionTerms motion;
   bool rotor = true;     ///< IA ddq
   bool friction = true;  ///< FS sign(dq) + FV dq + OFF
+  bool wrench = true;    ///< the last link's, if the model has one
 };
 
 /// Writes tau by customised Newton-Euler, as the output array "tau" (N m, N if prismatic).

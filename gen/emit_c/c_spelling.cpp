@@ -47,7 +47,8 @@ std::string CSpelling::form(const Form& form) const {
     if (form.call == "sign") return options_.prefix + "_sign(" + argument + ")";
     return form.call + (options_.scalar == Scalar::kFloat ? "f(" : "(") + argument + ")";
   }
-  if (form.kind == Form::Kind::kSum || form.kind == Form::Kind::kProduct) {
+  if (form.kind == Form::Kind::kSum || form.kind == Form::Kind::kProduct ||
+      form.kind == Form::Kind::kQuotient) {
     return join_operands(form, [this](const Form& part) { return this->form(part); });
   }
   return form.kind == Form::Kind::kNumber ? number(form.leaf) : symbol(form.leaf);

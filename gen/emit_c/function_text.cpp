@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "gen/emit_c/c_spelling.h"
@@ -10,6 +11,8 @@
 
 namespace dyngen {
 namespace {
+
+constexpr std::size_t kColumns = 100;
 
 /// What one function reads, found in its statements.
 struct Reads {
@@ -45,6 +48,38 @@ std::string array_legend(const CodeModel& code, std::string_view array, const ch
   const std::size_t n = code.coordinate_revolute.size();
   if (prismatic.empty()) return fmt::format("{}[{}] {}", array, n, revolute_unit);
   return fmt::format("{}[{}] {} ({} at{})", array, n, revolute_unit, prismatic_unit, prismatic);
+}
+
+/// What an argument holds: "q[6] rad", "M[36] kg m^2, 6 x 6 row-major, out".
+std::string argument_legend(const CodeModel& code, const FunctionSpec& spec,
+                            const Argument& argument, const EmitOptions& options) {
+  const std::string& name = argument.name;
+  const auto joints = [&](const char* revolute, const char* prismatic) {
+    return array_legend(code, name, revolute, prismatic);
+  };
+  if (argument.output) {
+    const auto output = std::find_if(spec.outputs.begin(), spec.outputs.end(),
+                                     [&](const OutputSpec& entry) { return entry.array == name; });
+    if (output->unit.empty()) return joints("N m", "N") + ", out";
+    std::string text = fmt::format("{}[{}] {}", name, argument.size(), output->unit);
+    if (argument.rows > 1 && argument.columns > 1) {
+      text += fmt::format(", {} x {} row-major", argument.rows, argument.columns);
+    }
+    return text + ", out";
+  }
+  if (name == "q") return joints("rad", "m");
+  if (name == "dq") return joints("rad/s", "m/s");
+  if (name == "ddq") return joints("rad/s^2", "m/s^2");
+  if (name == "tau") return joints("N m", "N");
+  if (name == "chi") return fmt::format("chi[{}] see enum {}_chi", argument.size(), options.prefix);
+  if (name == "gravity") return "gravity[3] m/s^2: acceleration of the base, -g, in frame 0";
+  if (name == "wrench") {
+    return "wrench[6] N, N m: on the last link, about its origin, in its frame";
+  }
+  if (name == "payload") {
+    return "payload[10] XX XY XZ YY YZ ZZ MX MY MZ M of a body on the last link, in its frame";
+  }
+  return fmt::format("{}[{}]", name, argument.size());
 }
 
 std::string constants(const Trace& trace, const Reads& reads, const CSpelling& spelling) {
@@ -105,38 +140,36 @@ std::string function_comment(const CodeModel& code, const RobotFunction& functio
                              const EmitOptions& options) {
   const FunctionSpec& spec = *function.spec;
   std::string text = wrap_comment(std::string(spec.summary), "/* ", " * ") + "\n";
-  std::string arguments;
-  for (const std::string_view input : spec.inputs) {
-    const bool q = input == "q", dq = input == "dq";
-    arguments += array_legend(code, input,
-                              q    ? "rad"
-                              : dq ? "rad/s"
-                                   : "rad/s^2",
-                              q    ? "m"
-                              : dq ? "m/s"
-                                   : "m/s^2") +
-                 "   ";
+  std::string written;
+  std::string line = " *";
+  for (const Argument& argument : arguments(spec, code)) {
+    const std::string entry = "   " + argument_legend(code, spec, argument, options);
+    if (line.size() > 2 && line.size() + entry.size() > kColumns) {
+      text += line + "\n";
+      line = " *";
+    }
+    line += entry;
+    if (argument.output) written += (written.empty() ? "" : ", ") + argument.name;
   }
-  if (code.takes_chi) {
-    arguments += fmt::format("chi[{}] see enum {}_chi   ", code.chi.size(), options.prefix);
-  }
-  arguments += array_legend(code, spec.output, "N m", "N") + ", out";
-  text += " *   " + arguments + "\n";
+  text += line + "\n";
   const OperationCount count = function.trace.count();
   text += fmt::format(
-      " * {} mul, {} add, {} sin/cos, {} sgn.  Reads every input before writing {}. */\n",
-      count.multiplications, count.additions, count.sin_cos_pairs, count.signs, spec.output);
+      " * {} mul, {} add, {} sin/cos, {} sgn{}.  Reads every input before writing {}. */\n",
+      count.multiplications, count.additions, count.sin_cos_pairs, count.signs,
+      count.divisions > 0 ? fmt::format(", {} div", count.divisions) : "", written);
   return text;
 }
 
 std::string signature(const CodeModel& code, const FunctionSpec& spec, const EmitOptions& options) {
   const char* scalar = options.scalar == Scalar::kDouble ? "double" : "float";
   std::string text = fmt::format("void {}_{}(", options.prefix, spec.name);
-  for (const std::string_view input : spec.inputs) {
-    text += fmt::format("const {} *{}, ", scalar, input);
+  bool first = true;
+  for (const Argument& argument : arguments(spec, code)) {
+    text += fmt::format("{}{}{} *{}", first ? "" : ", ", argument.output ? "" : "const ", scalar,
+                        argument.name);
+    first = false;
   }
-  if (code.takes_chi) text += fmt::format("const {} *chi, ", scalar);
-  return text + fmt::format("{} *{})", scalar, spec.output);
+  return text + ")";
 }
 
 std::string function_definition(const CodeModel& code, const RobotFunction& function,
@@ -154,24 +187,25 @@ std::string function_definition(const CodeModel& code, const RobotFunction& func
     text += "\n  /* sines and cosines of the joint angles */\n";
     text += gathered_angles(trace, angles, spelling, options);
   }
-  int section = angles.empty() ? 0 : 1;  // the first section holds the angles
+  int section = 0;
   for (const Assignment& assignment : trace.assignments()) {
     if (is_one_of(angles, assignment.target)) continue;
+    const std::string gathered = gathered_value(assignment.value, angles);
+    if (assignment.section != section && !gathered.empty()) section = assignment.section;
     if (assignment.section != section) {
       section = assignment.section;
       const std::string& title = trace.sections()[static_cast<std::size_t>(section)];
       text += "\n" + wrap_comment(title, "  /* ", "   * ") + " */\n";
     }
-    const std::string gathered = gathered_value(assignment.value, angles);
     text += gathered.empty() ? statement(assignment, spelling)
                              : fmt::format("  const {} {} = {};\n", spelling.scalar(),
                                            spelling.symbol(assignment.target), gathered);
   }
   if (!text.ends_with("{\n")) text += "\n";
-  for (const std::string_view input : function.spec->inputs) {
-    if (!reads.arrays.contains(std::string(input))) text += fmt::format("  (void){};\n", input);
+  for (const Argument& argument : arguments(*function.spec, code)) {
+    if (argument.output || reads.arrays.contains(argument.name)) continue;
+    text += fmt::format("  (void){};\n", argument.name);
   }
-  if (code.takes_chi && !reads.arrays.contains("chi")) text += "  (void)chi;\n";
   for (const Output& output : trace.outputs()) {
     text += wrap_statement(fmt::format("  {}[{}] = {};", output.array, output.index,
                                        spelling.expression(output.value)));

@@ -10,39 +10,83 @@ namespace {
 
 void write_id(Trace& trace, const CodeModel& code) { write_rnea(trace, code, RneaTerms{}); }
 
+void write_id_rigid(Trace& trace, const CodeModel& code) {
+  RneaTerms terms;
+  terms.friction = false;
+  write_rnea(trace, code, terms);
+}
+
 void write_gravity(Trace& trace, const CodeModel& code) {
   RneaTerms terms;
   terms.motion = {.velocity = false, .acceleration = false, .gravity = true};
-  terms.rotor = terms.friction = false;
+  terms.rotor = terms.friction = terms.wrench = false;
   write_rnea(trace, code, terms);
 }
 
 void write_coriolis(Trace& trace, const CodeModel& code) {
   RneaTerms terms;
   terms.motion = {.velocity = true, .acceleration = false, .gravity = false};
-  terms.rotor = terms.friction = false;
+  terms.rotor = terms.friction = terms.wrench = false;
   write_rnea(trace, code, terms);
 }
 
+constexpr ExtraInputs kAll = {.gravity = true, .wrench = true, .payload = true};
+
+OutputSpec joint_torque() { return {.array = "tau"}; }
+
 }  // namespace
+
+int extent_size(Extent extent, const CodeModel& code) {
+  switch (extent) {
+    case Extent::kOne:
+      return 1;
+    case Extent::kThree:
+      return 3;
+    case Extent::kFour:
+      return 4;
+    case Extent::kSix:
+      return 6;
+    case Extent::kJoints:
+      return static_cast<int>(code.coordinate_names.size());
+    case Extent::kChi:
+      return static_cast<int>(code.chi.size());
+    case Extent::kBeta:
+      return static_cast<int>(code.beta.size());
+  }
+  return 0;
+}
 
 const std::vector<FunctionSpec>& function_catalogue() {
   static const std::vector<FunctionSpec> kCatalogue = {
       {"id",
        {"q", "dq", "ddq"},
-       "tau",
+       {joint_torque()},
+       kAll,
        "tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler "
        "[KD02, ch. 9].",
        write_id},
-      {"gravity", {"q"}, "tau", "tau = g(q): the torque that holds the arm still.", write_gravity},
+      {"id_rigid",
+       {"q", "dq", "ddq"},
+       {joint_torque()},
+       kAll,
+       "tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.",
+       write_id_rigid},
+      {"gravity",
+       {"q"},
+       {joint_torque()},
+       {.gravity = true, .payload = true},
+       "tau = g(q): the torque that holds the arm still.",
+       write_gravity},
       {"coriolis",
        {"q", "dq"},
-       "tau",
+       {joint_torque()},
+       {.payload = true},
        "tau = c(q, dq): Coriolis and centrifugal torque.",
        write_coriolis},
       {"friction",
        {"dq"},
-       "tau",
+       {joint_torque()},
+       {},
        "tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.",
        write_friction},
   };
@@ -56,9 +100,39 @@ const FunctionSpec* find_function(std::string_view name) {
   return it == catalogue.end() ? nullptr : &*it;
 }
 
+std::string catalogue_names() {
+  std::string names;
+  for (const FunctionSpec& spec : function_catalogue()) {
+    names += (names.empty() ? "" : ", ") + std::string(spec.name);
+  }
+  return names;
+}
+
+std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code) {
+  std::vector<Argument> result;
+  const int joints = extent_size(Extent::kJoints, code);
+  const auto add = [&](std::string_view name, int size, bool shared) {
+    result.push_back({.name = std::string(name), .rows = size, .shared = shared});
+  };
+  for (const std::string_view name : spec.inputs) add(name, joints, false);
+  if (code.options.gravity && spec.reads.gravity) add("gravity", 3, true);
+  if (code.options.wrench && spec.reads.wrench) add("wrench", 6, false);
+  if (code.options.payload && spec.reads.payload) add("payload", kInertialCount, true);
+  if (code.takes_chi) add("chi", static_cast<int>(code.chi.size()), true);
+  for (const OutputSpec& output : spec.outputs) {
+    result.push_back({.name = std::string(output.array),
+                      .rows = extent_size(output.rows, code),
+                      .columns = extent_size(output.columns, code),
+                      .output = true});
+  }
+  return result;
+}
+
 RobotFunction write_function(const FunctionSpec& spec, const CodeModel& code) {
   RobotFunction function{&spec, Trace(&code.inputs)};
-  spec.write(function.trace, code);
+  CodeModel named = code;
+  named.links = with_named_parameters(function.trace, code);
+  spec.write(function.trace, named);
   function.trace.drop_dead_code();
   return function;
 }

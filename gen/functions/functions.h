@@ -10,11 +10,31 @@
 
 namespace dyngen {
 
+/// One side of an array; of the model or fixed.
+enum class Extent { kOne, kThree, kFour, kSix, kJoints, kChi, kBeta };
+int extent_size(Extent extent, const CodeModel& code);
+
+/// An output array, row-major.
+struct OutputSpec {
+  std::string_view array;  ///< "tau", "M"
+  Extent rows = Extent::kJoints;
+  Extent columns = Extent::kOne;
+  std::string_view unit{};  ///< for the comment; empty: torque of each joint
+};
+
+/// What a function may read besides the motion, if the options ask for it.
+struct ExtraInputs {
+  bool gravity = false;  ///< gravity[3]
+  bool wrench = false;   ///< wrench[6]
+  bool payload = false;  ///< payload[10]
+};
+
 /// A function that dyngen can write: the one place that knows its name, inputs and meaning.
 struct FunctionSpec {
   std::string_view name;                 ///< without the prefix
-  std::vector<std::string_view> inputs;  ///< "q", "dq", "ddq", each with one value per coordinate
-  std::string_view output;               ///< "tau", one value per coordinate
+  std::vector<std::string_view> inputs;  ///< "q", "dq", "ddq", "tau": one value per coordinate
+  std::vector<OutputSpec> outputs;
+  ExtraInputs reads;
   std::string_view summary;
   void (*write)(Trace&, const CodeModel&);
 };
@@ -24,6 +44,24 @@ const std::vector<FunctionSpec>& function_catalogue();
 
 /// @return null if there is none of this name
 const FunctionSpec* find_function(std::string_view name);
+
+/// "id, gravity": for messages.
+std::string catalogue_names();
+
+/// An argument of an emitted function.
+struct Argument {
+  std::string name;
+  int rows = 1;
+  int columns = 1;
+  bool output = false;
+  bool shared = false;  ///< a batch has one of it for all samples
+
+  [[nodiscard]] int size() const { return rows * columns; }
+};
+
+/// The arguments in the order of the C function: q, dq, ddq or tau, gravity, wrench, payload, chi,
+/// outputs. The one definition of a function's signature.
+std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code);
 
 /// A function of one robot.
 struct RobotFunction {

@@ -16,12 +16,10 @@ bool is_c_identifier(const std::string& text) {
          std::all_of(text.begin(), text.end(), word);
 }
 
-std::string catalogue_names() {
-  std::string names;
-  for (const FunctionSpec& spec : function_catalogue()) {
-    names += (names.empty() ? "" : ", ") + std::string(spec.name);
-  }
-  return names;
+/// Base parameters must then do for gravity in any direction.
+RobotModel with_unknown_gravity(RobotModel model) {
+  for (Quantity& component : model.gravity) component.unknown = true;
+  return model;
 }
 
 }  // namespace
@@ -40,13 +38,18 @@ void GeneratorOptions::validate() const {
   }
 }
 
+SymbolicRobot make_symbolic(const RobotModel& model, const GeneratorOptions& options) {
+  return make_symbolic(options.gravity ? with_unknown_gravity(model) : model);
+}
+
 CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& options) {
-  const SymbolicRobot robot = make_symbolic(model);
+  const SymbolicRobot robot = make_symbolic(model, options);
   const Regrouping base = regroup(robot);
-  std::vector<std::string> beta;
-  for (const GroupedParameter& parameter : base.parameters) beta.push_back(parameter.name());
-  return make_code_model(options.regroup ? base : keep_standard(robot), std::move(beta),
-                         options.parameters);
+  return make_code_model(options.regroup ? base : keep_standard(robot), base.parameters,
+                         {.parameters = options.parameters,
+                          .gravity = options.gravity,
+                          .wrench = options.wrench,
+                          .payload = options.payload});
 }
 
 std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options) {
@@ -74,18 +77,18 @@ CText generate(const RobotModel& model, const GeneratorOptions& options) {
 std::string count_table(const CodeModel& code, const std::vector<RobotFunction>& functions) {
   std::string text = fmt::format("{}: {} joints, {} base parameters\n", code.name,
                                  code.coordinate_names.size(), code.beta.size());
-  text += fmt::format("{:<12}{:>6}{:>6}{:>8}{:>9}{:>6}\n", "function", "mul", "add", "mul+add",
-                      "sin/cos", "sgn");
+  text += fmt::format("{:<18}{:>6}{:>6}{:>8}{:>9}{:>6}{:>6}\n", "function", "mul", "add", "mul+add",
+                      "sin/cos", "sgn", "div");
   for (const RobotFunction& function : functions) {
     const OperationCount count = function.trace.count();
-    text +=
-        fmt::format("{:<12}{:>6}{:>6}{:>8}{:>9}{:>6}\n", function.spec->name, count.multiplications,
-                    count.additions, count.total(), count.sin_cos_pairs, count.signs);
+    text += fmt::format("{:<18}{:>6}{:>6}{:>8}{:>9}{:>6}{:>6}\n", function.spec->name,
+                        count.multiplications, count.additions, count.total(), count.sin_cos_pairs,
+                        count.signs, count.divisions);
   }
   const int n = static_cast<int>(code.coordinate_names.size());
   const int mul = 105 * n - 92, add = 94 * n - 86;
   text += fmt::format(
-      "{:<12}{:>6}{:>6}{:>8}   (105n - 92, 94n - 86: inverse dynamics of any arm, n = {})\n",
+      "{:<18}{:>6}{:>6}{:>8}   (105n - 92, 94n - 86: inverse dynamics of any arm, n = {})\n",
       "bound", mul, add, mul + add, n);
   return text;
 }

@@ -8,6 +8,7 @@
 #include "gen/emit_c/emit_c.h"
 #include "gen/functions/functions.h"
 #include "gen/model/robot_model.h"
+#include "gen/symbols/symbolic_robot.h"
 
 namespace dyngen {
 
@@ -15,7 +16,10 @@ namespace dyngen {
 struct GeneratorOptions {
   std::vector<std::string> functions;  ///< names of the catalogue; empty: all
   ParameterMode parameters = ParameterMode::kBaked;
-  bool regroup = true;  ///< use base parameters
+  bool regroup = true;   ///< use base parameters
+  bool gravity = false;  ///< gravity is an argument; the file's is ignored
+  bool wrench = false;   ///< a wrench on the last link is an argument
+  bool payload = false;  ///< the parameters of a body on the last link are an argument
   Scalar scalar = Scalar::kDouble;
   Trig trig = Trig::kInline;  ///< the C library's with kFloat, whatever this says
   std::string prefix;         ///< empty: the robot's name
@@ -24,6 +28,9 @@ struct GeneratorOptions {
   /// @throws std::invalid_argument  naming the option, what was found and what was expected
   void validate() const;
 };
+
+/// The robot's symbols; those of gravity too if it is an argument.
+SymbolicRobot make_symbolic(const RobotModel& model, const GeneratorOptions& options);
 
 /// From the checked robot to what the algorithms see.
 CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& options);

@@ -13,29 +13,40 @@ namespace {
 constexpr std::size_t kBlock =
     64;  // samples at once: registers of a 7-joint program stay in the cache
 
-std::span<const double> input_array(const BatchInputs& inputs, const std::string& name) {
-  if (name == "q") return inputs.q;
-  if (name == "dq") return inputs.dq;
-  if (name == "ddq") return inputs.ddq;
-  return inputs.chi;
+template <class Array>
+const Array& find_array(const std::vector<Array>& arrays, const std::string& name,
+                        std::size_t wanted) {
+  for (const Array& array : arrays) {
+    if (array.name != name) continue;
+    if (array.values.size() >= wanted) return array;
+    throw std::invalid_argument("evaluate(): " + name + " has " +
+                                std::to_string(array.values.size()) +
+                                " values, expected at least " + std::to_string(wanted));
+  }
+  throw std::invalid_argument("evaluate(): there is no array " + name);
 }
 
-void check_sizes(const Program& program, std::size_t samples, const BatchInputs& inputs,
-                 std::span<const double> tau) {
-  const auto check = [&](const std::string& name, std::size_t size, std::size_t wanted) {
-    if (size < wanted) {
-      throw std::invalid_argument("evaluate(): " + name + " has " + std::to_string(size) +
-                                  " values, expected at least " + std::to_string(wanted));
-    }
-  };
+/// Where the values of each input and result of a program stand, all checked.
+struct Places {
+  std::vector<const double*> inputs;
+  std::vector<double*> results;
+};
+
+Places find_places(const Program& program, std::size_t samples,
+                   const std::vector<InputArray>& inputs, const std::vector<OutputArray>& outputs) {
+  Places places;
   for (const Program::Input& input : program.inputs) {
-    const std::size_t elements = static_cast<std::size_t>(input.index) + 1;
-    check(input.array, input_array(inputs, input.array).size(),
-          input.array == "chi" ? elements : elements * samples);
+    const std::size_t index = static_cast<std::size_t>(input.index);
+    const std::size_t per_element = input.shared ? 1 : samples;
+    const InputArray& array = find_array(inputs, input.array, (index + 1) * per_element);
+    places.inputs.push_back(array.values.data() + index * per_element);
   }
   for (const Program::Result& result : program.results) {
-    check("tau", tau.size(), (static_cast<std::size_t>(result.index) + 1) * samples);
+    const std::size_t index = static_cast<std::size_t>(result.index);
+    const OutputArray& array = find_array(outputs, result.array, (index + 1) * samples);
+    places.results.push_back(array.values.data() + index * samples);
   }
+  return places;
 }
 
 double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
@@ -58,6 +69,9 @@ void run(const Instruction& instruction, double* registers, std::size_t count) {
     case Op::kMultiply:
       each([](double x, double y) { return x * y; });
       break;
+    case Op::kDivide:
+      each([](double x, double y) { return x / y; });
+      break;
     case Op::kNegate:
       each([](double x, double) { return -x; });
       break;
@@ -75,9 +89,9 @@ void run(const Instruction& instruction, double* registers, std::size_t count) {
 
 }  // namespace
 
-void evaluate(const Program& program, std::size_t samples, const BatchInputs& inputs,
-              std::span<double> tau) {
-  check_sizes(program, samples, inputs, tau);
+void evaluate(const Program& program, std::size_t samples, const std::vector<InputArray>& inputs,
+              const std::vector<OutputArray>& outputs) {
+  const Places places = find_places(program, samples, inputs, outputs);
   std::vector<double> registers(static_cast<std::size_t>(program.register_count) * kBlock, 0.0);
   const auto at = [&](int reg) {
     return registers.data() + static_cast<std::size_t>(reg) * kBlock;
@@ -87,23 +101,19 @@ void evaluate(const Program& program, std::size_t samples, const BatchInputs& in
   }
   for (std::size_t start = 0; start < samples; start += kBlock) {
     const std::size_t count = std::min(kBlock, samples - start);
-    for (const Program::Input& input : program.inputs) {
-      const std::span<const double> array = input_array(inputs, input.array);
-      const std::size_t index = static_cast<std::size_t>(input.index);
-      if (input.array == "chi") {
-        std::fill_n(at(input.reg), count, array[index]);
+    for (std::size_t i = 0; i < program.inputs.size(); ++i) {
+      double* reg = at(program.inputs[i].reg);
+      if (program.inputs[i].shared) {
+        std::fill_n(reg, count, *places.inputs[i]);
       } else {
-        std::copy_n(array.begin() + static_cast<std::ptrdiff_t>(index * samples + start), count,
-                    at(input.reg));
+        std::copy_n(places.inputs[i] + start, count, reg);
       }
     }
     for (const Instruction& instruction : program.instructions) {
       run(instruction, registers.data(), count);
     }
-    for (const Program::Result& result : program.results) {
-      std::copy_n(at(result.reg), count,
-                  tau.begin() + static_cast<std::ptrdiff_t>(
-                                    static_cast<std::size_t>(result.index) * samples + start));
+    for (std::size_t i = 0; i < program.results.size(); ++i) {
+      std::copy_n(at(program.results[i].reg), count, places.results[i] + start);
     }
   }
 }

@@ -45,7 +45,7 @@ class Lowering {
     DYNGEN_ASSERT(info.kind != SymbolKind::kIntermediate,
                   info.name + " is read before it is written");
     const int reg = new_register();
-    program.inputs.push_back({info.array, info.index, reg});
+    program.inputs.push_back({info.array, info.index, reg, info.shared});
     registers_.emplace(info.name, reg);
     return reg;
   }
@@ -73,6 +73,10 @@ class Lowering {
         }
         return result;
       }
+      case Form::Kind::kQuotient: {
+        const int numerator = lower_form(form.parts[0]);
+        return emit(Op::kDivide, numerator, lower_form(form.parts[1]));
+      }
       case Form::Kind::kSum: {
         int result = lower_form(form.parts[0]);
         if (form.negative[0]) result = emit(Op::kNegate, result);
@@ -92,7 +96,7 @@ class Lowering {
 };
 
 bool has_two_operands(Op op) {
-  return op == Op::kAdd || op == Op::kSubtract || op == Op::kMultiply;
+  return op == Op::kAdd || op == Op::kSubtract || op == Op::kMultiply || op == Op::kDivide;
 }
 
 /// Gives each temporary the place of one that is not needed any more.
@@ -154,7 +158,7 @@ Program lower(const Trace& trace) {
   }
   for (const Output& output : trace.outputs()) {
     const int reg = lowering.value(output.value);
-    lowering.program.results.push_back({output.index, reg});
+    lowering.program.results.push_back({output.array, output.index, reg});
   }
   reuse_registers(lowering.program);
   return std::move(lowering.program);

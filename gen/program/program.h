@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dyngen {
@@ -12,7 +13,7 @@ class Trace;
 
 /// One operation on registers.
 struct Instruction {
-  enum class Op { kAdd, kSubtract, kMultiply, kNegate, kSin, kCos, kSign };
+  enum class Op { kAdd, kSubtract, kMultiply, kDivide, kNegate, kSin, kCos, kSign };
   Op op = Op::kAdd;
   int target = 0;
   int a = 0;
@@ -26,15 +27,17 @@ struct Instruction {
 struct Program {
   /// A register that is filled before the first instruction.
   struct Input {
-    std::string array;  ///< "q", "dq", "ddq", "chi"
+    std::string array;  ///< "q", "chi"
     int index = 0;
     int reg = 0;
+    bool shared = false;  ///< one value for all samples
   };
   struct Constant {
     double value = 0;
     int reg = 0;
   };
   struct Result {
+    std::string array;  ///< "tau", "M"
     int index = 0;
     int reg = 0;
   };
@@ -48,16 +51,23 @@ struct Program {
 /// Lowers a function; registers are used again when their value is not needed any more.
 Program lower(const Trace& trace);
 
-/// Samples of one input: array[j * samples + k] is element j of sample k. chi has one sample for
-/// all.
-struct BatchInputs {
-  std::span<const double> q, dq, ddq;
-  std::span<const double> chi;
+/// An input array: values[e * samples + k] is element e of sample k; values[e] of what all samples
+/// share (chi, gravity, payload).
+struct InputArray {
+  std::string_view name;
+  std::span<const double> values;
 };
 
-/// Evaluates all samples. @param tau  tau[j * samples + k], every element is written
-/// @throws std::invalid_argument  if an array that the program reads is too short
-void evaluate(const Program& program, std::size_t samples, const BatchInputs& inputs,
-              std::span<double> tau);
+/// An output array: values[e * samples + k] is element e of sample k.
+struct OutputArray {
+  std::string_view name;
+  std::span<double> values;
+};
+
+/// Evaluates all samples; every element of every output is written.
+/// @throws std::invalid_argument  if an array that the program reads or writes is missing or too
+/// short
+void evaluate(const Program& program, std::size_t samples, const std::vector<InputArray>& inputs,
+              const std::vector<OutputArray>& outputs);
 
 }  // namespace dyngen

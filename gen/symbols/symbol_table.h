@@ -10,7 +10,7 @@
 namespace dyngen {
 
 enum class SymbolKind {
-  kInput,         ///< q, dq, ddq of one joint
+  kInput,         ///< q, dq, ddq, tau of one joint; gravity, wrench, payload
   kParameter,     ///< an entry of chi
   kConstant,      ///< a named number
   kIntermediate,  ///< assigned by the program
@@ -26,6 +26,7 @@ struct SymbolInfo {
   GiNaC::ex value = 0;    ///< of a constant: exact
   std::string array{};    ///< of an input or parameter: the C array that holds it ("q", "chi")
   int index = -1;         ///< its place in that array
+  bool shared = false;    ///< of an input or parameter: one for all samples of a batch
 };
 
 /// Makes each symbol once and remembers its place: the only source of order in the output.

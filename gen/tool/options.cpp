@@ -88,7 +88,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                  "C or C++ source to write; the header is written beside it")
       ->type_name("FILE");
   app.add_option("--functions", options.generator.functions,
-                 "Functions to write: id, gravity, coriolis, friction; all (default)")
+                 "Functions to write (default: all): " + catalogue_names())
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAME,...");
@@ -112,6 +112,17 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   bool keep_standard = false;
   app.add_flag("--no-regroup", keep_standard,
                "Keep the standard parameters; by default they are regrouped to base parameters");
+  std::string gravity = "file";
+  app.add_option("--gravity", gravity,
+                 "file: the file's (default); runtime: an argument gravity[3], m/s^2: the "
+                 "acceleration of the base, -g, in frame 0")
+      ->type_name("file|runtime");
+  app.add_flag("--wrench", options.generator.wrench,
+               "An argument wrench[6]: force (N) and moment (N m) about its origin that act on the "
+               "last link, in its frame");
+  app.add_flag("--payload", options.generator.payload,
+               "An argument payload[10]: XX XY XZ YY YZ ZZ MX MY MZ M of a body on the last link, "
+               "in its frame");
   app.add_option("--depfile", options.depfile, "Write a Make rule that names the robot file")
       ->type_name("FILE");
   app.add_flag("--count", options.count,
@@ -128,6 +139,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     }
     options.generator.trig = meaning<Trig>("--trig", trig.empty() ? "inline" : trig,
                                            {{"inline", Trig::kInline}, {"libm", Trig::kLibm}});
+    options.generator.gravity =
+        meaning<bool>("--gravity", gravity, {{"file", false}, {"runtime", true}});
     if (app.count("--prefix") > 0 && options.generator.prefix.empty()) {
       throw std::invalid_argument("--prefix: it is empty; expected a C identifier");
     }

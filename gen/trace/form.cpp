@@ -2,6 +2,7 @@
 #include "gen/trace/form.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <tuple>
 #include <utility>
 
@@ -38,6 +39,8 @@ void collect_key(const Form& form, const SymbolTable& symbols, Key& key) {
       [[fallthrough]];
     case Form::Kind::kSum:
     case Form::Kind::kProduct:
+    case Form::Kind::kQuotient:
+      if (form.kind == Form::Kind::kQuotient) key.numbers += "/ ";
       for (const Form& part : form.parts) collect_key(part, symbols, key);
       for (const bool negative : form.negative) key.numbers += negative ? "-" : "+";
       break;
@@ -64,42 +67,65 @@ Form number_form(const ex& value) {
   return form;
 }
 
-void add_factors(const ex& factor, const SymbolTable& symbols, std::vector<Operand>& factors,
-                 bool& negative) {
+/// The factors of a product, those of its denominator apart.
+struct Factors {
+  std::vector<Operand> numerator;
+  std::vector<Operand> denominator;
+  bool negative = false;
+};
+
+void add_factor(const ex& factor, const SymbolTable& symbols, Factors& factors) {
   int repeat = 1;
+  bool divides = false;
   ex base = factor;
   if (GiNaC::is_a<GiNaC::power>(factor) && !is_number(factor)) {
     const ex exponent = factor.op(1);
-    DYNGEN_ASSERT(exponent.info(GiNaC::info_flags::posint) && exponent <= kMaxExponent,
-                  "only small positive powers occur in a program");
+    DYNGEN_ASSERT(exponent.info(GiNaC::info_flags::integer) && exponent <= kMaxExponent &&
+                      exponent >= -kMaxExponent,
+                  "only small whole powers occur in a program");
     repeat = GiNaC::ex_to<GiNaC::numeric>(exponent).to_int();
+    divides = repeat < 0;
+    repeat = std::abs(repeat);
     base = factor.op(0);
   }
   const Operand operand = signed_form(base, symbols);
-  if (operand.negative && repeat % 2 == 1) negative = !negative;
+  if (operand.negative && repeat % 2 == 1) factors.negative = !factors.negative;
   if (operand.form.kind == Form::Kind::kNumber && operand.form.leaf.is_equal(1)) return;
-  for (int i = 0; i < repeat; ++i) factors.push_back(operand);
+  auto& side = divides ? factors.denominator : factors.numerator;
+  for (int i = 0; i < repeat; ++i) side.push_back(operand);
 }
 
-/// A product, or a power (a product of one kind of factor).
-Operand product_form(const ex& product, const SymbolTable& symbols) {
-  bool negative = false;
-  std::vector<Operand> factors;
-  if (GiNaC::is_a<GiNaC::mul>(product)) {
-    for (std::size_t i = 0; i < product.nops(); ++i) {
-      add_factors(product.op(i), symbols, factors, negative);
-    }
-  } else {
-    add_factors(product, symbols, factors, negative);
-  }
+Form product_of(std::vector<Operand> factors) {
   std::sort(factors.begin(), factors.end(), [](const Operand& a, const Operand& b) {
     return std::tie(a.key.places, a.key.numbers) < std::tie(b.key.places, b.key.numbers);
   });
-  if (factors.size() == 1) return make_operand(negative, std::move(factors[0].form), symbols);
+  if (factors.empty()) return number_form(1);
+  if (factors.size() == 1) return std::move(factors[0].form);
   Form form;
   form.kind = Form::Kind::kProduct;
   for (Operand& factor : factors) form.parts.push_back(std::move(factor.form));
-  return make_operand(negative, std::move(form), symbols);
+  return form;
+}
+
+/// A product, a power (a product of one kind of factor), or a quotient of such.
+Operand product_form(const ex& product, const SymbolTable& symbols) {
+  Factors factors;
+  if (GiNaC::is_a<GiNaC::mul>(product)) {
+    for (std::size_t i = 0; i < product.nops(); ++i) {
+      add_factor(product.op(i), symbols, factors);
+    }
+  } else {
+    add_factor(product, symbols, factors);
+  }
+  Form numerator = product_of(std::move(factors.numerator));
+  if (factors.denominator.empty()) {
+    return make_operand(factors.negative, std::move(numerator), symbols);
+  }
+  Form quotient;
+  quotient.kind = Form::Kind::kQuotient;
+  quotient.parts.push_back(std::move(numerator));
+  quotient.parts.push_back(product_of(std::move(factors.denominator)));
+  return make_operand(factors.negative, std::move(quotient), symbols);
 }
 
 std::vector<Operand> sorted_terms(const ex& sum, const SymbolTable& symbols) {
@@ -190,9 +216,11 @@ std::string join_operands(const Form& form, const std::function<std::string(cons
         text += "-";
       }
     } else if (i > 0) {
-      text += " * ";
+      text += form.kind == Form::Kind::kQuotient ? " / " : " * ";
     }
-    const bool brackets = part.kind == Form::Kind::kSum;
+    const bool divisor = form.kind == Form::Kind::kQuotient && i > 0;
+    const bool brackets =
+        part.kind == Form::Kind::kSum || (divisor && part.kind == Form::Kind::kProduct);
     text += brackets ? "(" + spell(part) + ")" : spell(part);
   }
   return text;
@@ -203,6 +231,7 @@ OperationCount& OperationCount::operator+=(const OperationCount& other) {
   additions += other.additions;
   sin_cos_pairs += other.sin_cos_pairs;
   signs += other.signs;
+  divisions += other.divisions;
   return *this;
 }
 
@@ -212,6 +241,7 @@ OperationCount count_operations(const Form& form) {
   const int operands = static_cast<int>(form.parts.size());
   if (form.kind == Form::Kind::kSum) count.additions += operands - 1;
   if (form.kind == Form::Kind::kProduct) count.multiplications += operands - 1;
+  if (form.kind == Form::Kind::kQuotient) ++count.divisions;
   if (form.kind == Form::Kind::kCall && form.call == "sign") ++count.signs;
   return count;
 }

@@ -13,14 +13,15 @@ namespace dyngen {
 
 /// An expression in the one order in which it is written, counted and evaluated.
 ///
-/// A sum lists its terms with their signs, a product its factors; operands stand in the order of
-/// the symbol table's places, so the same expression has the same form on every run.
+/// A sum lists its terms with their signs, a product its factors, a quotient two forms; operands
+/// stand in the order of the symbol table's places, so the same expression has the same form on
+/// every run.
 struct Form {
-  enum class Kind { kNumber, kSymbol, kSum, kProduct, kCall };
+  enum class Kind { kNumber, kSymbol, kSum, kProduct, kQuotient, kCall };
   Kind kind = Kind::kNumber;
   GiNaC::ex leaf = 0;          ///< of kNumber (positive, exact) and kSymbol
   std::string call;            ///< of kCall: "sin", "cos" or "sign"
-  std::vector<Form> parts;     ///< terms, factors, or the argument
+  std::vector<Form> parts;     ///< terms, factors, numerator and denominator, or the argument
   std::vector<bool> negative;  ///< of kSum: the sign of each term
 };
 
@@ -31,7 +32,8 @@ struct Form {
 /// they can.
 Form canonical_form(const GiNaC::ex& expression, const SymbolTable& symbols);
 
-/// The operands of a sum or product with the operators and brackets between them: "a * (b - c)".
+/// The operands of a sum, product or quotient with the operators and brackets between them: "a * (b
+/// - c)".
 /// @param spell  text of one operand
 std::string join_operands(const Form& form, const std::function<std::string(const Form&)>& spell);
 
@@ -41,6 +43,7 @@ struct OperationCount {
   int additions = 0;
   int sin_cos_pairs = 0;
   int signs = 0;
+  int divisions = 0;  ///< not in total(): shown apart
 
   OperationCount& operator+=(const OperationCount& other);
   [[nodiscard]] int total() const { return multiplications + additions; }

@@ -173,6 +173,60 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, double *t
   tau[1] = tau_2;
 }
 
+/* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
+ *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   tau[2] N m, out
+ * 24 mul, 16 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
+  const double ZZR1 = 1.42767426758476; /* kg m^2, grouped */
+  const double MXR1 = -0.268846444; /* kg m, grouped */
+  const double MY1 = 1.34761664; /* kg m, planar2r.robot:19 */
+  const double ZZ2 = 0.05774062387148; /* kg m^2, planar2r.robot:26 */
+  const double MX2 = 0.15647898; /* kg m, planar2r.robot:18 */
+  const double MY2 = 0.029187214; /* kg m, planar2r.robot:19 */
+  const double IA2 = 0.47588; /* kg m^2, planar2r.robot:28 */
+  const double d2 = 0.5; /* m, planar2r.robot:13 */
+  const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
+
+  /* sines and cosines of the joint angles */
+  const double angle[4] = {q[0], q[1], 0.0, 0.0};
+  double sine[4], cosine[4];
+  planar2r_sincos4(angle, sine, cosine);
+  const double S1 = sine[0];
+  const double C1 = cosine[0];
+  const double S2 = sine[1];
+  const double C2 = cosine[1];
+
+  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
+  const double DV33_1 = dq[0] * dq[0];
+  const double VP1_1 = GY * S1;
+  const double VP2_1 = GY * C1;
+
+  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
+  const double W3_2 = dq[0] + dq[1];
+  const double WP3_2 = ddq[0] + ddq[1];
+  const double DV33_2 = W3_2 * W3_2;
+  const double VA1_2 = VP1_1 - d2 * DV33_1;
+  const double VA2_2 = d2 * ddq[0] + VP2_1;
+  const double VP1_2 = C2 * VA1_2 + S2 * VA2_2;
+  const double VP2_2 = C2 * VA2_2 - S2 * VA1_2;
+
+  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
+  const double mF1_2 = MY2 * WP3_2 + MX2 * DV33_2;
+  const double F2_2 = MX2 * WP3_2 - MY2 * DV33_2;
+  const double N3_2 = ZZ2 * WP3_2 - MY2 * VP1_2 + MX2 * VP2_2;
+  const double FA2_2 = C2 * F2_2 - S2 * mF1_2;
+
+  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
+  const double N3_1 = ZZR1 * ddq[0] - MY1 * VP1_1 + MXR1 * VP2_1;
+  const double T3_1 = N3_2 + d2 * FA2_2 + N3_1;
+
+  /* joint torques */
+  const double tau_2 = IA2 * ddq[1] + N3_2;
+
+  tau[0] = T3_1;
+  tau[1] = tau_2;
+}
+
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   tau[2] N m, out
  * 8 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */

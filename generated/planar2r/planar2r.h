@@ -40,6 +40,11 @@ extern const double planar2r_chi_values[];
  * 28 mul, 20 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
 void planar2r_id(const double *q, const double *dq, const double *ddq, double *tau);
 
+/* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
+ *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   tau[2] N m, out
+ * 24 mul, 16 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, double *tau);
+
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   tau[2] N m, out
  * 8 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */

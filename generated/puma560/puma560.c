@@ -455,6 +455,251 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   tau[5] = tau_6;
 }
 
+/* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
+ *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
+ * 186 mul, 156 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
+void puma560_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
+  const double ZZR1 = 4.293482265; /* kg m^2, grouped */
+  const double XXR2 = -1.601861202; /* kg m^2, grouped */
+  const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
+  const double XZR2 = 0.233911466; /* kg m^2, grouped */
+  const double YZ2 = 0.0016704; /* kg m^2, puma560.robot:35 */
+  const double ZZR2 = 6.458114002; /* kg m^2, grouped */
+  const double MXR2 = 3.79559; /* kg m, grouped */
+  const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
+  const double XXR3 = 0.299575024; /* kg m^2, grouped */
+  const double XYR3 = -0.0106736385; /* kg m^2, grouped */
+  const double YZ3 = 0.004704; /* kg m^2, puma560.robot:35 */
+  const double ZZR3 = 0.333105249; /* kg m^2, grouped */
+  const double MXR3 = -0.025375; /* kg m, grouped */
+  const double MYR3 = -0.861795; /* kg m, grouped */
+  const double IA3 = 0.827; /* kg m^2, puma560.robot:40 */
+  const double XXR4 = 0.0003; /* kg m^2, grouped */
+  const double ZZR4 = 0.0016; /* kg m^2, grouped */
+  const double IA4 = 0.2; /* kg m^2, puma560.robot:40 */
+  const double XXR5 = 0.00024216; /* kg m^2, grouped */
+  const double ZZR5 = 0.00064216; /* kg m^2, grouped */
+  const double MYR5 = -0.00288; /* kg m, grouped */
+  const double IA5 = 0.179; /* kg m^2, puma560.robot:40 */
+  const double ZZ6 = 4e-05; /* kg m^2, puma560.robot:36 */
+  const double IA6 = 0.193; /* kg m^2, puma560.robot:40 */
+  const double r2 = 0.2435; /* m, puma560.robot:23 */
+  const double d3 = 0.4318; /* m, puma560.robot:21 */
+  const double r3 = -0.0934; /* m, puma560.robot:23 */
+  const double d4 = -0.0203; /* m, puma560.robot:21 */
+  const double r4 = 0.4331; /* m, puma560.robot:23 */
+  const double GZ = 9.81; /* m/s^2, puma560.robot:48 */
+  const double XmZ_5 = -0.0004;
+  const double XmZ_4 = -0.0013;
+  const double XmZ_3 = -0.033530225;
+  const double XmZ_2 = -8.059975204;
+
+  /* sines and cosines of the joint angles */
+  const double Q2_3 = q[1] + q[2];
+  const double angle[8] = {q[1], q[2], Q2_3, q[3], q[4], q[5], 0.0, 0.0};
+  double sine[8], cosine[8];
+  puma560_sincos4(angle, sine, cosine);
+  puma560_sincos4(angle + 4, sine + 4, cosine + 4);
+  const double S2 = sine[0];
+  const double C2 = cosine[0];
+  const double S3 = sine[1];
+  const double C3 = cosine[1];
+  const double S2_3 = sine[2];
+  const double C2_3 = cosine[2];
+  const double S4 = sine[3];
+  const double C4 = cosine[3];
+  const double S5 = sine[4];
+  const double C5 = cosine[4];
+  const double S6 = sine[5];
+  const double C6 = cosine[5];
+
+  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
+  const double DV33_1 = dq[0] * dq[0];
+
+  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
+  const double mW1_2 = dq[0] * S2;
+  const double mW2_2 = dq[0] * C2;
+  const double mDV23_2 = dq[1] * mW2_2;
+  const double mDV13_2 = dq[1] * mW1_2;
+  const double DV12_2 = mW1_2 * mW2_2;
+  const double mU13_2 = ddq[0] * C2;
+  const double U23_2 = ddq[0] * S2;
+  const double mWP1_2 = mDV23_2 + U23_2;
+  const double WP2_2 = mDV13_2 - mU13_2;
+  const double DV22_2 = mW2_2 * mW2_2;
+  const double DV33_2 = dq[1] * dq[1];
+  const double D23_2 = DV22_2 - DV33_2;
+  const double mU11_2 = DV22_2 + DV33_2;
+  const double U22_2 = D23_2 - DV33_1;
+  const double D31_2 = mU11_2 - DV33_1;
+  const double mD12_2 = mU11_2 + U22_2;
+  const double U12_2 = DV12_2 - ddq[1];
+  const double U21_2 = ddq[1] + DV12_2;
+  const double mU31_2 = mDV13_2 + WP2_2;
+  const double mU32_2 = mDV23_2 + mWP1_2;
+  const double mVA1_2 = r2 * ddq[0];
+  const double mVA2_2 = r2 * DV33_1;
+  const double mVP1_2 = GZ * S2 + C2 * mVA1_2;
+  const double VP2_2 = S2 * mVA1_2 - GZ * C2;
+
+  /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
+  const double mW1_3 = dq[0] * S2_3;
+  const double mW2_3 = dq[0] * C2_3;
+  const double W3_3 = dq[1] + dq[2];
+  const double mDV23_3 = mW2_3 * W3_3;
+  const double mDV13_3 = mW1_3 * W3_3;
+  const double DV12_3 = mW1_3 * mW2_3;
+  const double WP3_3 = ddq[1] + ddq[2];
+  const double mU13_3 = ddq[0] * C2_3;
+  const double U23_3 = ddq[0] * S2_3;
+  const double mWP1_3 = mDV23_3 + U23_3;
+  const double WP2_3 = mDV13_3 - mU13_3;
+  const double DV22_3 = mW2_3 * mW2_3;
+  const double DV33_3 = W3_3 * W3_3;
+  const double D23_3 = DV22_3 - DV33_3;
+  const double mU11_3 = DV22_3 + DV33_3;
+  const double U22_3 = D23_3 - DV33_1;
+  const double mD12_3 = mU11_3 + U22_3;
+  const double U12_3 = DV12_3 - WP3_3;
+  const double U21_3 = DV12_3 + WP3_3;
+  const double mU31_3 = mDV13_3 + WP2_3;
+  const double mU32_3 = mDV23_3 + mWP1_3;
+  const double mVA1_3 = r3 * mU13_2 + d3 * mU11_2 + mVP1_2;
+  const double VA2_3 = r3 * U23_2 + d3 * U21_2 + VP2_2;
+  const double mVA3_3 = r3 * DV33_1 + d3 * mU31_2 + mVA2_2;
+  const double VP1_3 = S3 * VA2_3 - C3 * mVA1_3;
+  const double VP2_3 = S3 * mVA1_3 + C3 * VA2_3;
+
+  /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
+  const double W1_4 = S4 * W3_3 - C4 * mW1_3;
+  const double W2_4 = S4 * mW1_3 + C4 * W3_3;
+  const double W3_4 = dq[3] + mW2_3;
+  const double DV23_4 = W2_4 * W3_4;
+  const double DV13_4 = W1_4 * W3_4;
+  const double DV12_4 = W1_4 * W2_4;
+  const double WP3_4 = ddq[3] - WP2_3;
+  const double U13_4 = S4 * mU32_3 - C4 * U12_3;
+  const double U23_4 = S4 * U12_3 + C4 * mU32_3;
+  const double WP1_4 = DV23_4 - U23_4;
+  const double WP2_4 = U13_4 - DV13_4;
+  const double DV22_4 = W2_4 * W2_4;
+  const double DV33_4 = W3_4 * W3_4;
+  const double D23_4 = DV22_4 - DV33_4;
+  const double U22_4 = U22_3 + D23_4;
+  const double U12_4 = DV12_4 - WP3_4;
+  const double U32_4 = DV23_4 + WP1_4;
+  const double mVA1_4 = d4 * mU11_3 + r4 * U12_3 - VP1_3;
+  const double VA2_4 = d4 * U21_3 - r4 * U22_3 + VP2_3;
+  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mVA3_3;
+  const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
+  const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
+
+  /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
+  const double W1_5 = C5 * W1_4 - S5 * W3_4;
+  const double mW2_5 = S5 * W1_4 + C5 * W3_4;
+  const double W3_5 = dq[4] + W2_4;
+  const double mDV23_5 = mW2_5 * W3_5;
+  const double DV13_5 = W1_5 * W3_5;
+  const double mDV12_5 = W1_5 * mW2_5;
+  const double WP3_5 = ddq[4] + WP2_4;
+  const double U13_5 = C5 * U12_4 - S5 * U32_4;
+  const double mU23_5 = S5 * U12_4 + C5 * U32_4;
+  const double WP1_5 = mU23_5 - mDV23_5;
+  const double WP2_5 = U13_5 - DV13_5;
+  const double DV22_5 = mW2_5 * mW2_5;
+  const double DV33_5 = W3_5 * W3_5;
+  const double D23_5 = DV22_5 - DV33_5;
+  const double U22_5 = U22_4 + D23_5;
+  const double mU12_5 = mDV12_5 + WP3_5;
+  const double U32_5 = WP1_5 - mDV23_5;
+  const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
+
+  /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
+  const double W1_6 = C6 * W1_5 + S6 * W3_5;
+  const double W2_6 = C6 * W3_5 - S6 * W1_5;
+  const double W3_6 = dq[5] + mW2_5;
+  const double DV23_6 = W2_6 * W3_6;
+  const double DV13_6 = W1_6 * W3_6;
+  const double WP3_6 = ddq[5] - WP2_5;
+
+  /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
+  const double N1_6 = ZZ6 * DV23_6;
+  const double mN2_6 = ZZ6 * DV13_6;
+  const double N3_6 = ZZ6 * WP3_6;
+
+  /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
+  const double mF1_5 = MYR5 * mU12_5;
+  const double F2_5 = MYR5 * U22_5;
+  const double F3_5 = MYR5 * U32_5;
+  const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
+  const double N2_5 = DV13_5 * XmZ_5;
+  const double N3_5 = XXR5 * mDV12_5 + ZZR5 * WP3_5 - MYR5 * VP1_5;
+  const double T1_5 = C6 * N1_6 + S6 * mN2_6 + N1_5;
+  const double T2_5 = N2_5 - N3_6;
+  const double T3_5 = S6 * N1_6 - C6 * mN2_6 + N3_5;
+  const double mFA1_5 = C5 * mF1_5 + S5 * F2_5;
+  const double FA3_5 = S5 * mF1_5 - C5 * F2_5;
+
+  /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
+  const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
+  const double N2_4 = DV13_4 * XmZ_4;
+  const double N3_4 = ZZR4 * WP3_4 - XXR4 * DV12_4;
+  const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
+  const double T2_4 = T3_5 + N2_4;
+  const double mT3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
+  const double mFA1_4 = S4 * F3_5 + C4 * mFA1_5;
+  const double FA3_4 = C4 * F3_5 - S4 * mFA1_5;
+
+  /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
+  const double F1_3 = MYR3 * U12_3 - MXR3 * mU11_3;
+  const double F2_3 = MYR3 * U22_3 + MXR3 * U21_3;
+  const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
+  const double mN1_3 = ZZR3 * mDV23_3 + XXR3 * mWP1_3 - YZ3 * D23_3 - XYR3 * mU31_3 + MYR3 * mVA3_3;
+  const double mN2_3 = YZ3 * U12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3 + mDV13_3 * XmZ_3;
+  const double mN3_3 = XXR3 * DV12_3 - ZZR3 * WP3_3 + YZ3 * mU13_3 + XYR3 * mD12_3 + MYR3 * VP1_3
+      - MXR3 * VP2_3;
+  const double E1_3 = F1_3 - mFA1_4;
+  const double E2_3 = F2_3 - FA3_5;
+  const double E3_3 = FA3_4 - mF3_3;
+  const double mT1_3 = S4 * T2_4 - C4 * T1_4 + r4 * FA3_4 + mN1_3;
+  const double mT2_3 = d4 * FA3_4 - mT3_4 + mN2_3;
+  const double mT3_3 = d4 * FA3_5 - S4 * T1_4 - C4 * T2_4 + r4 * mFA1_4 + mN3_3;
+  const double FA1_3 = C3 * E1_3 - S3 * E2_3;
+  const double FA2_3 = S3 * E1_3 + C3 * E2_3;
+
+  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
+  const double F1_2 = MY2 * U12_2 - MXR2 * mU11_2;
+  const double F2_2 = MY2 * U22_2 + MXR2 * U21_2;
+  const double N1_2 = YZ2 * D23_2 - ZZR2 * mDV23_2 - XXR2 * mWP1_2 + XZR2 * U21_2 + XY2 * mU31_2
+      - MY2 * mVA2_2;
+  const double mN2_2 = YZ2 * U12_2 - XZR2 * D31_2 + XY2 * mU32_2 - MXR2 * mVA2_2 + mDV13_2 * XmZ_2;
+  const double mN3_2 = XXR2 * DV12_2 - ZZR2 * ddq[1] + YZ2 * mU13_2 + XZR2 * U23_2 + XY2 * mD12_2
+      - MY2 * mVP1_2 - MXR2 * VP2_2;
+  const double E1_2 = FA1_3 + F1_2;
+  const double E2_2 = FA2_3 + F2_2;
+  const double T1_2 = S3 * mT2_3 - C3 * mT1_3 - r3 * FA2_3 + N1_2;
+  const double mT2_2 = d3 * E3_3 + S3 * mT1_3 + C3 * mT2_3 - r3 * FA1_3 + mN2_2;
+  const double mT3_2 = mT3_3 - d3 * FA2_3 + mN3_2;
+  const double FA1_2 = C2 * E1_2 - S2 * E2_2;
+
+  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
+  const double N3_1 = ZZR1 * ddq[0];
+  const double T3_1 = C2 * mT2_2 - S2 * T1_2 - r2 * FA1_2 + N3_1;
+
+  /* joint torques */
+  const double tau_3 = IA3 * ddq[2] - mT3_3;
+  const double tau_4 = IA4 * ddq[3] - mT3_4;
+  const double tau_5 = IA5 * ddq[4] + T3_5;
+  const double tau_6 = IA6 * ddq[5] + N3_6;
+
+  tau[0] = T3_1;
+  tau[1] = -mT3_2;
+  tau[2] = tau_3;
+  tau[3] = tau_4;
+  tau[4] = tau_5;
+  tau[5] = tau_6;
+}
+
 /* tau = g(q): the torque that holds the arm still.
  *   q[6] rad   tau[6] N m, out
  * 18 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */

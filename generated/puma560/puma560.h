@@ -73,6 +73,11 @@ extern const double puma560_chi_values[];
  * 198 mul, 168 add, 6 sin/cos, 6 sgn.  Reads every input before writing tau. */
 void puma560_id(const double *q, const double *dq, const double *ddq, double *tau);
 
+/* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
+ *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
+ * 186 mul, 156 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
+void puma560_id_rigid(const double *q, const double *dq, const double *ddq, double *tau);
+
 /* tau = g(q): the torque that holds the arm still.
  *   q[6] rad   tau[6] N m, out
  * 18 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */

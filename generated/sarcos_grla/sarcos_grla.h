@@ -43,6 +43,11 @@ extern const double sarcos_grla_chi_values[];
  * 205 mul, 170 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double *tau);
 
+/* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
+ *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
+ * 205 mul, 170 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
+void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, double *tau);
+
 /* tau = g(q): the torque that holds the arm still.
  *   q[7] rad   tau[7] N m, out
  * 74 mul, 46 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */

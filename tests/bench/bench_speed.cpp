@@ -81,8 +81,10 @@ std::vector<double> all_torques(const StateCall& call, std::size_t joints) {
 
 void evaluate_all(Contest& contest) {
   evaluate(contest.robot.id, kStates,
-           {contest.joint_major_q, contest.joint_major_dq, contest.joint_major_ddq, {}},
-           contest.joint_major_tau);
+           {{"q", contest.joint_major_q},
+            {"dq", contest.joint_major_dq},
+            {"ddq", contest.joint_major_ddq}},
+           {{"tau", contest.joint_major_tau}});
 }
 
 /// The emitted torque without rotor inertia and friction, which the peers do not have.

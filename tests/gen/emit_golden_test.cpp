@@ -21,12 +21,14 @@ struct GoldenCase {
 };
 
 std::vector<GoldenCase> cases() {
-  GeneratorOptions runtime;
+  GeneratorOptions baked;
+  baked.functions = {"id", "gravity", "coriolis", "friction"};
+  GeneratorOptions runtime = baked;
   runtime.parameters = ParameterMode::kRuntime;
-  GeneratorOptions single;
+  GeneratorOptions single = baked;
   single.scalar = Scalar::kFloat;
   return {{"planar2r_runtime", "robots/planar2r.robot", runtime},
-          {"rp_baked", "tests/robots/rp.robot", {}},
+          {"rp_baked", "tests/robots/rp.robot", baked},
           {"pendulum_float", "tests/robots/pendulum.robot", single}};
 }
 

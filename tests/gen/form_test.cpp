@@ -62,6 +62,15 @@ TEST_F(FormTest, NumbersCountAsFactorsButSignsDoNot) {
   EXPECT_EQ(count(-s(0)).total(), 0);
 }
 
+TEST_F(FormTest, DivisionIsCountedApart) {
+  EXPECT_EQ(text(1 / s(0)), "1.0 / a");
+  EXPECT_EQ(text(s(1) / s(0) - s(2)), "b / a - c");
+  EXPECT_EQ(text(s(2) * s(1) / (s(0) * s(3))), "b * c / (a * d)");
+  EXPECT_EQ(text(-s(1) / (s(0) - s(2))), "-b / (a - c)");
+  EXPECT_EQ(count(s(1) / s(0)).divisions, 1);
+  EXPECT_EQ(count(s(1) / s(0)).total(), 0);
+}
+
 TEST_F(FormTest, SignIsCountedApart) {
   const OperationCount counted = count(s(0) * GiNaC::csgn(s(1)));
   EXPECT_EQ(counted.signs, 1);

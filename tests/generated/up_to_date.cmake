@@ -1,7 +1,8 @@
 # generated/NAME is what dyngen writes today.
 include(${CMAKE_CURRENT_LIST_DIR}/../script.cmake)
 
-run(text 0 ${DYNGEN} ${SOURCE_DIR}/robots/${NAME}.robot -o ${WORK}/${NAME}.c)
+run(text 0 ${DYNGEN} ${SOURCE_DIR}/robots/${NAME}.robot -o ${WORK}/${NAME}.c
+  --functions id,id_rigid,gravity,coriolis,friction)  # as generated/CMakeLists.txt says
 foreach(ending IN ITEMS c h)
   execute_process(
     COMMAND diff -u ${SOURCE_DIR}/generated/${NAME}/${NAME}.${ending} ${WORK}/${NAME}.${ending}

@@ -69,9 +69,11 @@ NumericRobot random_robot() {
   return robot;
 }
 
+const std::vector<std::string> kFunctions = {"id", "id_rigid", "gravity", "coriolis", "friction"};
+
 void check_functions(const RobotModel& model, const NumericRobot& numbers,
                      const EvaluatedModel& evaluated) {
-  for (const std::string function : {"id", "gravity", "coriolis", "friction"}) {
+  for (const std::string& function : kFunctions) {
     RelativeError error;
     error.add(1.0, 1.0);  // a robot without any torque is judged against 1 N m
     for (const MotionSample& sample : random_samples(model.coordinate_count, 5, 7)) {
@@ -87,6 +89,7 @@ RC_GTEST_PROP(RandomRobot, PrunedAndRegroupedEqualsTheJudge, ()) {
   for (const ParameterMode mode : {ParameterMode::kBaked, ParameterMode::kRuntime}) {
     for (const bool regroup : {true, false}) {
       GeneratorOptions options;
+      options.functions = kFunctions;
       options.parameters = mode;
       options.regroup = regroup;
       check_functions(model, numbers, EvaluatedModel(model, options));
@@ -100,6 +103,7 @@ RC_GTEST_PROP(RandomRobot, UnprunedCodeFedWithZerosEqualsTheJudge, ()) {
   const RobotModel unpruned = with_unknown_parameters(values, false);
   for (const bool regroup : {true, false}) {
     GeneratorOptions options;
+    options.functions = kFunctions;
     options.regroup = regroup;
     NumericRobot without_offset = numbers;  // offsets are not part of the unknown set
     for (NumericJoint& joint : without_offset.joints) joint.off = 0;
@@ -119,6 +123,7 @@ RC_GTEST_PROP(RandomRobot, RunTimeLengthsEqualKnownOnes, ()) {
   for (const ParameterMode mode : {ParameterMode::kBaked, ParameterMode::kRuntime}) {
     for (const bool regroup : {true, false}) {
       GeneratorOptions options;
+      options.functions = kFunctions;
       options.parameters = mode;
       options.regroup = regroup;
       check_functions(values, numbers, EvaluatedModel(symbolic, values, options));

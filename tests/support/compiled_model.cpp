@@ -2,41 +2,61 @@
 #include "tests/support/compiled_model.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace dyngen::test {
 namespace {
 
-template <class T>
-std::vector<double> call_as(void* function, const FunctionSpec& spec, const MotionSample& sample,
-                            const std::vector<double>& chi, bool takes_chi) {
-  const auto convert = [](const std::vector<double>& values) {
-    return std::vector<T>(values.begin(), values.end());
-  };
-  std::vector<std::vector<T>> inputs;
-  for (const std::string_view name : spec.inputs) {
-    inputs.push_back(convert(name == "q" ? sample.q : name == "dq" ? sample.dq : sample.ddq));
-  }
-  if (takes_chi) inputs.push_back(convert(chi));
-  std::vector<T> tau(sample.q.size(), T(-77));
-  const T* a = inputs[0].data();
-  const T* b = inputs.size() > 1 ? inputs[1].data() : nullptr;
-  const T* c = inputs.size() > 2 ? inputs[2].data() : nullptr;
-  const T* d = inputs.size() > 3 ? inputs[3].data() : nullptr;
-  switch (inputs.size()) {
-    case 1:
-      reinterpret_cast<void (*)(const T*, T*)>(function)(a, tau.data());
-      break;
+/// Calls a function of any number of pointers.
+template <std::size_t... I>
+void call_pointers(void* function, const std::vector<void*>& p, std::index_sequence<I...>) {
+  reinterpret_cast<void (*)(decltype(static_cast<void>(I), static_cast<void*>(nullptr))...)>(
+      function)(p[I]...);
+}
+
+void call_pointers(void* function, const std::vector<void*>& p) {
+  switch (p.size()) {
     case 2:
-      reinterpret_cast<void (*)(const T*, const T*, T*)>(function)(a, b, tau.data());
-      break;
+      return call_pointers(function, p, std::make_index_sequence<2>());
     case 3:
-      reinterpret_cast<void (*)(const T*, const T*, const T*, T*)>(function)(a, b, c, tau.data());
-      break;
+      return call_pointers(function, p, std::make_index_sequence<3>());
+    case 4:
+      return call_pointers(function, p, std::make_index_sequence<4>());
+    case 5:
+      return call_pointers(function, p, std::make_index_sequence<5>());
+    case 6:
+      return call_pointers(function, p, std::make_index_sequence<6>());
+    case 7:
+      return call_pointers(function, p, std::make_index_sequence<7>());
+    case 8:
+      return call_pointers(function, p, std::make_index_sequence<8>());
+    case 9:
+      return call_pointers(function, p, std::make_index_sequence<9>());
     default:
-      reinterpret_cast<void (*)(const T*, const T*, const T*, const T*, T*)>(function)(a, b, c, d,
-                                                                                       tau.data());
+      throw std::runtime_error("call_pointers(): unexpected number of arguments");
   }
-  return std::vector<double>(tau.begin(), tau.end());
+}
+
+template <class T>
+std::vector<double> call_as(void* function, const std::vector<Argument>& all,
+                            const MotionSample& sample, const std::vector<double>& chi,
+                            const std::string& output) {
+  std::vector<std::vector<T>> arrays;
+  std::vector<void*> pointers;
+  std::size_t wanted = all.size();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string& name = all[i].name;
+    if (all[i].output) {
+      arrays.emplace_back(static_cast<std::size_t>(all[i].size()), T(-77));
+      if (output.empty() ? wanted == all.size() : name == output) wanted = i;
+    } else {
+      const std::vector<double>& values = name == "chi" ? chi : sample.input(name);
+      arrays.emplace_back(values.begin(), values.end());
+    }
+    pointers.push_back(arrays.back().data());
+  }
+  call_pointers(function, pointers);
+  return std::vector<double>(arrays.at(wanted).begin(), arrays.at(wanted).end());
 }
 
 SharedObject compile(const RobotModel& model, const GeneratorOptions& options,
@@ -51,24 +71,23 @@ SharedObject compile(const RobotModel& model, const GeneratorOptions& options,
 
 CompiledModel::CompiledModel(const RobotModel& model, const GeneratorOptions& options)
     : prefix_(options.prefix.empty() ? model.name : options.prefix),
-      library_(compile(model, options, prefix_)) {
-  const CodeModel code = make_code_model(model, options);
-  takes_chi_ = code.takes_chi;
-  chi_count_ = code.chi.size();
-  single_ = options.scalar == Scalar::kFloat;
-}
+      library_(compile(model, options, prefix_)),
+      code_(make_code_model(model, options)),
+      single_(options.scalar == Scalar::kFloat) {}
 
 void* CompiledModel::symbol(const std::string& name) const {
   return library_.symbol(prefix_ + "_" + name);
 }
 
 std::vector<double> CompiledModel::call(const std::string& function, const MotionSample& sample,
-                                        const std::vector<double>& chi) const {
+                                        const std::vector<double>& chi,
+                                        const std::string& output) const {
   const FunctionSpec* spec = find_function(function);
   if (spec == nullptr) throw std::runtime_error("no function " + function);
   void* address = symbol(function);
-  return single_ ? call_as<float>(address, *spec, sample, chi, takes_chi_)
-                 : call_as<double>(address, *spec, sample, chi, takes_chi_);
+  const std::vector<Argument> all = arguments(*spec, code_);
+  return single_ ? call_as<float>(address, all, sample, chi, output)
+                 : call_as<double>(address, all, sample, chi, output);
 }
 
 std::vector<double> CompiledModel::call_in_place(const std::string& function,
@@ -78,7 +97,7 @@ std::vector<double> CompiledModel::call_in_place(const std::string& function,
   std::vector<double> both = sample.ddq;
   const double* q = sample.q.data();
   const double* dq = sample.dq.data();
-  if (takes_chi_) {
+  if (code_.takes_chi) {
     using Function = void (*)(const double*, const double*, const double*, const double*, double*);
     reinterpret_cast<Function>(address)(q, dq, both.data(), chi.data(), both.data());
   } else {
@@ -89,13 +108,13 @@ std::vector<double> CompiledModel::call_in_place(const std::string& function,
 }
 
 std::vector<double> CompiledModel::chi_values() const {
-  if (chi_count_ == 0) return {};
+  if (code_.chi.empty()) return {};
   if (single_) {
     const auto* values = static_cast<const float*>(symbol("chi_values"));
-    return {values, values + chi_count_};
+    return {values, values + code_.chi.size()};
   }
   const auto* values = static_cast<const double*>(symbol("chi_values"));
-  return {values, values + chi_count_};
+  return {values, values + code_.chi.size()};
 }
 
 }  // namespace dyngen::test

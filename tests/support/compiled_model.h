@@ -17,8 +17,10 @@ class CompiledModel {
   CompiledModel(const RobotModel& model, const GeneratorOptions& options);
 
   /// @param chi  ignored by models whose functions take none
+  /// @return the function's first output, or the one of this name
   [[nodiscard]] std::vector<double> call(const std::string& function, const MotionSample& sample,
-                                         const std::vector<double>& chi) const;
+                                         const std::vector<double>& chi,
+                                         const std::string& output = {}) const;
   /// The same with one array for ddq and tau: the last input of `id` before chi.
   [[nodiscard]] std::vector<double> call_in_place(const std::string& function,
                                                   const MotionSample& sample,
@@ -31,9 +33,8 @@ class CompiledModel {
 
   std::string prefix_;
   SharedObject library_;
-  bool takes_chi_ = false;
+  CodeModel code_;
   bool single_ = false;
-  std::size_t chi_count_ = 0;
 };
 
 }  // namespace dyngen::test

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <random>
 #include <stdexcept>
 
@@ -158,11 +159,22 @@ std::vector<MotionSample> random_samples(int coordinates, int count, std::uint64
     return values;
   };
   const std::vector<double> zero(static_cast<std::size_t>(coordinates), 0.0);
-  std::vector<MotionSample> samples = {{zero, zero, zero}};
+  std::vector<MotionSample> samples = {{.q = zero, .dq = zero, .ddq = zero}};
   while (static_cast<int>(samples.size()) < count) {
-    samples.push_back({vector(3.0), vector(3.0), vector(5.0)});
+    samples.push_back({.q = vector(3.0), .dq = vector(3.0), .ddq = vector(5.0)});
   }
   return samples;
+}
+
+const std::vector<double>& MotionSample::input(const std::string& name) const {
+  if (name == "q") return q;
+  if (name == "dq") return dq;
+  if (name == "ddq") return ddq;
+  if (name == "tau") return tau;
+  if (name == "gravity") return gravity;
+  if (name == "wrench") return wrench;
+  if (name == "payload") return payload;
+  throw std::invalid_argument("MotionSample: no input " + name);
 }
 
 std::vector<double> judge(const RobotModel& model, const NumericRobot& robot,
@@ -172,6 +184,11 @@ std::vector<double> judge(const RobotModel& model, const NumericRobot& robot,
   const std::vector<double> ddq = per_joint(model, sample.ddq);
   std::vector<double> torque;
   if (function == "id") torque = id(robot, q, dq, ddq);
+  if (function == "id_rigid") {
+    torque = id(robot, q, dq, ddq);
+    const std::vector<double> loss = friction(robot, dq);
+    for (std::size_t j = 0; j < torque.size(); ++j) torque[j] -= loss[j];
+  }
   if (function == "gravity") torque = gravity(robot, q);
   if (function == "coriolis") torque = coriolis(robot, q, dq);
   if (function == "friction") torque = friction(robot, dq);
@@ -187,7 +204,7 @@ EvaluatedModel::EvaluatedModel(const RobotModel& model, const RobotModel& values
                                const GeneratorOptions& options)
     : code_(make_code_model(model, options)) {
   // chi as the user of a run-time model gets it: every grouped parameter from the numbers
-  const SymbolicRobot symbolic = make_symbolic(model);
+  const SymbolicRobot symbolic = make_symbolic(model, options);
   const SymbolicRobot numbers = make_symbolic(with_random_values(values, 1));
   GiNaC::exmap known;
   const auto match = [&](const FileSymbol& entry, const GiNaC::ex& value) {
@@ -213,7 +230,10 @@ EvaluatedModel::EvaluatedModel(const RobotModel& model, const RobotModel& values
   for (const GroupedParameter& parameter : grouping.parameters) {
     chi_.push_back(to_double(parameter.value.subs(known)));
   }
-  for (const FileSymbol& entry : symbolic.geometry) chi_.push_back(to_double(known[entry.symbol]));
+  for (const FileSymbol& entry : symbolic.geometry) {
+    const bool is_argument = options.gravity && entry.name[0] == 'g';
+    if (!is_argument) chi_.push_back(to_double(known[entry.symbol]));
+  }
   functions_ = write_functions(code_, options);
   for (const RobotFunction& function : functions_) programs_.push_back(lower(function.trace));
 }
@@ -225,11 +245,27 @@ std::size_t EvaluatedModel::place(const std::string& function) const {
   throw std::invalid_argument("EvaluatedModel: no function " + function);
 }
 
-std::vector<double> EvaluatedModel::call(const std::string& function,
-                                         const MotionSample& sample) const {
-  std::vector<double> tau(sample.q.size(), std::nan(""));
-  evaluate(programs_[place(function)], 1, {sample.q, sample.dq, sample.ddq, chi_}, tau);
-  return tau;
+std::vector<double> EvaluatedModel::call(const std::string& function, const MotionSample& sample,
+                                         const std::string& output) const {
+  const std::size_t at = place(function);
+  std::vector<InputArray> inputs;
+  std::vector<OutputArray> outputs;
+  std::map<std::string, std::vector<double>> values;
+  std::string wanted = output;
+  const std::vector<Argument> all = arguments(*functions_[at].spec, code_);
+  for (const Argument& argument : all) {
+    if (argument.output) {
+      if (wanted.empty()) wanted = argument.name;
+      std::vector<double>& array = values[argument.name];
+      array.assign(static_cast<std::size_t>(argument.size()), std::nan(""));
+      outputs.push_back({argument.name, array});
+    } else {
+      inputs.push_back(
+          {argument.name, argument.name == "chi" ? chi_ : sample.input(argument.name)});
+    }
+  }
+  evaluate(programs_[at], 1, inputs, outputs);
+  return values.at(wanted);
 }
 
 OperationCount EvaluatedModel::count(const std::string& function) const {

@@ -29,9 +29,14 @@ RobotModel with_unknown_parameters(RobotModel model, bool inertial_only);
 /// Gives every unknown quantity a random number; masses and friction are positive.
 RobotModel with_random_values(RobotModel model, std::uint64_t seed);
 
-/// Inputs of one sample, one value per coordinate.
+/// Inputs of one sample, one value per coordinate; what a function does not read may be empty.
 struct MotionSample {
   std::vector<double> q, dq, ddq;
+  std::vector<double> tau{};
+  std::vector<double> gravity{}, wrench{}, payload{};
+
+  /// By the name of the argument. @throws std::invalid_argument
+  [[nodiscard]] const std::vector<double>& input(const std::string& name) const;
 };
 /// Samples in +-3 rad, +-3 rad/s, +-5 rad/s^2; the first one is the zero state.
 std::vector<MotionSample> random_samples(int coordinates, int count, std::uint64_t seed);
@@ -51,8 +56,9 @@ class EvaluatedModel {
   EvaluatedModel(const RobotModel& model, const GeneratorOptions& options)
       : EvaluatedModel(model, model, options) {}
 
-  [[nodiscard]] std::vector<double> call(const std::string& function,
-                                         const MotionSample& sample) const;
+  /// The function's first output, or the one of this name.
+  [[nodiscard]] std::vector<double> call(const std::string& function, const MotionSample& sample,
+                                         const std::string& output = {}) const;
   [[nodiscard]] const CodeModel& code() const { return code_; }
   [[nodiscard]] const std::vector<double>& chi() const { return chi_; }
   [[nodiscard]] OperationCount count(const std::string& function) const;

@@ -115,7 +115,8 @@ static void rp_sincos4(const double x[4], double sine[4], double cosine[4]) {
 
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
- *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   ddq[2] rad/s^2 (m/s^2 at 1)   tau[2] N m (N at 1), out
+ *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   ddq[2] rad/s^2 (m/s^2 at 1)
+ *   tau[2] N m (N at 1), out
  * 24 mul, 18 add, 1 sin/cos, 2 sgn.  Reads every input before writing tau. */
 void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double ZZR1 = 1.22162646970298; /* kg m^2, grouped */

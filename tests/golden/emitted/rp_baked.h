@@ -36,7 +36,8 @@ extern const double rp_chi_values[];
 
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
- *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   ddq[2] rad/s^2 (m/s^2 at 1)   tau[2] N m (N at 1), out
+ *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   ddq[2] rad/s^2 (m/s^2 at 1)
+ *   tau[2] N m (N at 1), out
  * 24 mul, 18 add, 1 sin/cos, 2 sgn.  Reads every input before writing tau. */
 void rp_id(const double *q, const double *dq, const double *ddq, double *tau);
 
