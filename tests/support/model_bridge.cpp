@@ -153,15 +153,22 @@ RobotModel with_random_values(RobotModel model, std::uint64_t seed) {
 std::vector<MotionSample> random_samples(int coordinates, int count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto vector = [&](double range) {
+  const auto numbers = [&](int count_of, double range) {
     std::vector<double> values;
-    for (int i = 0; i < coordinates; ++i) values.push_back(range * unit(random));
+    for (int i = 0; i < count_of; ++i) values.push_back(range * unit(random));
     return values;
   };
+  const auto vector = [&](double range) { return numbers(coordinates, range); };
   const std::vector<double> zero(static_cast<std::size_t>(coordinates), 0.0);
   std::vector<MotionSample> samples = {{.q = zero, .dq = zero, .ddq = zero}};
   while (static_cast<int>(samples.size()) < count) {
     samples.push_back({.q = vector(3.0), .dq = vector(3.0), .ddq = vector(5.0)});
+  }
+  for (MotionSample& sample : samples) {
+    sample.tau = vector(20.0);
+    sample.gravity = numbers(3, 9.8);
+    sample.wrench = numbers(6, 10.0);
+    sample.payload = numbers(static_cast<int>(kInertialCount), 1.0);
   }
   return samples;
 }

@@ -38,7 +38,8 @@ struct MotionSample {
   /// By the name of the argument. @throws std::invalid_argument
   [[nodiscard]] const std::vector<double>& input(const std::string& name) const;
 };
-/// Samples in +-3 rad, +-3 rad/s, +-5 rad/s^2; the first one is the zero state.
+/// Samples in +-3 rad, +-3 rad/s, +-5 rad/s^2, +-20 N m; the first one is at rest in the zero
+/// position. Gravity, wrench and payload are random too.
 std::vector<MotionSample> random_samples(int coordinates, int count, std::uint64_t seed);
 
 /// What the judge says of a sample, for the coordinates of the model (fixed joints left out).
@@ -60,6 +61,7 @@ class EvaluatedModel {
   [[nodiscard]] std::vector<double> call(const std::string& function, const MotionSample& sample,
                                          const std::string& output = {}) const;
   [[nodiscard]] const CodeModel& code() const { return code_; }
+  [[nodiscard]] const std::vector<RobotFunction>& functions() const { return functions_; }
   [[nodiscard]] const std::vector<double>& chi() const { return chi_; }
   [[nodiscard]] OperationCount count(const std::string& function) const;
 

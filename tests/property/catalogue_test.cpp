@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Every function of the catalogue, every output: the compiled text computes what the evaluated
+// program computes, in single precision too.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/compiled_model.h"
+#include "tests/support/relative_error.h"
+
+namespace dyngen::test {
+namespace {
+
+struct CatalogueCase {
+  std::string name;
+  std::string robot;
+  GeneratorOptions options;
+};
+
+std::vector<CatalogueCase> cases() {
+  GeneratorOptions baked;
+  baked.trig = Trig::kLibm;
+  GeneratorOptions runtime = baked;
+  runtime.parameters = ParameterMode::kRuntime;
+  GeneratorOptions arguments = runtime;
+  arguments.gravity = arguments.wrench = arguments.payload = true;
+  GeneratorOptions standard = arguments;
+  standard.regroup = false;
+  return {{"puma560_baked", "robots/puma560.robot", baked},
+          {"panda_runtime", "robots/panda.robot", runtime},
+          {"rp_baked", "tests/robots/rp.robot", baked},
+          {"stanford_arguments", "robots/stanford.robot", arguments},
+          {"odd_angles_standard", "tests/robots/odd_angles.robot", standard},
+          {"puma560_3dof_standard", "robots/puma560_3dof.robot", standard}};
+}
+
+class Catalogue : public testing::TestWithParam<CatalogueCase> {
+ protected:
+  /// The largest difference of any output, relative to the largest value of that output.
+  void expect_equal(const GeneratorOptions& options, double tolerance) {
+    const RobotModel model = read_model(GetParam().robot);
+    const CompiledModel compiled(model, options);
+    const EvaluatedModel evaluated(model, with_random_values(model, 11), options);
+    for (const RobotFunction& function : evaluated.functions()) {
+      for (const OutputSpec& output : function.spec->outputs) {
+        const std::string name(function.spec->name), array(output.array);
+        RelativeError error;
+        error.add(1e-3, 1e-3);  // an output that is zero throughout is judged against 0.001
+        for (const MotionSample& sample : random_samples(model.coordinate_count, 20, 5)) {
+          error.add(compiled.call(name, sample, evaluated.chi(), array),
+                    evaluated.call(name, sample, array));
+        }
+        EXPECT_LT(error.value(), tolerance) << name << " " << array;
+      }
+    }
+  }
+};
+
+TEST_P(Catalogue, CompiledEqualsEvaluated) {
+  // the same operations in the same order
+  expect_equal(GetParam().options, 1e-15);
+}
+
+TEST_P(Catalogue, SinglePrecisionAgreesToSinglePrecision) {
+  GeneratorOptions options = GetParam().options;
+  options.scalar = Scalar::kFloat;
+  // forward dynamics solves with a mass matrix of condition 1e4: it is left out
+  for (const FunctionSpec& spec : function_catalogue()) {
+    if (spec.name != "fd") options.functions.emplace_back(spec.name);
+  }
+  expect_equal(options, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, Catalogue, testing::ValuesIn(cases()),
+                         [](const auto& entry) { return entry.param.name; });
+
+}  // namespace
+}  // namespace dyngen::test
