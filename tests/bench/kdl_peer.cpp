@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/bench/peers.h"
+#include "tests/support/central_inertia.h"
 
 namespace dyngen::bench {
 namespace {
@@ -18,7 +19,7 @@ Frame before_axis(const test::NumericJoint& joint) {
 }
 
 KDL::RigidBodyInertia inertia(const test::NumericJoint& joint) {
-  const CentralInertia link = central_inertia(joint);
+  const test::CentralInertia link = test::central_inertia(joint);
   return KDL::RigidBodyInertia(
       link.mass, Vector(link.com[0], link.com[1], link.com[2]),
       KDL::RotationalInertia(link.xx, link.yy, link.zz, link.xy, link.xz, link.yz));

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "tests/bench/peers.h"
+#include "tests/support/central_inertia.h"
 
 namespace dyngen::bench {
 namespace {
@@ -40,7 +41,7 @@ std::string mjcf(const test::NumericRobot& robot) {
 }
 
 void set_inertia(mjModel& model, int body, const test::NumericJoint& joint) {
-  const CentralInertia link = central_inertia(joint);
+  const test::CentralInertia link = test::central_inertia(joint);
   Eigen::Matrix3d tensor;
   tensor << link.xx, link.xy, link.xz, link.xy, link.yy, link.yz, link.xz, link.yz, link.zz;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(tensor);

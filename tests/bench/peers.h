@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <functional>
 #include <vector>
 
@@ -22,13 +21,5 @@ struct Peer {
 
 Peer make_kdl_peer(const test::NumericRobot& robot, const States& states);
 Peer make_mujoco_peer(const test::NumericRobot& robot, const States& states);
-
-/// A link about its centre of mass, in the axes of its frame.
-struct CentralInertia {
-  double mass = 0;
-  std::array<double, 3> com{};
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-};
-CentralInertia central_inertia(const test::NumericJoint& joint);
 
 }  // namespace dyngen::bench

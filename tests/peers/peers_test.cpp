@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// Generated functions against libraries that nobody here wrote: Orocos KDL, MuJoCo and DART.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <optional>
+
+#include "tests/peers/link_frames.h"
+#include "tests/peers/peer.h"
+#include "tests/peers/peer_robots.h"
+#include "tests/support/model_bridge.h"
+#include "tests/support/relative_error.h"
+
+namespace dyngen::test {
+namespace {
+
+// All sides work in double. Of the largest value of a function on a robot, errors of some 1e-15 per
+// joint add up; forward dynamics multiplies them by the condition of the mass matrix.
+constexpr double kTolerance = 1e-10;
+constexpr int kSamples = 6;
+
+const std::vector<std::string>& function_names() {
+  static const std::vector<std::string> kNames = {"id", "gravity",  "coriolis", "mass_matrix",
+                                                  "fd", "jacobian", "fk"};
+  return kNames;
+}
+
+PeerInput input_of(const MotionSample& sample) {
+  return {sample.q, sample.dq, sample.ddq, {}, {}, 0};
+}
+
+double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+
+/// The peer's answer with what it does not know of the joints: each of them adds to its own row.
+/// None if it cannot answer.
+std::optional<std::vector<double>> answer(const Peer& peer, const NumericRobot& robot,
+                                          const std::string& function, PeerInput input) {
+  const auto call = peer.calls.find(function);
+  if (call == peer.calls.end()) return std::nullopt;
+  const std::vector<std::size_t> moving = moving_joints(robot);
+  const auto friction = [&](std::size_t i) {
+    const NumericJoint& joint = robot.joints[moving[i]];
+    return joint.Fs * sign(input.dq[i]) + joint.off +
+           (peer.holds_viscous ? 0 : joint.Fv * input.dq[i]);
+  };
+  const auto rotor = [&](std::size_t i) {
+    return peer.holds_rotor ? 0 : robot.joints[moving[i]].IA;
+  };
+  if (function == "fd") {
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      if (rotor(i) != 0) return std::nullopt;
+      input.tau[i] -= friction(i);
+    }
+  }
+  std::vector<double> result = call->second(input);
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (function == "id") result[i] += friction(i) + rotor(i) * input.ddq[i];
+    if (function == "mass_matrix") result[i * moving.size() + i] += rotor(i);
+  }
+  return result;
+}
+
+/// The largest errors by function, over robots.
+class Errors {
+ public:
+  void add(const std::string& function, const RelativeError& error, const std::string& robot) {
+    EXPECT_LT(error.value(), kTolerance) << function << " of " << robot;
+    double& largest = largest_[function];
+    largest = std::max(largest, error.value());
+  }
+  void print(const std::string& peer) const {
+    std::cout << peer << ":";
+    for (const auto& [function, error] : largest_) {
+      std::cout << fmt::format(" {} {:.0e}", function, error);
+    }
+    std::cout << "\n";
+  }
+
+ private:
+  std::map<std::string, double> largest_;
+};
+
+int coordinates(const NumericRobot& robot) { return static_cast<int>(moving_joints(robot).size()); }
+
+double largest(const std::vector<double>& values) {
+  double result = 0;
+  for (const double value : values) result = std::max(result, std::fabs(value));
+  return result;
+}
+
+/// Parts of the torque are judged against all of it: they may vanish on a robot.
+bool is_torque(const std::string& function) {
+  return function == "id" || function == "gravity" || function == "coriolis";
+}
+
+/// The generated function's error, judged by the peer. None if the peer cannot tell.
+std::optional<RelativeError> error_of(const std::string& function, const EvaluatedModel& generated,
+                                      const Peer& peer, const NumericRobot& robot) {
+  RelativeError error;
+  for (const MotionSample& sample : random_samples(coordinates(robot), kSamples, 3)) {
+    PeerInput input = input_of(sample);
+    const std::vector<double> torque = *answer(peer, robot, "id", input);
+    input.tau = torque;
+    const std::optional<std::vector<double>> expected = answer(peer, robot, function, input);
+    if (!expected) return std::nullopt;
+    error.add(generated.call(function, sample), *expected);
+    if (is_torque(function)) error.add(largest(torque), largest(torque));
+  }
+  return error;
+}
+
+GeneratorOptions options_of(ParameterMode mode) {
+  GeneratorOptions options;
+  options.parameters = mode;
+  return options;
+}
+
+void compare(const PeerKind& kind, const std::vector<NamedRobot>& robots, ParameterMode mode) {
+  Errors errors;
+  for (const auto& [name, robot] : robots) {
+    const EvaluatedModel generated(robot_model(robot), options_of(mode));
+    const Peer peer = kind.make(robot);
+    for (const std::string& function : function_names()) {
+      if (find_function(function) == nullptr) continue;
+      const std::optional<RelativeError> error = error_of(function, generated, peer, robot);
+      if (error) errors.add(function, *error, name);
+    }
+  }
+  errors.print(kind.name);
+}
+
+class Peers : public testing::TestWithParam<PeerKind> {};
+
+TEST_P(Peers, AgreeOnRandomChains) { compare(GetParam(), random_chains(), ParameterMode::kBaked); }
+
+class PeersOfTrees : public Peers {};
+
+TEST_P(PeersOfTrees, AgreeOnRandomTrees) {
+  compare(GetParam(), random_trees(), ParameterMode::kBaked);
+}
+
+TEST_P(Peers, AgreeOnTheRobotFiles) {
+  compare(GetParam(), robots_of_files(), ParameterMode::kRuntime);
+}
+
+/// A chain of revolute and prismatic joints in which every number matters to every function.
+NumericRobot robot_to_spoil() {
+  NumericRobot robot;
+  for (int j = 0; j < 4; ++j) {
+    NumericJoint joint;
+    joint.sigma = j == 2 ? 1 : 0;
+    joint.parent = j;
+    joint.alpha = 0.3 + 0.2 * j;
+    joint.d = 0.1 + 0.1 * j;
+    joint.theta = 0.4;
+    joint.r = 0.2;
+    joint.inertial = random_body(static_cast<std::uint64_t>(100 + j));
+    robot.joints.push_back(joint);
+  }
+  robot.base_acceleration = {1, 2, 9.81};
+  return robot;
+}
+
+TEST_P(Peers, DisagreeOnAWrongModel) {
+  const NumericRobot robot = robot_to_spoil();
+  const EvaluatedModel generated(robot_model(robot), options_of(ParameterMode::kBaked));
+  std::vector<NumericRobot> wrong(4, robot);
+  wrong[0].joints[1].d *= 1 + 1e-6;
+  wrong[1].joints[3].alpha += 1e-6;
+  wrong[2].joints[3].inertial[6] *= 1 + 1e-6;
+  wrong[3].base_acceleration[2] *= 1 + 1e-6;
+  for (std::size_t i = 0; i < wrong.size(); ++i) {
+    const Peer peer = GetParam().make(wrong[i]);
+    for (const std::string& function : function_names()) {
+      if (find_function(function) == nullptr) continue;
+      const bool of_bodies = function != "fk" && function != "jacobian";
+      const bool of_gravity = function == "id" || function == "gravity" || function == "fd";
+      if ((i == 2 && !of_bodies) || (i == 3 && !of_gravity)) continue;
+      const std::optional<RelativeError> error = error_of(function, generated, peer, robot);
+      if (!error) continue;
+      EXPECT_GT(error->value(), 10 * kTolerance) << function << ", wrong model " << i;
+    }
+  }
+}
+
+std::vector<PeerKind> kinds_with_trees() {
+  std::vector<PeerKind> kinds = peer_kinds();
+  std::erase_if(kinds, [](const PeerKind& kind) { return !kind.trees; });
+  return kinds;
+}
+
+const auto name_of = [](const auto& kind) { return kind.param.name; };
+INSTANTIATE_TEST_SUITE_P(Libraries, Peers, testing::ValuesIn(peer_kinds()), name_of);
+INSTANTIATE_TEST_SUITE_P(Libraries, PeersOfTrees, testing::ValuesIn(kinds_with_trees()), name_of);
+
+/// Judges must agree before they judge: every function of every two libraries, with a wrench on
+/// the last link.
+TEST(PeersAmongThemselves, Agree) {
+  std::vector<NamedRobot> robots = random_chains();
+  const std::vector<NamedRobot> trees = random_trees(), files = robots_of_files();
+  robots.insert(robots.end(), files.begin(), files.end());
+  robots.insert(robots.end(), trees.begin(), trees.end());
+  std::map<std::string, Errors> errors;
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    const auto& [name, robot] = robots[r];
+    const bool tree = r >= robots.size() - trees.size();
+    std::vector<Peer> peers;
+    for (const PeerKind& kind : peer_kinds()) {
+      if (kind.trees || !tree) peers.push_back(kind.make(robot));
+    }
+    for (const std::string& function : function_names()) {
+      for (const Peer& peer : peers) {
+        RelativeError error;
+        for (const MotionSample& sample : random_samples(coordinates(robot), kSamples, 3)) {
+          PeerInput input = input_of(sample);
+          input.wrench = {1, -2, 3, 0.5, -0.4, 0.3};
+          input.link = 1 + static_cast<int>(r % robot.size());
+          const std::vector<double> torque = *answer(peers.front(), robot, "id", input);
+          input.tau = torque;
+          const auto expected = answer(peers.front(), robot, function, input);
+          const auto actual = answer(peer, robot, function, input);
+          if (!expected || !actual) break;
+          error.add(*actual, *expected);
+          const double scale = is_torque(function) ? largest(torque) : 1;
+          error.add(scale, scale);
+        }
+        if (std::isfinite(error.value())) errors[peer.name].add(function, error, name);
+      }
+    }
+  }
+  for (const auto& [peer, of_peer] : errors) of_peer.print(peer);
+}
+
+}  // namespace
+}  // namespace dyngen::test
