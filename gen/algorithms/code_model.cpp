@@ -103,17 +103,31 @@ bool is_gravity(const SymbolicRobot& robot, const ex& symbol) {
 /// A body on the last link: its parameters add to the link's.
 void add_payload(CodeModel& code) {
   CodeLink& last = code.links.back();
+  std::array<ex, kInertialCount> body;
   for (std::size_t k = 0; k < kInertialCount; ++k) {
-    last.chi[k] += add_input(code.inputs, "payload", static_cast<int>(k), std::string(kChiNames[k]),
-                             std::string(chi_unit(static_cast<Chi>(k), true)), true);
+    body[k] = add_input(code.inputs, "payload", static_cast<int>(k), std::string(kChiNames[k]),
+                        std::string(chi_unit(static_cast<Chi>(k), true)), true);
   }
+  body = move_to_parent(body, last.tip_alpha, last.tip_d, 0, 0);
+  for (std::size_t k = 0; k < kInertialCount; ++k) last.chi[k] += body[k];
 }
 
 void add_wrench(CodeModel& code) {
-  for (std::size_t k = 0; k < code.wrench.size(); ++k) {
-    code.wrench[k] = add_input(code.inputs, "wrench", static_cast<int>(k), std::to_string(k + 1),
-                               k < 3 ? "N" : "N m");
+  std::array<ex, 6> w;  // in the file's frame
+  for (std::size_t k = 0; k < w.size(); ++k) {
+    w[k] = add_input(code.inputs, "wrench", static_cast<int>(k), std::to_string(k + 1),
+                     k < 3 ? "N" : "N m");
   }
+  const CodeLink& last = code.links.back();
+  const ex s = add_constant(code.inputs, "SAt", exact_sin(last.tip_alpha), "", "");
+  const ex c = add_constant(code.inputs, "CAt", exact_cos(last.tip_alpha), "", "");
+  const ex y = c * w[1] - s * w[2], z = s * w[1] + c * w[2];
+  code.wrench = {w[0],
+                 y,
+                 z,
+                 w[3],
+                 (c * w[4] - s * w[5] - last.tip_d * z).expand(),
+                 (s * w[4] + c * w[5] + last.tip_d * y).expand()};
 }
 
 }  // namespace
@@ -184,16 +198,20 @@ CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedP
         value.subs(geometry);
   }
 
+  const auto length = [&](const ex& value, const std::string& name, int line) {
+    if (!is_number(value)) return value.subs(geometry);
+    return add_constant(code.inputs, name, value, "m", origin(robot.file_name, line));
+  };
+  for (std::size_t j = 0; j < robot.links.size(); ++j) {
+    const SymbolicLink& link = robot.links[j];
+    code.links[j].tip_alpha = link.tip_alpha;
+    code.links[j].tip_d = length(link.tip_d, fmt::format("dt{}", j + 1), link.tip_line);
+  }
   if (options.payload) add_payload(code);
   for (std::size_t j = 0; j < robot.links.size(); ++j) {
     const SymbolicLink& link = robot.links[j];
-    const auto length = [&](const ex& value, const char* name, int line) {
-      if (!is_number(value)) return value.subs(geometry);
-      return add_constant(code.inputs, fmt::format("{}{}", name, j + 1), value, "m",
-                          origin(robot.file_name, line));
-    };
-    code.links[j].d = length(link.d, "d", link.d_line);
-    code.links[j].r = length(link.r, "r", link.r_line);
+    code.links[j].d = length(link.d, fmt::format("d{}", j + 1), link.d_line);
+    code.links[j].r = length(link.r, fmt::format("r{}", j + 1), link.r_line);
   }
   constexpr std::array<const char*, 3> kGravityNames = {"GX", "GY", "GZ"};
   for (std::size_t k = 0; k < 3; ++k) {

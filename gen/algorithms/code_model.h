@@ -45,6 +45,10 @@ struct CodeLink {
   GiNaC::ex theta = 0;  ///< exact
   GiNaC::ex d = 0;
   GiNaC::ex r = 0;
+  /// From this frame to the file's frame of the link: Rx(tip_alpha) Tx(tip_d). 0 unless the file is
+  /// in standard frames.
+  GiNaC::ex tip_alpha = 0;  ///< exact
+  GiNaC::ex tip_d = 0;
   std::array<GiNaC::ex, kChiCount> chi;  ///< 0, a symbol, or a sum (see with_named_parameters())
   GiNaC::ex q = 0, dq = 0, ddq = 0;      ///< inputs; 0 for a fixed joint
   GiNaC::ex tau = 0;                     ///< input of the forward dynamics
@@ -59,6 +63,7 @@ struct CodeModel {
   std::vector<CodeLink> links;  ///< links[j - 1] is link j
   std::array<GiNaC::ex, 3> gravity;
   /// Force and moment about the last link's origin that its environment applies, in its frame.
+  /// The argument speaks of the file's frame, this of the link's frame here.
   std::array<GiNaC::ex, 6> wrench;
   std::vector<ChiEntry> chi;  ///< dynamic parameters, then unknown lengths and gravity components
   std::vector<Column> chi_columns;  ///< what the dynamic parameters in chi are: its first entries

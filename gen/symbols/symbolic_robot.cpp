@@ -65,6 +65,9 @@ void reframe(SymbolicRobot& robot) {
     std::copy_n(link.chi.begin(), kInertialCount, distal.begin());
     const Inertial moved = move_to_parent(distal, link.alpha, link.d, 0, 0);
     std::copy(moved.begin(), moved.end(), link.chi.begin());
+    link.tip_alpha = link.alpha;
+    link.tip_d = link.d;
+    link.tip_line = link.d_line;
   }
   for (SymbolicLink& link : robot.links) {
     const bool on_base = link.parent == 0;

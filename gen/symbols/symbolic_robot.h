@@ -29,7 +29,12 @@ struct SymbolicLink {
   GiNaC::ex theta = 0;  ///< exact, rad
   GiNaC::ex d = 0;      ///< m: exact, or a length symbol
   GiNaC::ex r = 0;
-  int d_line = 0;  ///< of the robot file
+  /// From this frame to the file's frame of the link: Rx(tip_alpha) Tx(tip_d). 0 unless the file is
+  /// in standard frames.
+  GiNaC::ex tip_alpha = 0;
+  GiNaC::ex tip_d = 0;
+  int tip_line = 0;  ///< of the robot file
+  int d_line = 0;    ///< of the robot file
   int r_line = 0;
   std::array<GiNaC::ex, kChiCount> chi;  ///< 0, or expressions in the file's symbols
   std::string name;

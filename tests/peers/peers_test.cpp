@@ -24,13 +24,15 @@ constexpr double kTolerance = 1e-10;
 constexpr int kSamples = 6;
 
 const std::vector<std::string>& function_names() {
-  static const std::vector<std::string> kNames = {"id", "gravity",  "coriolis", "mass_matrix",
-                                                  "fd", "jacobian", "fk"};
+  static const std::vector<std::string> kNames = {"id",          "id_rigid", "gravity",  "coriolis",
+                                                  "mass_matrix", "fd",       "jacobian", "fk"};
   return kNames;
 }
 
 PeerInput input_of(const MotionSample& sample) {
-  return {sample.q, sample.dq, sample.ddq, {}, {}, 0};
+  PeerInput input{sample.q, sample.dq, sample.ddq, {}, {}, 0};
+  for (std::size_t k = 0; k < sample.wrench.size(); ++k) input.wrench[k] = sample.wrench[k];
+  return input;
 }
 
 double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
@@ -39,13 +41,14 @@ double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 /// None if it cannot answer.
 std::optional<std::vector<double>> answer(const Peer& peer, const NumericRobot& robot,
                                           const std::string& function, PeerInput input) {
-  const auto call = peer.calls.find(function);
+  const bool rigid = function == "id_rigid";
+  const auto call = peer.calls.find(rigid ? "id" : function);
   if (call == peer.calls.end()) return std::nullopt;
   const std::vector<std::size_t> moving = moving_joints(robot);
   const auto friction = [&](std::size_t i) {
     const NumericJoint& joint = robot.joints[moving[i]];
-    return joint.Fs * sign(input.dq[i]) + joint.off +
-           (peer.holds_viscous ? 0 : joint.Fv * input.dq[i]);
+    const double viscous = joint.Fv * input.dq[i], held = peer.holds_viscous ? viscous : 0;
+    return (rigid ? 0 : joint.Fs * sign(input.dq[i]) + joint.off + viscous) - held;
   };
   const auto rotor = [&](std::size_t i) {
     return peer.holds_rotor ? 0 : robot.joints[moving[i]].IA;
@@ -58,7 +61,7 @@ std::optional<std::vector<double>> answer(const Peer& peer, const NumericRobot& 
   }
   std::vector<double> result = call->second(input);
   for (std::size_t i = 0; i < moving.size(); ++i) {
-    if (function == "id") result[i] += friction(i) + rotor(i) * input.ddq[i];
+    if (function == "id" || rigid) result[i] += friction(i) + rotor(i) * input.ddq[i];
     if (function == "mass_matrix") result[i * moving.size() + i] += rotor(i);
   }
   return result;
@@ -94,21 +97,28 @@ double largest(const std::vector<double>& values) {
 
 /// Parts of the torque are judged against all of it: they may vanish on a robot.
 bool is_torque(const std::string& function) {
-  return function == "id" || function == "gravity" || function == "coriolis";
+  return function.starts_with("id") || function == "gravity" || function == "coriolis";
 }
 
-/// The generated function's error, judged by the peer. None if the peer cannot tell.
+/// The generated function's error on a sample, judged by the peer. @return false if it cannot tell
+bool add_error(RelativeError& error, const std::string& function, const EvaluatedModel& generated,
+               const Peer& peer, const NumericRobot& robot, MotionSample sample) {
+  PeerInput input = input_of(sample);
+  sample.tau = input.tau = *answer(peer, robot, "id", input);
+  const std::optional<std::vector<double>> expected = answer(peer, robot, function, input);
+  if (!expected) return false;
+  error.add(generated.call(function, sample), *expected);
+  if (is_torque(function)) error.add(largest(input.tau), largest(input.tau));
+  return true;
+}
+
+/// Over random samples.
 std::optional<RelativeError> error_of(const std::string& function, const EvaluatedModel& generated,
                                       const Peer& peer, const NumericRobot& robot) {
   RelativeError error;
-  for (const MotionSample& sample : random_samples(coordinates(robot), kSamples, 3)) {
-    PeerInput input = input_of(sample);
-    const std::vector<double> torque = *answer(peer, robot, "id", input);
-    input.tau = torque;
-    const std::optional<std::vector<double>> expected = answer(peer, robot, function, input);
-    if (!expected) return std::nullopt;
-    error.add(generated.call(function, sample), *expected);
-    if (is_torque(function)) error.add(largest(torque), largest(torque));
+  for (MotionSample& sample : random_samples(coordinates(robot), kSamples, 3)) {
+    sample.wrench.clear();  // not an argument here
+    if (!add_error(error, function, generated, peer, robot, sample)) return std::nullopt;
   }
   return error;
 }
@@ -133,6 +143,39 @@ void compare(const PeerKind& kind, const std::vector<NamedRobot>& robots, Parame
   errors.print(kind.name);
 }
 
+/// Gravity, a wrench on the last link and a payload are arguments of the generated functions; the
+/// peer gets a robot with that gravity, whose last link holds the payload too.
+void compare_arguments(const PeerKind& kind, const std::vector<NamedRobot>& robots) {
+  GeneratorOptions options;
+  options.gravity = options.wrench = options.payload = true;
+  Errors errors;
+  for (std::size_t r = 0; r < robots.size(); r += 3) {
+    const auto& [name, robot] = robots[r];
+    const EvaluatedModel generated(robot_model(robot), options);
+    std::map<std::string, RelativeError> of_robot;
+    for (int k = 0; k < 3; ++k) {
+      MotionSample sample = random_samples(coordinates(robot), 2, r).back();
+      sample.gravity = {1.0 + k, 2.0 - k, -3.0 * k};
+      sample.wrench = {10.0 * k, -20, 30, 5, -4.0 * k, 3};
+      const std::array<double, 10> payload = random_body(r + static_cast<std::size_t>(k));
+      sample.payload.assign(payload.begin(), payload.end());
+      NumericRobot loaded = robot;
+      std::copy_n(sample.gravity.begin(), 3, loaded.base_acceleration.begin());
+      for (std::size_t i = 0; i < 10; ++i) loaded.joints.back().inertial[i] += payload[i];
+      const Peer peer = kind.make(loaded);
+      for (const std::string& function : function_names()) {
+        if (find_function(function) == nullptr) continue;
+        RelativeError error = of_robot[function];
+        if (add_error(error, function, generated, peer, loaded, sample)) of_robot[function] = error;
+      }
+    }
+    for (const auto& [function, error] : of_robot) {
+      if (std::isfinite(error.value())) errors.add(function, error, name);
+    }
+  }
+  errors.print(kind.name);
+}
+
 class Peers : public testing::TestWithParam<PeerKind> {};
 
 TEST_P(Peers, AgreeOnRandomChains) { compare(GetParam(), random_chains(), ParameterMode::kBaked); }
@@ -141,6 +184,14 @@ class PeersOfTrees : public Peers {};
 
 TEST_P(PeersOfTrees, AgreeOnRandomTrees) {
   compare(GetParam(), random_trees(), ParameterMode::kBaked);
+}
+
+TEST_P(Peers, AgreeWithGravityWrenchAndPayloadAsArguments) {
+  compare_arguments(GetParam(), random_chains());
+}
+
+TEST_P(PeersOfTrees, AgreeWithGravityWrenchAndPayloadAsArguments) {
+  compare_arguments(GetParam(), random_trees());
 }
 
 TEST_P(Peers, AgreeOnTheRobotFiles) {
