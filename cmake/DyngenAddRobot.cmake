@@ -9,13 +9,14 @@ dyngen_add_robot(<target> ROBOT file
   [GRAVITY file|runtime]          # default: file
   [WRENCH] [PAYLOAD]              # arguments of the functions: a wrench, a body on the last link
   [NO_REGROUP]                    # keep the standard parameters
+  [CPP_WRAPPER]                   # <target>.hpp too: the functions over Eigen's types, C++20
   [OUTPUT_DIR dir]                # in the build tree; default: dyngen/<target>
   [GENERATOR exe]                 # a program or a target that runs on this machine
   [CHECKED_IN dir])               # in the source tree: committed copies of <target>.c, <target>.h
 
 Makes the static library <target> from <target>.c and <target>.h, which dyngen writes from the robot
 file during the build, again whenever the file or the generator changes. Whoever links <target> finds
-<target>.h. ROBOT, GENERATOR and CHECKED_IN are relative to the current source directory, OUTPUT_DIR to
+<target>.h, and with CPP_WRAPPER <target>.hpp and Eigen. ROBOT, GENERATOR and CHECKED_IN are relative to the current source directory, OUTPUT_DIR to
 the current binary directory.
 
 The generator is GENERATOR, else the variable DYNGEN_EXECUTABLE, else the target dyngen::dyngen, which
@@ -30,7 +31,7 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.20...3.25)
 
 function(dyngen_add_robot target)
-  set(flags WRENCH PAYLOAD NO_REGROUP)
+  set(flags WRENCH PAYLOAD NO_REGROUP CPP_WRAPPER)
   set(one_value ROBOT PREFIX PARAMETERS SCALAR TRIG GRAVITY OUTPUT_DIR GENERATOR CHECKED_IN)
   cmake_parse_arguments(PARSE_ARGV 1 arg "${flags}" "${one_value}" "FUNCTIONS")
   set(where "dyngen_add_robot(${target})")
@@ -99,11 +100,21 @@ function(dyngen_add_robot target)
   elseif(NOT EXISTS "${checked_in}/${target}.c" OR NOT EXISTS "${checked_in}/${target}.h")
     message(FATAL_ERROR "${where}: CHECKED_IN: there is no generator, and no ${target}.c and "
       "${target}.h in '${checked_in}'")
+  elseif(arg_CPP_WRAPPER AND NOT EXISTS "${checked_in}/${target}.hpp")
+    message(FATAL_ERROR "${where}: CHECKED_IN: there is no generator, and no ${target}.hpp in "
+      "'${checked_in}'")
   else()
     set(files_dir "${checked_in}")
   endif()
   set(source "${files_dir}/${target}.c")
-  set(header "${files_dir}/${target}.h")
+  set(headers "${files_dir}/${target}.h")
+  if(arg_CPP_WRAPPER)
+    list(APPEND headers "${files_dir}/${target}.hpp")
+    find_package(Eigen3 QUIET NO_MODULE)
+    if(NOT TARGET Eigen3::Eigen)
+      message(FATAL_ERROR "${where}: CPP_WRAPPER needs Eigen (libeigen3-dev), which is not found")
+    endif()
+  endif()
 
   if(generator)
     set(options --prefix ${arg_PREFIX})
@@ -127,20 +138,20 @@ function(dyngen_add_robot target)
     file(MAKE_DIRECTORY "${output}")
     get_filename_component(robot_name "${robot}" NAME)
     add_custom_command(
-      OUTPUT "${source}" "${header}"
+      OUTPUT "${source}" ${headers}
       COMMAND ${generator} "${robot}" -o "${source}" ${options} --depfile "${source}.d"
       DEPENDS "${robot}" "${generator_file}"
       DEPFILE "${source}.d"
       COMMENT "Generating ${target}.c and ${target}.h from ${robot_name}"
       VERBATIM)
     # One target owns the command, so that parallel Make runs it once.
-    add_custom_target(${target}_generate DEPENDS "${source}" "${header}")
+    add_custom_target(${target}_generate DEPENDS "${source}" ${headers})
   endif()
 
   # The library.
-  add_library(${target} STATIC "${source}" "${header}")
+  add_library(${target} STATIC "${source}" ${headers})
   target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${files_dir}>")
-  set_target_properties(${target} PROPERTIES PUBLIC_HEADER "${header}")
+  set_target_properties(${target} PROPERTIES PUBLIC_HEADER "${headers}")
   get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
   if(C IN_LIST languages)
     target_compile_features(${target} PUBLIC c_std_99)
@@ -150,6 +161,12 @@ function(dyngen_add_robot target)
   if(NOT WIN32)
     target_link_libraries(${target} PUBLIC m)
   endif()
+  if(arg_CPP_WRAPPER)
+    target_link_libraries(${target} INTERFACE Eigen3::Eigen)
+    if(CXX IN_LIST languages)
+      target_compile_features(${target} INTERFACE cxx_std_20)
+    endif()
+  endif()
 
   if(generator)
     add_dependencies(${target} ${target}_generate)
@@ -158,7 +175,7 @@ function(dyngen_add_robot target)
     if(generator)
       add_custom_target(${target}_regenerate
         COMMAND ${CMAKE_COMMAND} -E make_directory "${checked_in}"
-        COMMAND ${CMAKE_COMMAND} -E copy_if_different "${source}" "${header}" "${checked_in}"
+        COMMAND ${CMAKE_COMMAND} -E copy_if_different "${source}" ${headers} "${checked_in}"
         COMMENT "Writing ${target}.c and ${target}.h to ${checked_in}"
         VERBATIM)
       add_dependencies(${target}_regenerate ${target}_generate)

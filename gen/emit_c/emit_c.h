@@ -24,10 +24,11 @@ struct EmitOptions {
   std::string header_name;    ///< what the source includes
 };
 
-/// The two files that make up a generated model.
+/// The files that make up a generated model.
 struct CText {
   std::string header;
   std::string source;
+  std::string wrapper{};  ///< see emit_cpp(); empty unless asked for
 };
 
 /// C99 that is also C++20: no allocation, no state, silent under the usual warnings.

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <stdexcept>
 
+#include "gen/emit_cpp/emit_cpp.h"
+
 namespace dyngen {
 namespace {
 
@@ -71,7 +73,10 @@ CText generate(const RobotModel& model, const GeneratorOptions& options) {
   emit.scalar = options.scalar;
   emit.trig = options.scalar == Scalar::kFloat ? Trig::kLibm : options.trig;
   emit.header_name = options.header_name.empty() ? emit.prefix + ".h" : options.header_name;
-  return emit_c(code, write_functions(code, options), emit);
+  const std::vector<RobotFunction> functions = write_functions(code, options);
+  CText text = emit_c(code, functions, emit);
+  if (options.cpp_wrapper) text.wrapper = emit_cpp(code, functions, emit);
+  return text;
 }
 
 std::string count_table(const CodeModel& code, const std::vector<RobotFunction>& functions) {

@@ -16,10 +16,11 @@ namespace dyngen {
 struct GeneratorOptions {
   std::vector<std::string> functions;  ///< names of the catalogue; empty: all
   ParameterMode parameters = ParameterMode::kBaked;
-  bool regroup = true;   ///< use base parameters
-  bool gravity = false;  ///< gravity is an argument; the file's is ignored
-  bool wrench = false;   ///< a wrench on the last link is an argument
-  bool payload = false;  ///< the parameters of a body on the last link are an argument
+  bool regroup = true;       ///< use base parameters
+  bool gravity = false;      ///< gravity is an argument; the file's is ignored
+  bool wrench = false;       ///< a wrench on the last link is an argument
+  bool payload = false;      ///< the parameters of a body on the last link are an argument
+  bool cpp_wrapper = false;  ///< a C++ header too
   Scalar scalar = Scalar::kDouble;
   Trig trig = Trig::kInline;  ///< the C library's with kFloat, whatever this says
   std::string prefix;         ///< empty: the robot's name

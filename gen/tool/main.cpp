@@ -37,9 +37,11 @@ void run(const ToolOptions& options) {
     const CText text = generate(model, options.generator);
     std::vector<OutputFile> files = {{options.output, text.source},
                                      {options.header(), text.header}};
+    if (options.generator.cpp_wrapper) files.push_back({options.wrapper(), text.wrapper});
     if (!options.depfile.empty()) {
-      files.push_back(
-          {options.depfile, depfile_text({options.output, options.header()}, options.robot)});
+      std::vector<std::string> targets;
+      for (const OutputFile& written : files) targets.push_back(written.path);
+      files.push_back({options.depfile, depfile_text(targets, options.robot)});
     }
     write_files(files);
   }

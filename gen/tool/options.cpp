@@ -39,6 +39,7 @@ void check_paths(const ToolOptions& options) {
   }
   std::vector<std::pair<std::string, std::string>> files = {
       {"the robot file", options.robot}, {"-o", options.output}, {"the header", options.header()}};
+  if (options.generator.cpp_wrapper) files.emplace_back("the C++ header", options.wrapper());
   if (!options.depfile.empty()) files.emplace_back("--depfile", options.depfile);
   std::error_code ignored;
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -63,6 +64,9 @@ void check(ToolOptions& options) {
   if (!options.depfile.empty() && options.output.empty()) {
     throw std::invalid_argument("--depfile needs -o FILE");
   }
+  if (options.generator.cpp_wrapper && options.output.empty()) {
+    throw std::invalid_argument("--cpp-wrapper needs -o FILE");
+  }
   check_paths(options);
   auto& functions = options.generator.functions;
   if (functions.size() == 1 && functions[0] == "all") functions.clear();
@@ -76,6 +80,10 @@ void check(ToolOptions& options) {
 
 std::string ToolOptions::header() const {
   return std::filesystem::path(output).replace_extension(".h").string();
+}
+
+std::string ToolOptions::wrapper() const {
+  return std::filesystem::path(output).replace_extension(".hpp").string();
 }
 
 ParsedOptions parse_options(int argc, const char* const* argv) {
@@ -123,6 +131,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_flag("--payload", options.generator.payload,
                "An argument payload[10]: XX XY XZ YY YZ ZZ MX MY MZ M of a body on the last link, "
                "in its frame");
+  app.add_flag("--cpp-wrapper", options.generator.cpp_wrapper,
+               "Write a C++20 header beside the C one (.hpp): the functions over Eigen's types");
   app.add_option("--depfile", options.depfile, "Write a Make rule that names the robot file")
       ->type_name("FILE");
   app.add_flag("--count", options.count,

@@ -17,6 +17,8 @@ struct ToolOptions {
 
   /// The header's path: the output's with ".h".
   [[nodiscard]] std::string header() const;
+  /// The C++ header's: with ".hpp".
+  [[nodiscard]] std::string wrapper() const;
 };
 
 /// Reads the command line. @return what to do, or the exit code if there is nothing left to do

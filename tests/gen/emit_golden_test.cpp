@@ -23,6 +23,7 @@ struct GoldenCase {
 std::vector<GoldenCase> cases() {
   GeneratorOptions baked;
   baked.functions = {"id", "gravity", "coriolis", "friction"};
+  baked.cpp_wrapper = true;
   GeneratorOptions runtime = baked;
   runtime.parameters = ParameterMode::kRuntime;
   GeneratorOptions single = baked;
@@ -38,6 +39,7 @@ TEST_P(EmittedText, IsAsCommitted) {
   const CText text = generate(read_model(GetParam().robot), GetParam().options);
   expect_golden("emitted/" + GetParam().name + ".h", text.header);
   expect_golden("emitted/" + GetParam().name + ".c", text.source);
+  expect_golden("emitted/" + GetParam().name + ".hpp", text.wrapper);
 }
 
 INSTANTIATE_TEST_SUITE_P(golden, EmittedText, testing::ValuesIn(cases()),

@@ -28,6 +28,17 @@ run(text 0 ${DYNGEN} ${SOURCE_DIR}/robots/planar2r.robot -o all.c --functions al
 file(READ ${WORK}/all.h header)
 expect_text(all.h "${header}" planar2r_id planar2r_gravity planar2r_coriolis planar2r_friction)
 
+# The C++ header stands beside the other one, and the depfile names it.
+file(MAKE_DIRECTORY ${WORK}/wrapper)
+run(text 0 ${DYNGEN} ${robot} -o wrapper/arm.cpp --prefix arm --cpp-wrapper --depfile wrapper/arm.d)
+expect_files(--cpp-wrapper ${WORK}/wrapper arm.cpp arm.d arm.h arm.hpp)
+file(READ ${WORK}/wrapper/arm.hpp header)
+expect_text(--cpp-wrapper "${header}" "#include \"arm.h\"" "namespace arm {"
+  "inline Vector id(const Vector& q, const Vector& dq, const Vector& ddq) noexcept"
+  "::arm_id(q.data(), dq.data(), ddq.data(), tau.data())")
+file(READ ${WORK}/wrapper/arm.d rule)
+expect_text("--depfile of three files" "${rule}" "/arm.cpp " "/arm.h " "/arm.hpp: ")
+
 # Options may stand before the robot file.
 run(text 0 ${DYNGEN} --functions id,gravity ${SOURCE_DIR}/robots/planar2r.robot -o before.c)
 
@@ -107,6 +118,11 @@ refuse(2 "wrong trig" ARGUMENTS ${robot} -o out/x.c --trig table SAYS --trig tab
 refuse(2 "wrong prefix" ARGUMENTS ${robot} -o out/x.c --prefix 2arm SAYS --prefix "'2arm'")
 refuse(2 "wrong ending" ARGUMENTS ${robot} -o out/x.txt SAYS "out/x.txt" ".cpp")
 refuse(2 "depfile alone" ARGUMENTS ${robot} --count --depfile out/x.d SAYS --depfile)
+refuse(2 "wrapper alone" ARGUMENTS ${robot} --count --cpp-wrapper SAYS --cpp-wrapper)
+refuse(2 "the C++ header as depfile" ARGUMENTS ${robot} -o out/x.c --cpp-wrapper --depfile out/x.hpp
+  SAYS "same file")
+refuse(1 "a keyword as namespace" ARGUMENTS ${robot} -o out/x.c --cpp-wrapper --prefix class
+  SAYS "puma560.robot: error:" "'class'" --prefix)
 refuse(2 "two robots" ARGUMENTS ${robot} ${robot} -o out/x.c SAYS puma560.robot)
 
 # A good file that was there before a failure is there after it.

@@ -12,9 +12,10 @@ endif()
 
 foreach(k RANGE 1 5)
   file(MAKE_DIRECTORY ${WORK}/${k})
-  run(text 0 ${DYNGEN} ${ROBOT} -o ${WORK}/${k}/robot.c --parameters runtime)
+  run(text 0 ${DYNGEN} ${ROBOT} -o ${WORK}/${k}/robot.c --parameters runtime
+    --cpp-wrapper)
   run(text 0 ${DYNGEN} ${ROBOT} -o ${WORK}/${k}/baked.c)
-  foreach(file IN ITEMS robot.c robot.h baked.c baked.h)
+  foreach(file IN ITEMS robot.c robot.h robot.hpp baked.c baked.h)
     expect_same_file("run ${k}" ${WORK}/1/${file} ${WORK}/${k}/${file})
   endforeach()
 endforeach()

@@ -36,15 +36,15 @@ void run(const std::string& command) {
 }  // namespace
 
 SharedObject::SharedObject(const std::map<std::string, std::string>& files,
-                           const std::string& flags)
+                           const std::string& flags, const std::string& compiler)
     : folder_(make_folder()) {
   const std::string object = folder_ + "/model.so";
   std::string command =
-      "cc " + flags +
+      compiler + " " + flags +
       " -shared -fPIC -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion";
   for (const auto& [name, text] : files) {
     write(folder_ + "/" + name, text);
-    if (name.ends_with(".c")) command += " " + folder_ + "/" + name;
+    if (name.ends_with(".c") || name.ends_with(".cpp")) command += " " + folder_ + "/" + name;
   }
   run(command + " -o " + object + " -lm");
   library_ = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);

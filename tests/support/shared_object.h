@@ -6,13 +6,14 @@
 
 namespace dyngen::test {
 
-/// C sources compiled and loaded; everything is gone with the object.
+/// C or C++ sources compiled and loaded; everything is gone with the object.
 class SharedObject {
  public:
-  /// @param files  name -> text; each name that ends in .c is compiled
+  /// @param files  name -> text; each name that ends in .c or .cpp is compiled
   /// @param flags  of the compiler, besides -fPIC and the warnings of emitted code
   /// @throws std::runtime_error  with the compiler's messages if it is not silent
-  SharedObject(const std::map<std::string, std::string>& files, const std::string& flags);
+  SharedObject(const std::map<std::string, std::string>& files, const std::string& flags,
+               const std::string& compiler = "cc");
   ~SharedObject();
   SharedObject(const SharedObject&) = delete;
   SharedObject& operator=(const SharedObject&) = delete;

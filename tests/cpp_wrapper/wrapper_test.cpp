@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+// The C++ header of --cpp-wrapper: every function of the catalogue, through it and through the
+// compiler, gives the numbers of the evaluated program, element by element.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "tests/support/model_bridge.h"
+#include "tests/support/relative_error.h"
+#include "tests/support/shared_object.h"
+
+namespace dyngen::test {
+namespace {
+
+/// Plain C functions around the wrapper's: arrays in, arrays out, results row by row.
+std::string shim_text(const CodeModel& code, const GeneratorOptions& options) {
+  std::string text =
+      "#include \"model.hpp\"\n"
+      "namespace {\n"
+      "using model::Isometry, model::Scalar;\n"
+      "template <class M> void put(const M& m, Scalar* to) {\n"
+      "  for (Eigen::Index i = 0; i < m.rows(); ++i) {\n"
+      "    for (Eigen::Index k = 0; k < m.cols(); ++k) *to++ = m(i, k);\n"
+      "  }\n"
+      "}\n"
+      "[[maybe_unused]] void put(const Isometry& T, Scalar* to) { put(T.matrix(), to); }\n"
+      "}  // namespace\n";
+  for (const RobotFunction& function : write_functions(code, options)) {
+    const FunctionSpec& spec = *function.spec;
+    text += fmt::format(
+        "extern \"C\" void wrapped_{}(const Scalar* const* in, Scalar* const* out);\n"
+        "void wrapped_{}(const Scalar* const* in, Scalar* const* out) {{\n",
+        spec.name, spec.name);
+    std::string passed;
+    int inputs = 0;
+    for (const Argument& argument : arguments(spec, code)) {
+      if (argument.output) continue;
+      text += fmt::format(
+          "  const Eigen::Matrix<Scalar, {0}, 1> x{1} = Eigen::Map<const Eigen::Matrix<Scalar, "
+          "{0}, "
+          "1>>(in[{1}]);\n",
+          argument.size(), inputs);
+      passed += fmt::format("{}x{}", inputs == 0 ? "" : ", ", inputs);
+      ++inputs;
+    }
+    text += fmt::format("  static_assert(noexcept(model::{}({})));\n", spec.name, passed);
+    text += fmt::format("  const auto y = model::{}({});\n", spec.name, passed);
+    for (std::size_t i = 0; i < spec.outputs.size(); ++i) {
+      text += spec.outputs.size() > 1
+                  ? fmt::format("  put(y.{}, out[{}]);\n", spec.outputs[i].array, i)
+                  : fmt::format("  put(y, out[{}]);\n", i);
+    }
+    text += "}\n";
+  }
+  // the tables, and that all of this is known to the compiler
+  text += fmt::format(
+      "static_assert(model::Sizes::nq == {} && model::Sizes::nchi == {} && "
+      "model::Sizes::nbeta == {});\n"
+      "static_assert(model::joint_names.size() == {} && model::joint_names[0] == \"{}\");\n"
+      "static_assert(model::chi_names.size() == {} && model::beta_names.size() == {});\n",
+      code.coordinate_names.size(), code.chi.size(), code.beta.size(), code.coordinate_names.size(),
+      code.coordinate_names[0], code.chi.size(), code.beta.size());
+  if (!code.chi.empty()) {
+    text += fmt::format("static_assert(model::chi_names[0] == \"{}\");\n", code.chi[0].name);
+    text +=
+        "extern \"C\" void wrapped_chi_values(Scalar* out);\n"
+        "void wrapped_chi_values(Scalar* out) { put(model::chi_values(), out); }\n";
+  }
+  return text;
+}
+
+struct WrapperCase {
+  std::string name;
+  RobotModel model;
+  GeneratorOptions options;
+};
+
+void PrintTo(const WrapperCase& wrapper_case, std::ostream* out) { *out << wrapper_case.name; }
+
+GeneratorOptions options_of(const WrapperCase& wrapper_case) {
+  GeneratorOptions options = wrapper_case.options;
+  options.prefix = "model";
+  options.cpp_wrapper = true;
+  return options;
+}
+
+/// The shim and the model as one C++ program.
+template <class T>
+class Wrapped {
+ public:
+  Wrapped(const CText& text, const CodeModel& code, const GeneratorOptions& options,
+          const std::string& compiler)
+      : code_(code),
+        library_({{"model.h", text.header},
+                  {"model.hpp", text.wrapper},
+                  {"model.cpp", text.source},
+                  {"shim.cpp", shim_text(code, options)}},
+                 "-std=c++20 -O1 -ffp-contract=off -isystem " DYNGEN_EIGEN_INCLUDE, compiler) {}
+
+  [[nodiscard]] std::vector<std::vector<double>> call(const FunctionSpec& spec,
+                                                      const MotionSample& sample,
+                                                      const std::vector<double>& chi) const {
+    std::vector<std::vector<T>> in, out;
+    for (const Argument& argument : arguments(spec, code_)) {
+      if (argument.output) {
+        out.emplace_back(static_cast<std::size_t>(argument.size()), T(-77));
+      } else {
+        const std::vector<double>& values =
+            argument.name == "chi" ? chi : sample.input(argument.name);
+        in.emplace_back(values.begin(), values.end());
+      }
+    }
+    std::vector<const T*> inputs;
+    std::vector<T*> outputs;
+    for (const std::vector<T>& array : in) inputs.push_back(array.data());
+    for (std::vector<T>& array : out) outputs.push_back(array.data());
+    using Function = void (*)(const T* const*, T* const*);
+    reinterpret_cast<Function>(library_.symbol("wrapped_" + std::string(spec.name)))(
+        inputs.data(), outputs.data());
+    std::vector<std::vector<double>> results;
+    for (const std::vector<T>& array : out) results.emplace_back(array.begin(), array.end());
+    return results;
+  }
+  [[nodiscard]] std::vector<double> chi_values() const {
+    std::vector<T> values(code_.chi.size());
+    reinterpret_cast<void (*)(T*)>(library_.symbol("wrapped_chi_values"))(values.data());
+    return {values.begin(), values.end()};
+  }
+
+ private:
+  const CodeModel& code_;
+  SharedObject library_;
+};
+
+/// The largest error of all functions and all outputs.
+template <class T>
+double error_as(const WrapperCase& wrapper_case, const CText& text, const std::string& compiler) {
+  const GeneratorOptions options = options_of(wrapper_case);
+  const RobotModel values = with_random_values(wrapper_case.model, 5);
+  const EvaluatedModel evaluated(wrapper_case.model, values, options);
+  const Wrapped<T> wrapped(text, evaluated.code(), options, compiler);
+  double largest = 0;
+  for (const RobotFunction& function : write_functions(evaluated.code(), options)) {
+    const FunctionSpec& spec = *function.spec;
+    std::vector<RelativeError> errors(spec.outputs.size());
+    for (const MotionSample& sample : random_samples(wrapper_case.model.coordinate_count, 4, 8)) {
+      const auto actual = wrapped.call(spec, sample, evaluated.chi());
+      for (std::size_t i = 0; i < spec.outputs.size(); ++i) {
+        errors[i].add(actual[i], evaluated.call(std::string(spec.name), sample,
+                                                std::string(spec.outputs[i].array)));
+      }
+    }
+    for (const RelativeError& error : errors) largest = std::max(largest, error.value());
+  }
+  if (!evaluated.code().chi.empty()) {
+    const std::vector<double> written = wrapped.chi_values();
+    RelativeError error;
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      const ChiEntry& entry = evaluated.code().chi[i];
+      EXPECT_EQ(std::isnan(written[i]), !entry.value.has_value()) << entry.name;
+      if (entry.value) error.add(written[i], evaluated.chi()[i]);
+    }
+    if (std::any_of(written.begin(), written.end(), [](double x) { return !std::isnan(x); })) {
+      largest = std::max(largest, error.value());
+    }
+  }
+  return largest;
+}
+
+double error_of(const WrapperCase& wrapper_case, const CText& text, const std::string& compiler) {
+  return wrapper_case.options.scalar == Scalar::kFloat
+             ? error_as<float>(wrapper_case, text, compiler)
+             : error_as<double>(wrapper_case, text, compiler);
+}
+
+CText text_of(const WrapperCase& wrapper_case) {
+  return generate(wrapper_case.model, options_of(wrapper_case));
+}
+
+WrapperCase pendulum() { return {"PendulumBaked", read_model("tests/robots/pendulum.robot"), {}}; }
+
+std::vector<WrapperCase> cases() {
+  GeneratorOptions arguments;
+  arguments.parameters = ParameterMode::kRuntime;
+  arguments.gravity = arguments.wrench = arguments.payload = true;
+  GeneratorOptions single;
+  single.scalar = Scalar::kFloat;
+  GeneratorOptions standard;
+  standard.regroup = false;
+  const RobotModel tree = parse_model(
+      "name tree\nnumber_link 4\nsigma 0 1 2 0\nant 0 1 1 3\nal 0 pi/2 0.3 -pi/2\nd 0 * 0.2 0.1\n"
+      "th 0 0 0.4 0\nr 0.3 0 * 0\nm * * 1 *\nmX * 0.2 0.1 *\nZZ 1 * 0.3 *\nIA 0.1 * 0 *\n"
+      "Fs 0.1 * 0 0\ngz 9.81\nstop\n");
+  return {pendulum(),
+          {"PrismaticWithAllArguments", read_model("tests/robots/rp.robot"), arguments},
+          {"PumaFloat", read_model("robots/puma560.robot"), single},
+          {"TreeOfUnknowns", tree, standard}};
+}
+
+class CppWrapper : public testing::TestWithParam<std::tuple<WrapperCase, std::string>> {};
+
+TEST_P(CppWrapper, EveryFunctionGivesTheEvaluatedNumbers) {
+  const auto& [wrapper_case, compiler] = GetParam();
+  const bool single = wrapper_case.options.scalar == Scalar::kFloat;
+  EXPECT_LT(error_of(wrapper_case, text_of(wrapper_case), compiler), single ? 1e-4 : 1e-12);
+}
+
+std::vector<std::string> compilers() {
+  std::stringstream list(DYNGEN_TEST_CXX);
+  std::vector<std::string> result;
+  for (std::string compiler; std::getline(list, compiler, ',');) result.push_back(compiler);
+  return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, CppWrapper,
+                         testing::Combine(testing::ValuesIn(cases()),
+                                          testing::ValuesIn(compilers())),
+                         [](const auto& parameters) {
+                           const bool clang =
+                               std::get<1>(parameters.param).find("clang") != std::string::npos;
+                           return std::get<0>(parameters.param).name + (clang ? "Clang" : "Gcc");
+                         });
+
+TEST(CppWrapperText, ComparisonFailsOnSwappedArguments) {
+  CText text = text_of(pendulum());
+  const std::string right = "q.data(), dq.data()";
+  const std::size_t place = text.wrapper.find(right);
+  ASSERT_NE(place, std::string::npos);
+  text.wrapper.replace(place, right.size(), "dq.data(), q.data()");
+  EXPECT_GT(error_of(pendulum(), text, compilers()[0]), 1e-3);
+}
+
+TEST(CppWrapperText, ItIsWrittenOnlyOnRequest) {
+  EXPECT_TRUE(generate(pendulum().model, {}).wrapper.empty());
+}
+
+TEST(CppWrapperText, NamesThatNoNamespaceMayHaveAreRefused) {
+  GeneratorOptions options;
+  options.cpp_wrapper = true;
+  for (const std::string prefix : {"std", "Eigen", "class", "double", "xor_eq", "int"}) {
+    options.prefix = prefix;
+    EXPECT_THROW(static_cast<void>(generate(pendulum().model, options)), ModelError) << prefix;
+  }
+  options.prefix = "classic";
+  EXPECT_NO_THROW(static_cast<void>(generate(pendulum().model, options)));
+}
+
+}  // namespace
+}  // namespace dyngen::test
