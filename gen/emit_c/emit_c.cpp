@@ -6,11 +6,13 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
 
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/emit_c/c_spelling.h"
 #include "gen/emit_c/function_text.h"
 #include "gen/emit_c/inline_trig.h"
+#include "gen/emit_c/lanes.h"
 #include "gen/symbols/exact.h"
 
 namespace dyngen {
@@ -70,10 +72,14 @@ std::string chi_values(const CodeModel& code, const EmitOptions& options) {
 
 /// The static functions that the emitted ones call.
 std::string helpers(const std::vector<RobotFunction>& functions, const EmitOptions& options) {
-  bool sign = false, trig = false;
+  bool sign = false;
+  std::set<std::size_t> sizes;  // of calls of the inline sines and cosines
   for (const RobotFunction& function : functions) {
     sign = sign || reads_sign(function.trace);
-    trig = trig || !find_angles(function.trace).empty();
+    if (options.trig != Trig::kInline) continue;
+    for (const std::size_t size : sincos_sizes(find_angles(function.trace).size())) {
+      sizes.insert(size);
+    }
   }
   std::string text;
   if (sign) {
@@ -82,7 +88,9 @@ std::string helpers(const std::vector<RobotFunction>& functions, const EmitOptio
         "0));\n}}\n\n",
         options.scalar == Scalar::kDouble ? "double" : "float", options.prefix);
   }
-  if (trig && options.trig == Trig::kInline) text += sincos_helper(options.prefix) + "\n";
+  if (!sizes.empty()) {
+    text += doubles_helper(options.prefix) + "\n" + sincos_helper(options.prefix, sizes) + "\n";
+  }
   return text;
 }
 

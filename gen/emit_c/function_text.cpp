@@ -119,7 +119,7 @@ std::string gathered_angles(const Trace& trace, const std::vector<GiNaC::ex>& an
       if (angle.is_equal(assignment.target)) text += statement(assignment, spelling);
     }
   }
-  return text + sincos_call(names, options.prefix);
+  return text + sincos_calls(names, options.prefix);
 }
 
 }  // namespace
@@ -190,7 +190,7 @@ std::string function_definition(const CodeModel& code, const RobotFunction& func
   int section = 0;
   for (const Assignment& assignment : trace.assignments()) {
     if (is_one_of(angles, assignment.target)) continue;
-    const std::string gathered = gathered_value(assignment.value, angles);
+    const std::string gathered = gathered_value(assignment.value, angles, options.prefix);
     if (assignment.section != section && !gathered.empty()) section = assignment.section;
     if (assignment.section != section) {
       section = assignment.section;

@@ -56,60 +56,113 @@ static double planar2r_sign(double x) {
   return (double)((x > 0) - (x < 0));
 }
 
-/* Sines and cosines of four angles at once, without a branch that depends on them: compilers
- * vectorise it.  Within 1 ulp for |x| < 1e5, rounding to nearest; beyond, for what is not finite, on
- * other processors and under -ffast-math the C library is called.  Reduction by pi/2 in three parts
- * (Cody and Waite 1980), coefficients of fdlibm (Sun Microsystems 1993). */
-static void planar2r_sincos4(const double x[4], double sine[4], double cosine[4]) {
-  int i;
-#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__FAST_MATH__) && \
-    !defined(__ASSOCIATIVE_MATH__)
-  double s[4], c[4], size = 0.0;
-  for (i = 0; i < 4; ++i) size += x[i] * x[i];
-  if (size < 1e10) {
+/* As many doubles as one register holds, where the compiler has GNU C vectors; else one. */
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#define PLANAR2R_VECTORS
+#if defined(__AVX512F__)
+#define PLANAR2R_DOUBLES 8
+#elif defined(__AVX2__)
+#define PLANAR2R_DOUBLES 4
+#else
+#define PLANAR2R_DOUBLES 2
+#endif
+#define PLANAR2R_NOINLINE __attribute__((noinline))
+#define PLANAR2R_INLINE inline __attribute__((always_inline))
+#define PLANAR2R_AT(x, i) x[(i) / PLANAR2R_DOUBLES][(i) % PLANAR2R_DOUBLES]
+typedef double planar2r_doubles __attribute__((vector_size(8 * PLANAR2R_DOUBLES)));
+typedef unsigned long long planar2r_bits __attribute__((vector_size(8 * PLANAR2R_DOUBLES)));
+#else
+#define PLANAR2R_DOUBLES 1
+#define PLANAR2R_NOINLINE
+#define PLANAR2R_INLINE inline
+#define PLANAR2R_AT(x, i) x[i]
+typedef double planar2r_doubles;
+#endif
+
+/* Sines and cosines of a register of angles, without a branch: within 1 ulp for |x| < 1e5, rounding
+ * to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980), coefficients of fdlibm (Sun
+ * Microsystems 1993).  -ffast-math would undo the reduction: the C library is called then. */
+#if defined(PLANAR2R_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
+#define PLANAR2R_INLINE_TRIG
+static PLANAR2R_INLINE void planar2r_sincos_kernel(const planar2r_doubles *angle, planar2r_doubles *sine,
+    planar2r_doubles *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
-    const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
-    for (i = 0; i < 4; ++i) {
-      const double k = (x[i] * 0.6366197723675814 + whole) - whole; /* right angles in x */
-      const double r0 = x[i] - k * 1.5707963267341256;              /* exact */
-      const double p = k * 6.077100506303966e-11;                   /* exact */
-      const double r1 = r0 - p;
-      const double p1 = k * 2.0222662487959506e-21 - ((r0 - r1) - p);
-      const double r = r1 - p1;         /* x - k pi/2 = r + t */
-      const double t = (r1 - r) - p1;
-      const double z = r * r;
-      const double w = z * z;
-      const double ps = (8.33333333332248946124e-03 - z * 1.98412698298579493134e-04) +
-                        w * (2.75573137070700676789e-06 +
-                             z * (z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08));
-      const double sr =
-          r + (z * (r * (z * ps - 1.66666666666666324348e-01) - 0.5 * t) + t);
-      const double pc = z * (4.16666666666666019037e-02 - z * 1.38888888888741095749e-03) +
-                        z * w * (2.48015872894767294178e-05 +
-                                 z * (z * (2.08757232129817482790e-09 -
-                                           z * 1.13596475577881948265e-11) -
-                                      2.75573143513906633035e-07));
-      const double h = 0.5 * z;
-      const double u = 1.0 - h;
-      const double cr = u + (((1.0 - u) - h) + (z * pc - r * t));
-      const double m = k - 4.0 * ((k * 0.25 + whole) - whole); /* quadrant, -2 .. 2 */
-      const double cm = 1.0 - fabs(m);                         /* its cosine */
-      const double sm = m * (2.0 - fabs(m));                   /* its sine */
-      s[i] = cm * sr + sm * cr;
-      c[i] = cm * cr - sm * sr;
-    }
-    for (i = 0; i < 4; ++i) {
-      sine[i] = s[i];
-      cosine[i] = c[i];
-    }
+  const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
+  const planar2r_doubles x = *angle;
+  const planar2r_doubles sum = x * 0.6366197723675814 + whole;
+  const planar2r_doubles k = sum - whole;                 /* right angles in x */
+  const planar2r_doubles r0 = x - k * 1.5707963267341256; /* exact */
+  const planar2r_doubles p = k * 6.077100506303966e-11;   /* exact */
+  const planar2r_doubles r = r0 - p;
+  const planar2r_doubles t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const planar2r_doubles z = r * r;
+  const planar2r_doubles w = z * z;
+  const planar2r_doubles h = 0.5 * z;
+  const planar2r_doubles u = 1.0 - h;
+  const planar2r_doubles s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const planar2r_doubles s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const planar2r_doubles s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const planar2r_doubles s = r + (t * u + z * r * (s1 + w * (s2 + w * s3)));
+  const planar2r_doubles c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
+  const planar2r_doubles c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
+  const planar2r_doubles c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
+  const planar2r_doubles c = u + (((1.0 - u) - h) - r * t + w * (c1 + w * (c2 + w * c3)));
+  const planar2r_bits i = (planar2r_bits)sum; /* its last bits are those of k */
+  const planar2r_bits swap = ((planar2r_bits)s ^ (planar2r_bits)c) & -(i & 1);
+  *sine = (planar2r_doubles)((planar2r_bits)s ^ swap ^ ((i & 2) << 62));
+  *cosine = (planar2r_doubles)((planar2r_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+}
+#endif
+
+static PLANAR2R_NOINLINE void planar2r_sincos1(double x0, planar2r_doubles *s,
+                                               planar2r_doubles *c) {
+  const double x[1] = {x0};
+  int i;
+#ifdef PLANAR2R_INLINE_TRIG
+  if (x0 * x0 < 1e10) {
+#if PLANAR2R_DOUBLES == 8
+    const planar2r_doubles v0 = {x0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    planar2r_sincos_kernel(&v0, s, c);
+#elif PLANAR2R_DOUBLES == 4
+    const planar2r_doubles v0 = {x0, 0.0, 0.0, 0.0};
+    planar2r_sincos_kernel(&v0, s, c);
+#else
+    const planar2r_doubles v0 = {x0, 0.0};
+    planar2r_sincos_kernel(&v0, s, c);
+#endif
     return;
   }
 #endif
-  for (i = 0; i < 4; ++i) {
-    sine[i] = sin(x[i]);
-    cosine[i] = cos(x[i]);
+  for (i = 0; i < 1; ++i) {
+    PLANAR2R_AT(s, i) = sin(x[i]);
+    PLANAR2R_AT(c, i) = cos(x[i]);
+  }
+}
+
+static PLANAR2R_NOINLINE void planar2r_sincos2(double x0, double x1, planar2r_doubles *s,
+                                               planar2r_doubles *c) {
+  const double x[2] = {x0, x1};
+  int i;
+#ifdef PLANAR2R_INLINE_TRIG
+  if (x0 * x0 + x1 * x1 < 1e10) {
+#if PLANAR2R_DOUBLES == 8
+    const planar2r_doubles v0 = {x0, x1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    planar2r_sincos_kernel(&v0, s, c);
+#elif PLANAR2R_DOUBLES == 4
+    const planar2r_doubles v0 = {x0, x1, 0.0, 0.0};
+    planar2r_sincos_kernel(&v0, s, c);
+#else
+    const planar2r_doubles v0 = {x0, x1};
+    planar2r_sincos_kernel(&v0, s, c);
+#endif
+    return;
+  }
+#endif
+  for (i = 0; i < 2; ++i) {
+    PLANAR2R_AT(s, i) = sin(x[i]);
+    PLANAR2R_AT(c, i) = cos(x[i]);
   }
 }
 
@@ -133,13 +186,12 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, double *t
   const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
 
   /* sines and cosines of the joint angles */
-  const double angle[4] = {q[0], q[1], 0.0, 0.0};
-  double sine[4], cosine[4];
-  planar2r_sincos4(angle, sine, cosine);
-  const double S1 = sine[0];
-  const double C1 = cosine[0];
-  const double S2 = sine[1];
-  const double C2 = cosine[1];
+  planar2r_doubles sine1[(2 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES], cosine1[(2 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES];
+  planar2r_sincos2(q[0], q[1], sine1, cosine1);
+  const double S1 = PLANAR2R_AT(sine1, 0);
+  const double C1 = PLANAR2R_AT(cosine1, 0);
+  const double S2 = PLANAR2R_AT(sine1, 1);
+  const double C2 = PLANAR2R_AT(cosine1, 1);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const double DV33_1 = dq[0] * dq[0];
@@ -188,13 +240,12 @@ void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, dou
   const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
 
   /* sines and cosines of the joint angles */
-  const double angle[4] = {q[0], q[1], 0.0, 0.0};
-  double sine[4], cosine[4];
-  planar2r_sincos4(angle, sine, cosine);
-  const double S1 = sine[0];
-  const double C1 = cosine[0];
-  const double S2 = sine[1];
-  const double C2 = cosine[1];
+  planar2r_doubles sine1[(2 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES], cosine1[(2 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES];
+  planar2r_sincos2(q[0], q[1], sine1, cosine1);
+  const double S1 = PLANAR2R_AT(sine1, 0);
+  const double C1 = PLANAR2R_AT(cosine1, 0);
+  const double S2 = PLANAR2R_AT(sine1, 1);
+  const double C2 = PLANAR2R_AT(cosine1, 1);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const double DV33_1 = dq[0] * dq[0];
@@ -239,13 +290,12 @@ void planar2r_gravity(const double *q, double *tau) {
 
   /* sines and cosines of the joint angles */
   const double Q1_2 = q[0] + q[1];
-  const double angle[4] = {q[0], Q1_2, 0.0, 0.0};
-  double sine[4], cosine[4];
-  planar2r_sincos4(angle, sine, cosine);
-  const double S1 = sine[0];
-  const double C1 = cosine[0];
-  const double S1_2 = sine[1];
-  const double C1_2 = cosine[1];
+  planar2r_doubles sine1[(2 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES], cosine1[(2 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES];
+  planar2r_sincos2(q[0], Q1_2, sine1, cosine1);
+  const double S1 = PLANAR2R_AT(sine1, 0);
+  const double C1 = PLANAR2R_AT(cosine1, 0);
+  const double S1_2 = PLANAR2R_AT(sine1, 1);
+  const double C1_2 = PLANAR2R_AT(cosine1, 1);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const double VP1_1 = GY * S1;
@@ -275,11 +325,10 @@ void planar2r_coriolis(const double *q, const double *dq, double *tau) {
   const double d2 = 0.5; /* m, planar2r.robot:13 */
 
   /* sines and cosines of the joint angles */
-  const double angle[4] = {q[1], 0.0, 0.0, 0.0};
-  double sine[4], cosine[4];
-  planar2r_sincos4(angle, sine, cosine);
-  const double S2 = sine[0];
-  const double C2 = cosine[0];
+  planar2r_doubles sine1[(1 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES], cosine1[(1 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES];
+  planar2r_sincos1(q[1], sine1, cosine1);
+  const double S2 = PLANAR2R_AT(sine1, 0);
+  const double C2 = PLANAR2R_AT(cosine1, 0);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const double DV33_1 = dq[0] * dq[0];

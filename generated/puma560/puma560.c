@@ -138,60 +138,121 @@ static double puma560_sign(double x) {
   return (double)((x > 0) - (x < 0));
 }
 
-/* Sines and cosines of four angles at once, without a branch that depends on them: compilers
- * vectorise it.  Within 1 ulp for |x| < 1e5, rounding to nearest; beyond, for what is not finite, on
- * other processors and under -ffast-math the C library is called.  Reduction by pi/2 in three parts
- * (Cody and Waite 1980), coefficients of fdlibm (Sun Microsystems 1993). */
-static void puma560_sincos4(const double x[4], double sine[4], double cosine[4]) {
-  int i;
-#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__FAST_MATH__) && \
-    !defined(__ASSOCIATIVE_MATH__)
-  double s[4], c[4], size = 0.0;
-  for (i = 0; i < 4; ++i) size += x[i] * x[i];
-  if (size < 1e10) {
+/* As many doubles as one register holds, where the compiler has GNU C vectors; else one. */
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#define PUMA560_VECTORS
+#if defined(__AVX512F__)
+#define PUMA560_DOUBLES 8
+#elif defined(__AVX2__)
+#define PUMA560_DOUBLES 4
+#else
+#define PUMA560_DOUBLES 2
+#endif
+#define PUMA560_NOINLINE __attribute__((noinline))
+#define PUMA560_INLINE inline __attribute__((always_inline))
+#define PUMA560_AT(x, i) x[(i) / PUMA560_DOUBLES][(i) % PUMA560_DOUBLES]
+typedef double puma560_doubles __attribute__((vector_size(8 * PUMA560_DOUBLES)));
+typedef unsigned long long puma560_bits __attribute__((vector_size(8 * PUMA560_DOUBLES)));
+#else
+#define PUMA560_DOUBLES 1
+#define PUMA560_NOINLINE
+#define PUMA560_INLINE inline
+#define PUMA560_AT(x, i) x[i]
+typedef double puma560_doubles;
+#endif
+
+/* Sines and cosines of a register of angles, without a branch: within 1 ulp for |x| < 1e5, rounding
+ * to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980), coefficients of fdlibm (Sun
+ * Microsystems 1993).  -ffast-math would undo the reduction: the C library is called then. */
+#if defined(PUMA560_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
+#define PUMA560_INLINE_TRIG
+static PUMA560_INLINE void puma560_sincos_kernel(const puma560_doubles *angle, puma560_doubles *sine,
+    puma560_doubles *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
-    const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
-    for (i = 0; i < 4; ++i) {
-      const double k = (x[i] * 0.6366197723675814 + whole) - whole; /* right angles in x */
-      const double r0 = x[i] - k * 1.5707963267341256;              /* exact */
-      const double p = k * 6.077100506303966e-11;                   /* exact */
-      const double r1 = r0 - p;
-      const double p1 = k * 2.0222662487959506e-21 - ((r0 - r1) - p);
-      const double r = r1 - p1;         /* x - k pi/2 = r + t */
-      const double t = (r1 - r) - p1;
-      const double z = r * r;
-      const double w = z * z;
-      const double ps = (8.33333333332248946124e-03 - z * 1.98412698298579493134e-04) +
-                        w * (2.75573137070700676789e-06 +
-                             z * (z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08));
-      const double sr =
-          r + (z * (r * (z * ps - 1.66666666666666324348e-01) - 0.5 * t) + t);
-      const double pc = z * (4.16666666666666019037e-02 - z * 1.38888888888741095749e-03) +
-                        z * w * (2.48015872894767294178e-05 +
-                                 z * (z * (2.08757232129817482790e-09 -
-                                           z * 1.13596475577881948265e-11) -
-                                      2.75573143513906633035e-07));
-      const double h = 0.5 * z;
-      const double u = 1.0 - h;
-      const double cr = u + (((1.0 - u) - h) + (z * pc - r * t));
-      const double m = k - 4.0 * ((k * 0.25 + whole) - whole); /* quadrant, -2 .. 2 */
-      const double cm = 1.0 - fabs(m);                         /* its cosine */
-      const double sm = m * (2.0 - fabs(m));                   /* its sine */
-      s[i] = cm * sr + sm * cr;
-      c[i] = cm * cr - sm * sr;
-    }
-    for (i = 0; i < 4; ++i) {
-      sine[i] = s[i];
-      cosine[i] = c[i];
-    }
+  const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
+  const puma560_doubles x = *angle;
+  const puma560_doubles sum = x * 0.6366197723675814 + whole;
+  const puma560_doubles k = sum - whole;                 /* right angles in x */
+  const puma560_doubles r0 = x - k * 1.5707963267341256; /* exact */
+  const puma560_doubles p = k * 6.077100506303966e-11;   /* exact */
+  const puma560_doubles r = r0 - p;
+  const puma560_doubles t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const puma560_doubles z = r * r;
+  const puma560_doubles w = z * z;
+  const puma560_doubles h = 0.5 * z;
+  const puma560_doubles u = 1.0 - h;
+  const puma560_doubles s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const puma560_doubles s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const puma560_doubles s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const puma560_doubles s = r + (t * u + z * r * (s1 + w * (s2 + w * s3)));
+  const puma560_doubles c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
+  const puma560_doubles c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
+  const puma560_doubles c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
+  const puma560_doubles c = u + (((1.0 - u) - h) - r * t + w * (c1 + w * (c2 + w * c3)));
+  const puma560_bits i = (puma560_bits)sum; /* its last bits are those of k */
+  const puma560_bits swap = ((puma560_bits)s ^ (puma560_bits)c) & -(i & 1);
+  *sine = (puma560_doubles)((puma560_bits)s ^ swap ^ ((i & 2) << 62));
+  *cosine = (puma560_doubles)((puma560_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+}
+#endif
+
+static PUMA560_NOINLINE void puma560_sincos4(double x0, double x1, double x2, double x3,
+                                             puma560_doubles *s, puma560_doubles *c) {
+  const double x[4] = {x0, x1, x2, x3};
+  int i;
+#ifdef PUMA560_INLINE_TRIG
+  if ((x0 * x0 + x1 * x1) + (x2 * x2 + x3 * x3) < 1e10) {
+#if PUMA560_DOUBLES == 8
+    const puma560_doubles v0 = {x0, x1, x2, x3, 0.0, 0.0, 0.0, 0.0};
+    puma560_sincos_kernel(&v0, s, c);
+#elif PUMA560_DOUBLES == 4
+    const puma560_doubles v0 = {x0, x1, x2, x3};
+    puma560_sincos_kernel(&v0, s, c);
+#else
+    const puma560_doubles v0 = {x0, x1};
+    const puma560_doubles v1 = {x2, x3};
+    puma560_sincos_kernel(&v0, s, c);
+    puma560_sincos_kernel(&v1, s + 1, c + 1);
+#endif
     return;
   }
 #endif
   for (i = 0; i < 4; ++i) {
-    sine[i] = sin(x[i]);
-    cosine[i] = cos(x[i]);
+    PUMA560_AT(s, i) = sin(x[i]);
+    PUMA560_AT(c, i) = cos(x[i]);
+  }
+}
+
+static PUMA560_NOINLINE void puma560_sincos6(double x0, double x1, double x2, double x3, double x4,
+                                             double x5, puma560_doubles *s, puma560_doubles *c) {
+  const double x[6] = {x0, x1, x2, x3, x4, x5};
+  int i;
+#ifdef PUMA560_INLINE_TRIG
+  if (((x0 * x0 + x1 * x1) + x2 * x2) + ((x3 * x3 + x4 * x4) + x5 * x5) < 1e10) {
+#if PUMA560_DOUBLES == 8
+    const puma560_doubles v0 = {x0, x1, x2, x3, x4, x5, 0.0, 0.0};
+    puma560_sincos_kernel(&v0, s, c);
+#elif PUMA560_DOUBLES == 4
+    const puma560_doubles v0 = {x0, x1, x2, x3};
+    const puma560_doubles v1 = {x4, x5, 0.0, 0.0};
+    puma560_sincos_kernel(&v0, s, c);
+    puma560_sincos_kernel(&v1, s + 1, c + 1);
+#else
+    const puma560_doubles v0 = {x0, x1};
+    const puma560_doubles v1 = {x2, x3};
+    const puma560_doubles v2 = {x4, x5};
+    puma560_sincos_kernel(&v0, s, c);
+    puma560_sincos_kernel(&v1, s + 1, c + 1);
+    puma560_sincos_kernel(&v2, s + 2, c + 2);
+#endif
+    return;
+  }
+#endif
+  for (i = 0; i < 6; ++i) {
+    PUMA560_AT(s, i) = sin(x[i]);
+    PUMA560_AT(c, i) = cos(x[i]);
   }
 }
 
@@ -249,22 +310,20 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
-  const double angle[8] = {q[1], q[2], Q2_3, q[3], q[4], q[5], 0.0, 0.0};
-  double sine[8], cosine[8];
-  puma560_sincos4(angle, sine, cosine);
-  puma560_sincos4(angle + 4, sine + 4, cosine + 4);
-  const double S2 = sine[0];
-  const double C2 = cosine[0];
-  const double S3 = sine[1];
-  const double C3 = cosine[1];
-  const double S2_3 = sine[2];
-  const double C2_3 = cosine[2];
-  const double S4 = sine[3];
-  const double C4 = cosine[3];
-  const double S5 = sine[4];
-  const double C5 = cosine[4];
-  const double S6 = sine[5];
-  const double C6 = cosine[5];
+  puma560_doubles sine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES], cosine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES];
+  puma560_sincos6(q[1], q[2], Q2_3, q[3], q[4], q[5], sine1, cosine1);
+  const double S2 = PUMA560_AT(sine1, 0);
+  const double C2 = PUMA560_AT(cosine1, 0);
+  const double S3 = PUMA560_AT(sine1, 1);
+  const double C3 = PUMA560_AT(cosine1, 1);
+  const double S2_3 = PUMA560_AT(sine1, 2);
+  const double C2_3 = PUMA560_AT(cosine1, 2);
+  const double S4 = PUMA560_AT(sine1, 3);
+  const double C4 = PUMA560_AT(cosine1, 3);
+  const double S5 = PUMA560_AT(sine1, 4);
+  const double C5 = PUMA560_AT(cosine1, 4);
+  const double S6 = PUMA560_AT(sine1, 5);
+  const double C6 = PUMA560_AT(cosine1, 5);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const double DV33_1 = dq[0] * dq[0];
@@ -496,22 +555,20 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
-  const double angle[8] = {q[1], q[2], Q2_3, q[3], q[4], q[5], 0.0, 0.0};
-  double sine[8], cosine[8];
-  puma560_sincos4(angle, sine, cosine);
-  puma560_sincos4(angle + 4, sine + 4, cosine + 4);
-  const double S2 = sine[0];
-  const double C2 = cosine[0];
-  const double S3 = sine[1];
-  const double C3 = cosine[1];
-  const double S2_3 = sine[2];
-  const double C2_3 = cosine[2];
-  const double S4 = sine[3];
-  const double C4 = cosine[3];
-  const double S5 = sine[4];
-  const double C5 = cosine[4];
-  const double S6 = sine[5];
-  const double C6 = cosine[5];
+  puma560_doubles sine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES], cosine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES];
+  puma560_sincos6(q[1], q[2], Q2_3, q[3], q[4], q[5], sine1, cosine1);
+  const double S2 = PUMA560_AT(sine1, 0);
+  const double C2 = PUMA560_AT(cosine1, 0);
+  const double S3 = PUMA560_AT(sine1, 1);
+  const double C3 = PUMA560_AT(cosine1, 1);
+  const double S2_3 = PUMA560_AT(sine1, 2);
+  const double C2_3 = PUMA560_AT(cosine1, 2);
+  const double S4 = PUMA560_AT(sine1, 3);
+  const double C4 = PUMA560_AT(cosine1, 3);
+  const double S5 = PUMA560_AT(sine1, 4);
+  const double C5 = PUMA560_AT(cosine1, 4);
+  const double S6 = PUMA560_AT(sine1, 5);
+  const double C6 = PUMA560_AT(cosine1, 5);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const double DV33_1 = dq[0] * dq[0];
@@ -713,17 +770,16 @@ void puma560_gravity(const double *q, double *tau) {
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
-  const double angle[4] = {q[1], Q2_3, q[3], q[4]};
-  double sine[4], cosine[4];
-  puma560_sincos4(angle, sine, cosine);
-  const double S2 = sine[0];
-  const double C2 = cosine[0];
-  const double S2_3 = sine[1];
-  const double C2_3 = cosine[1];
-  const double S4 = sine[2];
-  const double C4 = cosine[2];
-  const double S5 = sine[3];
-  const double C5 = cosine[3];
+  puma560_doubles sine1[(4 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES], cosine1[(4 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES];
+  puma560_sincos4(q[1], Q2_3, q[3], q[4], sine1, cosine1);
+  const double S2 = PUMA560_AT(sine1, 0);
+  const double C2 = PUMA560_AT(cosine1, 0);
+  const double S2_3 = PUMA560_AT(sine1, 1);
+  const double C2_3 = PUMA560_AT(cosine1, 1);
+  const double S4 = PUMA560_AT(sine1, 2);
+  const double C4 = PUMA560_AT(cosine1, 2);
+  const double S5 = PUMA560_AT(sine1, 3);
+  const double C5 = PUMA560_AT(cosine1, 3);
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double mVP1_2 = GZ * S2;
@@ -799,22 +855,20 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
-  const double angle[8] = {q[1], q[2], Q2_3, q[3], q[4], q[5], 0.0, 0.0};
-  double sine[8], cosine[8];
-  puma560_sincos4(angle, sine, cosine);
-  puma560_sincos4(angle + 4, sine + 4, cosine + 4);
-  const double S2 = sine[0];
-  const double C2 = cosine[0];
-  const double S3 = sine[1];
-  const double C3 = cosine[1];
-  const double S2_3 = sine[2];
-  const double C2_3 = cosine[2];
-  const double S4 = sine[3];
-  const double C4 = cosine[3];
-  const double S5 = sine[4];
-  const double C5 = cosine[4];
-  const double S6 = sine[5];
-  const double C6 = cosine[5];
+  puma560_doubles sine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES], cosine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES];
+  puma560_sincos6(q[1], q[2], Q2_3, q[3], q[4], q[5], sine1, cosine1);
+  const double S2 = PUMA560_AT(sine1, 0);
+  const double C2 = PUMA560_AT(cosine1, 0);
+  const double S3 = PUMA560_AT(sine1, 1);
+  const double C3 = PUMA560_AT(cosine1, 1);
+  const double S2_3 = PUMA560_AT(sine1, 2);
+  const double C2_3 = PUMA560_AT(cosine1, 2);
+  const double S4 = PUMA560_AT(sine1, 3);
+  const double C4 = PUMA560_AT(cosine1, 3);
+  const double S5 = PUMA560_AT(sine1, 4);
+  const double C5 = PUMA560_AT(cosine1, 4);
+  const double S6 = PUMA560_AT(sine1, 5);
+  const double C6 = PUMA560_AT(cosine1, 5);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const double DV33_1 = dq[0] * dq[0];

@@ -56,60 +56,87 @@ static double rp_sign(double x) {
   return (double)((x > 0) - (x < 0));
 }
 
-/* Sines and cosines of four angles at once, without a branch that depends on them: compilers
- * vectorise it.  Within 1 ulp for |x| < 1e5, rounding to nearest; beyond, for what is not finite, on
- * other processors and under -ffast-math the C library is called.  Reduction by pi/2 in three parts
- * (Cody and Waite 1980), coefficients of fdlibm (Sun Microsystems 1993). */
-static void rp_sincos4(const double x[4], double sine[4], double cosine[4]) {
-  int i;
-#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__FAST_MATH__) && \
-    !defined(__ASSOCIATIVE_MATH__)
-  double s[4], c[4], size = 0.0;
-  for (i = 0; i < 4; ++i) size += x[i] * x[i];
-  if (size < 1e10) {
+/* As many doubles as one register holds, where the compiler has GNU C vectors; else one. */
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#define RP_VECTORS
+#if defined(__AVX512F__)
+#define RP_DOUBLES 8
+#elif defined(__AVX2__)
+#define RP_DOUBLES 4
+#else
+#define RP_DOUBLES 2
+#endif
+#define RP_NOINLINE __attribute__((noinline))
+#define RP_INLINE inline __attribute__((always_inline))
+#define RP_AT(x, i) x[(i) / RP_DOUBLES][(i) % RP_DOUBLES]
+typedef double rp_doubles __attribute__((vector_size(8 * RP_DOUBLES)));
+typedef unsigned long long rp_bits __attribute__((vector_size(8 * RP_DOUBLES)));
+#else
+#define RP_DOUBLES 1
+#define RP_NOINLINE
+#define RP_INLINE inline
+#define RP_AT(x, i) x[i]
+typedef double rp_doubles;
+#endif
+
+/* Sines and cosines of a register of angles, without a branch: within 1 ulp for |x| < 1e5, rounding
+ * to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980), coefficients of fdlibm (Sun
+ * Microsystems 1993).  -ffast-math would undo the reduction: the C library is called then. */
+#if defined(RP_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
+#define RP_INLINE_TRIG
+static RP_INLINE void rp_sincos_kernel(const rp_doubles *angle, rp_doubles *sine,
+    rp_doubles *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
-    const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
-    for (i = 0; i < 4; ++i) {
-      const double k = (x[i] * 0.6366197723675814 + whole) - whole; /* right angles in x */
-      const double r0 = x[i] - k * 1.5707963267341256;              /* exact */
-      const double p = k * 6.077100506303966e-11;                   /* exact */
-      const double r1 = r0 - p;
-      const double p1 = k * 2.0222662487959506e-21 - ((r0 - r1) - p);
-      const double r = r1 - p1;         /* x - k pi/2 = r + t */
-      const double t = (r1 - r) - p1;
-      const double z = r * r;
-      const double w = z * z;
-      const double ps = (8.33333333332248946124e-03 - z * 1.98412698298579493134e-04) +
-                        w * (2.75573137070700676789e-06 +
-                             z * (z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08));
-      const double sr =
-          r + (z * (r * (z * ps - 1.66666666666666324348e-01) - 0.5 * t) + t);
-      const double pc = z * (4.16666666666666019037e-02 - z * 1.38888888888741095749e-03) +
-                        z * w * (2.48015872894767294178e-05 +
-                                 z * (z * (2.08757232129817482790e-09 -
-                                           z * 1.13596475577881948265e-11) -
-                                      2.75573143513906633035e-07));
-      const double h = 0.5 * z;
-      const double u = 1.0 - h;
-      const double cr = u + (((1.0 - u) - h) + (z * pc - r * t));
-      const double m = k - 4.0 * ((k * 0.25 + whole) - whole); /* quadrant, -2 .. 2 */
-      const double cm = 1.0 - fabs(m);                         /* its cosine */
-      const double sm = m * (2.0 - fabs(m));                   /* its sine */
-      s[i] = cm * sr + sm * cr;
-      c[i] = cm * cr - sm * sr;
-    }
-    for (i = 0; i < 4; ++i) {
-      sine[i] = s[i];
-      cosine[i] = c[i];
-    }
+  const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
+  const rp_doubles x = *angle;
+  const rp_doubles sum = x * 0.6366197723675814 + whole;
+  const rp_doubles k = sum - whole;                 /* right angles in x */
+  const rp_doubles r0 = x - k * 1.5707963267341256; /* exact */
+  const rp_doubles p = k * 6.077100506303966e-11;   /* exact */
+  const rp_doubles r = r0 - p;
+  const rp_doubles t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const rp_doubles z = r * r;
+  const rp_doubles w = z * z;
+  const rp_doubles h = 0.5 * z;
+  const rp_doubles u = 1.0 - h;
+  const rp_doubles s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const rp_doubles s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const rp_doubles s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const rp_doubles s = r + (t * u + z * r * (s1 + w * (s2 + w * s3)));
+  const rp_doubles c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
+  const rp_doubles c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
+  const rp_doubles c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
+  const rp_doubles c = u + (((1.0 - u) - h) - r * t + w * (c1 + w * (c2 + w * c3)));
+  const rp_bits i = (rp_bits)sum; /* its last bits are those of k */
+  const rp_bits swap = ((rp_bits)s ^ (rp_bits)c) & -(i & 1);
+  *sine = (rp_doubles)((rp_bits)s ^ swap ^ ((i & 2) << 62));
+  *cosine = (rp_doubles)((rp_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+}
+#endif
+
+static RP_NOINLINE void rp_sincos1(double x0, rp_doubles *s, rp_doubles *c) {
+  const double x[1] = {x0};
+  int i;
+#ifdef RP_INLINE_TRIG
+  if (x0 * x0 < 1e10) {
+#if RP_DOUBLES == 8
+    const rp_doubles v0 = {x0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    rp_sincos_kernel(&v0, s, c);
+#elif RP_DOUBLES == 4
+    const rp_doubles v0 = {x0, 0.0, 0.0, 0.0};
+    rp_sincos_kernel(&v0, s, c);
+#else
+    const rp_doubles v0 = {x0, 0.0};
+    rp_sincos_kernel(&v0, s, c);
+#endif
     return;
   }
 #endif
-  for (i = 0; i < 4; ++i) {
-    sine[i] = sin(x[i]);
-    cosine[i] = cos(x[i]);
+  for (i = 0; i < 1; ++i) {
+    RP_AT(s, i) = sin(x[i]);
+    RP_AT(c, i) = cos(x[i]);
   }
 }
 
@@ -133,11 +160,10 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double GY = 9.81; /* m/s^2, rp.robot:36 */
 
   /* sines and cosines of the joint angles */
-  const double angle[4] = {q[0], 0.0, 0.0, 0.0};
-  double sine[4], cosine[4];
-  rp_sincos4(angle, sine, cosine);
-  const double S1 = sine[0];
-  const double C1 = cosine[0];
+  rp_doubles sine1[(1 + RP_DOUBLES - 1) / RP_DOUBLES], cosine1[(1 + RP_DOUBLES - 1) / RP_DOUBLES];
+  rp_sincos1(q[0], sine1, cosine1);
+  const double S1 = RP_AT(sine1, 0);
+  const double C1 = RP_AT(cosine1, 0);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const double DV33_1 = dq[0] * dq[0];
@@ -180,11 +206,10 @@ void rp_gravity(const double *q, double *tau) {
   const double GY = 9.81; /* m/s^2, rp.robot:36 */
 
   /* sines and cosines of the joint angles */
-  const double angle[4] = {q[0], 0.0, 0.0, 0.0};
-  double sine[4], cosine[4];
-  rp_sincos4(angle, sine, cosine);
-  const double S1 = sine[0];
-  const double C1 = cosine[0];
+  rp_doubles sine1[(1 + RP_DOUBLES - 1) / RP_DOUBLES], cosine1[(1 + RP_DOUBLES - 1) / RP_DOUBLES];
+  rp_sincos1(q[0], sine1, cosine1);
+  const double S1 = RP_AT(sine1, 0);
+  const double C1 = RP_AT(cosine1, 0);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const double VP1_1 = GY * S1;
