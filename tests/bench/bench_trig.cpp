@@ -33,6 +33,7 @@ struct Worst {
 
 /// |value - exact| over the spacing of doubles at |exact|.
 double error_of(double value, const cln::cl_R& exact) {
+  if (cln::zerop(exact)) return value == 0 ? 0 : std::numeric_limits<double>::infinity();
   const double size = std::fabs(cln::double_approx(exact));
   const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
   const cln::cl_R difference = cln::rational(cln::cl_DF(value)) - cln::rational(exact);
