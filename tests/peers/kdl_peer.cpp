@@ -205,7 +205,7 @@ Peer make_kdl_chain_peer(const NumericRobot& robot) {
     return list(tau);
   };
   peer.calls["mass_matrix"] = [kdl](const PeerInput& in) {
-    KDL::JntSpaceInertiaMatrix M(kdl->joints);
+    KDL::JntSpaceInertiaMatrix M(static_cast<int>(kdl->joints));
     check(KDL::ChainDynParam(kdl->chain, kdl->gravity).JntToMass(kdl_array(in.q), M));
     std::vector<double> result;
     for (unsigned i = 0; i < kdl->joints; ++i) {

@@ -11,7 +11,7 @@
 
 #include "tests/peers/link_frames.h"
 #include "tests/peers/peer.h"
-#include "tests/peers/peer_robots.h"
+#include "tests/support/body_robots.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/relative_error.h"
 

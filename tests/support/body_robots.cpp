@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/peers/peer_robots.h"
+#include "tests/support/body_robots.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
