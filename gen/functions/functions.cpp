@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gen/algorithms/rnea.h"
+#include "gen/passes/optimise.h"
 
 namespace dyngen {
 namespace {
@@ -128,13 +129,17 @@ std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code)
   return result;
 }
 
-RobotFunction write_function(const FunctionSpec& spec, const CodeModel& code) {
+RobotFunction write_plain_function(const FunctionSpec& spec, const CodeModel& code) {
   RobotFunction function{&spec, Trace(&code.inputs)};
   CodeModel named = code;
   named.links = with_named_parameters(function.trace, code);
   spec.write(function.trace, named);
   function.trace.drop_dead_code();
   return function;
+}
+
+RobotFunction write_function(const FunctionSpec& spec, const CodeModel& code) {
+  return {&spec, optimised(write_plain_function(spec, code).trace)};
 }
 
 }  // namespace dyngen

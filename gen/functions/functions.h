@@ -69,7 +69,10 @@ struct RobotFunction {
   Trace trace;
 };
 
-/// Writes a function of the robot; what the outputs do not need is gone.
+/// Writes a function of the robot as its algorithm does; what the outputs do not need is gone.
+RobotFunction write_plain_function(const FunctionSpec& spec, const CodeModel& code);
+
+/// Writes a function of the robot with as few operations as the passes find.
 RobotFunction write_function(const FunctionSpec& spec, const CodeModel& code);
 
 }  // namespace dyngen

@@ -198,6 +198,20 @@ void Trace::output(const std::string& array, int index, const ex& value) {
   outputs_.push_back({array, index, result});
 }
 
+Trace Trace::without_statements() const {
+  Trace empty(symbols_.parent());
+  empty.sections_ = sections_;
+  return empty;
+}
+
+GiNaC::symbol Trace::append(const std::string& name, const ex& value, int section) {
+  SymbolInfo info;
+  info.name = name;
+  const GiNaC::symbol target = symbols_.add(std::move(info));
+  assignments_.push_back({target, value, section});
+  return target;
+}
+
 void Trace::drop_dead_code() {
   std::set<std::string> needed;
   for (const Output& output : outputs_) collect_symbols(output.value, needed);

@@ -59,6 +59,12 @@ class Trace {
 
   void output(const std::string& array, int index, const GiNaC::ex& value);
 
+  /// The same inputs and sections without a statement: what a pass writes its result into.
+  [[nodiscard]] Trace without_statements() const;
+
+  /// name = value as it stands, in one of sections(): for what already is a program.
+  GiNaC::symbol append(const std::string& name, const GiNaC::ex& value, int section);
+
   /// Keeps the statements that the outputs need, and drops the others.
   void drop_dead_code();
 

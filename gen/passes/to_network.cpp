@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "gen/diagnostic/assert.h"
+#include "gen/passes/conversion.h"
+#include "gen/symbols/exact.h"
+#include "gen/trace/form.h"
+
+namespace dyngen {
+namespace {
+
+using GiNaC::ex;
+
+bool is_angle_function(const ex& value) {
+  if (!GiNaC::is_a<GiNaC::function>(value)) return false;
+  const std::string name = GiNaC::ex_to<GiNaC::function>(value).get_name();
+  return name == "sin" || name == "cos";
+}
+
+class Reading {
+ public:
+  explicit Reading(const Trace& trace) : trace_(trace) { find_opaque(); }
+
+  Network run() {
+    int place = 0;
+    for (const Assignment& assignment : trace_.assignments()) {
+      Node node;
+      node.name = assignment.target.get_name();
+      node.place = place++;
+      node.section = assignment.section;
+      if (opaque_.contains(node.name)) {
+        node.kind = Node::Kind::kOpaque;
+        node.leaf = assignment.value;
+      } else {
+        node.terms = sum(canonical_form(assignment.value, trace_.symbols()));
+        if (const int inverse = lone_inverse(node.terms); inverse >= 0) {
+          node.kind = Node::Kind::kInverse;
+          node.of = network_.node(inverse).of;
+          node.terms.clear();
+        }
+      }
+      const std::string name = node.name;
+      named_[name] = network_.add(std::move(node));
+    }
+    for (const Output& output : trace_.outputs()) {
+      const std::vector<Term> terms = sum(canonical_form(output.value, trace_.symbols()));
+      NetworkOutput result{output.array, output.index, false, -1};
+      if (terms.size() == 1 && terms[0].factors.size() == 1) {
+        result.negative = terms[0].negative;
+        result.node = terms[0].factors[0];
+      } else {
+        result.node = network_.add({.terms = terms});
+      }
+      network_.outputs.push_back(std::move(result));
+    }
+    return std::move(network_);
+  }
+
+ private:
+  /// Calls, and all that they read.
+  void find_opaque() {
+    const auto& assignments = trace_.assignments();
+    for (auto it = assignments.rbegin(); it != assignments.rend(); ++it) {
+      const bool whole = is_angle_function(it->value) || opaque_.contains(it->target.get_name());
+      for (auto part = it->value.preorder_begin(); part != it->value.preorder_end(); ++part) {
+        if (whole) add_opaque(*part);
+        if (!GiNaC::is_a<GiNaC::function>(*part)) continue;
+        for (auto own = part->preorder_begin(); own != part->preorder_end(); ++own) {
+          add_opaque(*own);
+        }
+      }
+      if (whole) opaque_.insert(it->target.get_name());
+    }
+  }
+
+  void add_opaque(const ex& part) {
+    if (GiNaC::is_a<GiNaC::symbol>(part)) {
+      opaque_.insert(GiNaC::ex_to<GiNaC::symbol>(part).get_name());
+    }
+  }
+
+  std::vector<Term> sum(const Form& form) {
+    DYNGEN_ASSERT(form.kind == Form::Kind::kSum, "a canonical form is a sum");
+    std::vector<Term> terms;
+    for (std::size_t i = 0; i < form.parts.size(); ++i) {
+      const Form& part = form.parts[i];
+      if (part.kind == Form::Kind::kNumber && part.leaf.is_zero()) continue;
+      Term own = term(part);
+      own.negative = own.negative != form.negative[i];
+      terms.push_back(std::move(own));
+    }
+    return normalised(network_, std::move(terms));
+  }
+
+  /// The inverse that a sum is; -1 if it is something else.
+  int lone_inverse(const std::vector<Term>& terms) const {
+    if (terms.size() != 1 || terms[0].negative || terms[0].factors.size() != 1) return -1;
+    const int id = terms[0].factors[0];
+    return network_.node(id).kind == Node::Kind::kInverse ? id : -1;
+  }
+
+  static Term factor(int id) { return {false, {id}}; }
+
+  Term term(const Form& form) {
+    switch (form.kind) {
+      case Form::Kind::kNumber:
+        if (form.leaf.is_equal(1)) return {};
+        return factor(network_.constant(form.leaf, {}));
+      case Form::Kind::kSymbol:
+        return factor(symbol(form.leaf));
+      case Form::Kind::kCall:
+        return factor(call(form));
+      case Form::Kind::kProduct: {
+        Term result;
+        for (const Form& part : form.parts) result = product(result, term(part));
+        return result;
+      }
+      case Form::Kind::kQuotient: {
+        const Term numerator = term(form.parts[0]);
+        return product(numerator, factor(inverse(form.parts[1])));
+      }
+      case Form::Kind::kSum:
+        break;
+    }
+    return factor(network_.add({.terms = sum(form)}));
+  }
+
+  int symbol(const ex& symbol) {
+    const SymbolInfo& info = trace_.symbols().info(symbol);
+    if (const auto it = named_.find(info.name); it != named_.end()) return it->second;
+    DYNGEN_ASSERT(info.kind != SymbolKind::kIntermediate,
+                  info.name + " is read before it is written");
+    int id = 0;
+    if (info.kind == SymbolKind::kConstant) {
+      id = network_.constant(info.value, info.name);
+    } else {
+      id = network_.add({.kind = Node::Kind::kInput, .name = info.name, .leaf = symbol});
+    }
+    named_.emplace(info.name, id);
+    return id;
+  }
+
+  /// Of inputs and opaque statements alone, so its text is its identity.
+  int call(const Form& form) {
+    const ex argument = expression(form.parts[0]);
+    DYNGEN_ASSERT(form.call == "sign", "sin and cos stand alone in a statement");
+    const ex value = GiNaC::csgn(argument);
+    for (int id = 0; id < network_.size(); ++id) {
+      const Node& node = network_.node(id);
+      if (node.kind == Node::Kind::kOpaque && node.leaf.is_equal(value)) return id;
+    }
+    return network_.add({.kind = Node::Kind::kOpaque, .leaf = value});
+  }
+
+  static ex expression(const Form& form) {
+    if (form.kind == Form::Kind::kNumber || form.kind == Form::Kind::kSymbol) return form.leaf;
+    DYNGEN_ASSERT(form.kind != Form::Kind::kCall, "a call within a call");
+    ex result = form.kind == Form::Kind::kSum ? 0 : 1;
+    for (std::size_t i = 0; i < form.parts.size(); ++i) {
+      const ex part = expression(form.parts[i]);
+      if (form.kind == Form::Kind::kSum) {
+        result += form.negative[i] ? -part : part;
+      } else {
+        const bool divides = form.kind == Form::Kind::kQuotient && i > 0;
+        result *= divides ? 1 / part : part;
+      }
+    }
+    return result;
+  }
+
+  int inverse(const Form& form) {
+    const Term of = term(form);
+    const int divisor = of.factors.size() == 1 ? of.factors[0] : network_.add({.terms = {of}});
+    return network_.add({.kind = Node::Kind::kInverse, .of = divisor});
+  }
+
+  const Trace& trace_;
+  Network network_;
+  std::set<std::string> opaque_;
+  std::unordered_map<std::string, int> named_;
+};
+
+}  // namespace
+
+Network to_network(const Trace& trace) { return Reading(trace).run(); }
+
+}  // namespace dyngen
