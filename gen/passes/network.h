@@ -35,6 +35,7 @@ struct Node {
   std::vector<Term> terms{};  ///< of kSum: sorted by factors, none twice
   int place = -1;             ///< of the statement in the trace that was read
   int section = 0;
+  bool negated = false;  ///< its value is minus what it was when it was read
   bool alive = true;
 };
 

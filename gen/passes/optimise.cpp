@@ -3,12 +3,14 @@
 
 #include "gen/passes/conversion.h"
 #include "gen/passes/extraction.h"
+#include "gen/passes/restoration.h"
 #include "gen/passes/simplify.h"
 
 namespace dyngen {
 
 Trace optimised(const Trace& trace) {
-  Network network = to_network(trace);
+  const Network source = to_network(trace);
+  Network network = source;
   simplify(network);
   while (true) {
     const int before = operations(network);
@@ -16,6 +18,7 @@ Trace optimised(const Trace& trace) {
     simplify(network);
     if (operations(network) >= before) break;
   }
+  restore_statements(network, source);
   Trace result = to_trace(network, trace);
   const OperationCount before = trace.count(), after = result.count();
   const bool saves = after.total() < before.total() && after.divisions <= before.divisions;

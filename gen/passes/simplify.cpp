@@ -137,6 +137,7 @@ class Simplification {
   void negate(int id) {
     Node& own = network_.node(id);
     for (Term& term : own.terms) term.negative = !term.negative;
+    own.negated = !own.negated;
     if (!own.name.empty()) own.name = negated_name(own.name);
     for (const int reader : distinct_readers(id)) {
       for (Term& term : network_.node(reader).terms) {
