@@ -280,13 +280,12 @@ void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, dou
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   tau[2] N m, out
- * 8 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 4 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_gravity(const double *q, double *tau) {
-  const double MXR1 = -0.268846444; /* kg m, grouped */
-  const double MY1 = 1.34761664; /* kg m, planar2r.robot:19 */
-  const double MX2 = 0.15647898; /* kg m, planar2r.robot:18 */
-  const double MY2 = 0.029187214; /* kg m, planar2r.robot:19 */
-  const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
+  const double GY_MY2 = 0.28632656934;
+  const double GY_MX2 = 1.5350587938;
+  const double GY_MY1 = 13.2201192384;
+  const double GY_MXR1 = 2.63738361564;
 
   /* sines and cosines of the joint angles */
   const double Q1_2 = q[0] + q[1];
@@ -297,19 +296,11 @@ void planar2r_gravity(const double *q, double *tau) {
   const double S1_2 = PLANAR2R_AT(sine1, 1);
   const double C1_2 = PLANAR2R_AT(cosine1, 1);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double VP1_1 = GY * S1;
-  const double VP2_1 = GY * C1;
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double VP1_2 = GY * S1_2;
-  const double VP2_2 = GY * C1_2;
-
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double N3_2 = MX2 * VP2_2 - MY2 * VP1_2;
+  const double N3_2 = C1_2 * GY_MX2 - S1_2 * GY_MY2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = MXR1 * VP2_1 - MY1 * VP1_1;
+  const double N3_1 = -S1 * GY_MY1 - C1 * GY_MXR1;
   const double T3_1 = N3_2 + N3_1;
 
   tau[0] = T3_1;
@@ -318,7 +309,7 @@ void planar2r_gravity(const double *q, double *tau) {
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad   dq[2] rad/s   tau[2] N m, out
- * 12 mul, 4 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 7 mul, 3 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_coriolis(const double *q, const double *dq, double *tau) {
   const double MX2 = 0.15647898; /* kg m, planar2r.robot:18 */
   const double MY2 = 0.029187214; /* kg m, planar2r.robot:19 */
@@ -330,24 +321,16 @@ void planar2r_coriolis(const double *q, const double *dq, double *tau) {
   const double S2 = PLANAR2R_AT(sine1, 0);
   const double C2 = PLANAR2R_AT(cosine1, 0);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double W3_2 = dq[0] + dq[1];
-  const double DV33_2 = W3_2 * W3_2;
-  const double mVA1_2 = d2 * DV33_1;
-  const double mVP1_2 = C2 * mVA1_2;
-  const double VP2_2 = S2 * mVA1_2;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double mF1_2 = MX2 * DV33_2;
-  const double mF2_2 = MY2 * DV33_2;
-  const double N3_2 = MY2 * mVP1_2 + MX2 * VP2_2;
-  const double mFA2_2 = S2 * mF1_2 + C2 * mF2_2;
+  const double S2_MX2_plus_C2_MY2 = MX2 * S2 + MY2 * C2;
+  const double N3_2_part = d2 * S2_MX2_plus_C2_MY2;
+  const double N3_2 = dq[0] * dq[0] * N3_2_part;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = N3_2 - d2 * mFA2_2;
+  const double T3_1 = N3_2 - W3_2 * W3_2 * N3_2_part;
 
   tau[0] = T3_1;
   tau[1] = N3_2;

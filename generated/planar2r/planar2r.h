@@ -47,12 +47,12 @@ void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, dou
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   tau[2] N m, out
- * 8 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 4 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad   dq[2] rad/s   tau[2] N m, out
- * 12 mul, 4 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 7 mul, 3 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_coriolis(const double *q, const double *dq, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.

@@ -259,7 +259,7 @@ static PUMA560_NOINLINE void puma560_sincos6(double x0, double x1, double x2, do
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
- * 198 mul, 168 add, 6 sin/cos, 6 sgn.  Reads every input before writing tau. */
+ * 198 mul, 167 add, 6 sin/cos, 6 sgn.  Reads every input before writing tau. */
 void puma560_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double ZZR1 = 4.293482265; /* kg m^2, grouped */
   const double FV1 = 5.8018217679508; /* N m s/rad, puma560.robot:42 */
@@ -337,7 +337,6 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double mU13_2 = ddq[0] * C2;
   const double U23_2 = ddq[0] * S2;
   const double mWP1_2 = mDV23_2 + U23_2;
-  const double WP2_2 = mDV13_2 - mU13_2;
   const double DV22_2 = mW2_2 * mW2_2;
   const double DV33_2 = dq[1] * dq[1];
   const double D23_2 = DV22_2 - DV33_2;
@@ -347,7 +346,7 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double mD12_2 = mU11_2 + U22_2;
   const double U12_2 = DV12_2 - ddq[1];
   const double U21_2 = ddq[1] + DV12_2;
-  const double mU31_2 = mDV13_2 + WP2_2;
+  const double mU31_2 = 2.0 * mDV13_2 - mU13_2;
   const double mU32_2 = mDV23_2 + mWP1_2;
   const double mVA1_2 = r2 * ddq[0];
   const double mVA2_2 = r2 * DV33_1;
@@ -363,8 +362,7 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double DV12_3 = mW1_3 * mW2_3;
   const double WP3_3 = ddq[1] + ddq[2];
   const double mU13_3 = ddq[0] * C2_3;
-  const double U23_3 = ddq[0] * S2_3;
-  const double mWP1_3 = mDV23_3 + U23_3;
+  const double mWP1_3 = ddq[0] * S2_3 + mDV23_3;
   const double WP2_3 = mDV13_3 - mU13_3;
   const double DV22_3 = mW2_3 * mW2_3;
   const double DV33_3 = W3_3 * W3_3;
@@ -394,9 +392,7 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double U23_4 = S4 * U12_3 + C4 * mU32_3;
   const double WP1_4 = DV23_4 - U23_4;
   const double WP2_4 = U13_4 - DV13_4;
-  const double DV22_4 = W2_4 * W2_4;
-  const double DV33_4 = W3_4 * W3_4;
-  const double D23_4 = DV22_4 - DV33_4;
+  const double D23_4 = W2_4 * W2_4 - W3_4 * W3_4;
   const double U22_4 = U22_3 + D23_4;
   const double U12_4 = DV12_4 - WP3_4;
   const double U32_4 = DV23_4 + WP1_4;
@@ -418,9 +414,7 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double mU23_5 = S5 * U12_4 + C5 * U32_4;
   const double WP1_5 = mU23_5 - mDV23_5;
   const double WP2_5 = U13_5 - DV13_5;
-  const double DV22_5 = mW2_5 * mW2_5;
-  const double DV33_5 = W3_5 * W3_5;
-  const double D23_5 = DV22_5 - DV33_5;
+  const double D23_5 = mW2_5 * mW2_5 - W3_5 * W3_5;
   const double U22_5 = U22_4 + D23_5;
   const double mU12_5 = mDV12_5 + WP3_5;
   const double U32_5 = WP1_5 - mDV23_5;
@@ -430,13 +424,12 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double W1_6 = C6 * W1_5 + S6 * W3_5;
   const double W2_6 = C6 * W3_5 - S6 * W1_5;
   const double W3_6 = dq[5] + mW2_5;
-  const double DV23_6 = W2_6 * W3_6;
-  const double DV13_6 = W1_6 * W3_6;
   const double WP3_6 = ddq[5] - WP2_5;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double N1_6 = ZZ6 * DV23_6;
-  const double mN2_6 = ZZ6 * DV13_6;
+  const double W3_6_ZZ6 = ZZ6 * W3_6;
+  const double N1_6 = W2_6 * W3_6_ZZ6;
+  const double mN2_6 = W1_6 * W3_6_ZZ6;
   const double N3_6 = ZZ6 * WP3_6;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
@@ -444,20 +437,18 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double F2_5 = MYR5 * U22_5;
   const double F3_5 = MYR5 * U32_5;
   const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
-  const double N2_5 = DV13_5 * XmZ_5;
   const double N3_5 = XXR5 * mDV12_5 + ZZR5 * WP3_5 - MYR5 * VP1_5;
   const double T1_5 = C6 * N1_6 + S6 * mN2_6 + N1_5;
-  const double T2_5 = N2_5 - N3_6;
+  const double T2_5 = XmZ_5 * DV13_5 - N3_6;
   const double T3_5 = S6 * N1_6 - C6 * mN2_6 + N3_5;
   const double mFA1_5 = C5 * mF1_5 + S5 * F2_5;
   const double FA3_5 = S5 * mF1_5 - C5 * F2_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
   const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
-  const double N2_4 = DV13_4 * XmZ_4;
   const double N3_4 = ZZR4 * WP3_4 - XXR4 * DV12_4;
   const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
-  const double T2_4 = T3_5 + N2_4;
+  const double T2_4 = XmZ_4 * DV13_4 + T3_5;
   const double mT3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
   const double mFA1_4 = S4 * F3_5 + C4 * mFA1_5;
   const double FA3_4 = C4 * F3_5 - S4 * mFA1_5;
@@ -467,7 +458,7 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double F2_3 = MYR3 * U22_3 + MXR3 * U21_3;
   const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
   const double mN1_3 = ZZR3 * mDV23_3 + XXR3 * mWP1_3 - YZ3 * D23_3 - XYR3 * mU31_3 + MYR3 * mVA3_3;
-  const double mN2_3 = YZ3 * U12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3 + mDV13_3 * XmZ_3;
+  const double mN2_3 = XmZ_3 * mDV13_3 + YZ3 * U12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3;
   const double mN3_3 = XXR3 * DV12_3 - ZZR3 * WP3_3 + YZ3 * mU13_3 + XYR3 * mD12_3 + MYR3 * VP1_3
       - MXR3 * VP2_3;
   const double E1_3 = F1_3 - mFA1_4;
@@ -484,7 +475,7 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double F2_2 = MY2 * U22_2 + MXR2 * U21_2;
   const double N1_2 = YZ2 * D23_2 - ZZR2 * mDV23_2 - XXR2 * mWP1_2 + XZR2 * U21_2 + XY2 * mU31_2
       - MY2 * mVA2_2;
-  const double mN2_2 = YZ2 * U12_2 - XZR2 * D31_2 + XY2 * mU32_2 - MXR2 * mVA2_2 + mDV13_2 * XmZ_2;
+  const double mN2_2 = XmZ_2 * mDV13_2 - XZR2 * D31_2 + YZ2 * U12_2 + XY2 * mU32_2 - MXR2 * mVA2_2;
   const double mN3_2 = XXR2 * DV12_2 - ZZR2 * ddq[1] + YZ2 * mU13_2 + XZR2 * U23_2 + XY2 * mD12_2
       - MY2 * mVP1_2 - MXR2 * VP2_2;
   const double E1_2 = FA1_3 + F1_2;
@@ -495,8 +486,7 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double FA1_2 = C2 * E1_2 - S2 * E2_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = ZZR1 * ddq[0];
-  const double T3_1 = C2 * mT2_2 - S2 * T1_2 - r2 * FA1_2 + N3_1;
+  const double T3_1 = ZZR1 * ddq[0] - S2 * T1_2 + C2 * mT2_2 - r2 * FA1_2;
 
   /* joint torques */
   const double tau_1 = FV1 * dq[0] + FS1 * puma560_sign(dq[0]) + T3_1;
@@ -516,7 +506,7 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
- * 186 mul, 156 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 186 mul, 155 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void puma560_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
   const double ZZR1 = 4.293482265; /* kg m^2, grouped */
   const double XXR2 = -1.601861202; /* kg m^2, grouped */
@@ -582,7 +572,6 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double mU13_2 = ddq[0] * C2;
   const double U23_2 = ddq[0] * S2;
   const double mWP1_2 = mDV23_2 + U23_2;
-  const double WP2_2 = mDV13_2 - mU13_2;
   const double DV22_2 = mW2_2 * mW2_2;
   const double DV33_2 = dq[1] * dq[1];
   const double D23_2 = DV22_2 - DV33_2;
@@ -592,7 +581,7 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double mD12_2 = mU11_2 + U22_2;
   const double U12_2 = DV12_2 - ddq[1];
   const double U21_2 = ddq[1] + DV12_2;
-  const double mU31_2 = mDV13_2 + WP2_2;
+  const double mU31_2 = 2.0 * mDV13_2 - mU13_2;
   const double mU32_2 = mDV23_2 + mWP1_2;
   const double mVA1_2 = r2 * ddq[0];
   const double mVA2_2 = r2 * DV33_1;
@@ -608,8 +597,7 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double DV12_3 = mW1_3 * mW2_3;
   const double WP3_3 = ddq[1] + ddq[2];
   const double mU13_3 = ddq[0] * C2_3;
-  const double U23_3 = ddq[0] * S2_3;
-  const double mWP1_3 = mDV23_3 + U23_3;
+  const double mWP1_3 = ddq[0] * S2_3 + mDV23_3;
   const double WP2_3 = mDV13_3 - mU13_3;
   const double DV22_3 = mW2_3 * mW2_3;
   const double DV33_3 = W3_3 * W3_3;
@@ -639,9 +627,7 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double U23_4 = S4 * U12_3 + C4 * mU32_3;
   const double WP1_4 = DV23_4 - U23_4;
   const double WP2_4 = U13_4 - DV13_4;
-  const double DV22_4 = W2_4 * W2_4;
-  const double DV33_4 = W3_4 * W3_4;
-  const double D23_4 = DV22_4 - DV33_4;
+  const double D23_4 = W2_4 * W2_4 - W3_4 * W3_4;
   const double U22_4 = U22_3 + D23_4;
   const double U12_4 = DV12_4 - WP3_4;
   const double U32_4 = DV23_4 + WP1_4;
@@ -663,9 +649,7 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double mU23_5 = S5 * U12_4 + C5 * U32_4;
   const double WP1_5 = mU23_5 - mDV23_5;
   const double WP2_5 = U13_5 - DV13_5;
-  const double DV22_5 = mW2_5 * mW2_5;
-  const double DV33_5 = W3_5 * W3_5;
-  const double D23_5 = DV22_5 - DV33_5;
+  const double D23_5 = mW2_5 * mW2_5 - W3_5 * W3_5;
   const double U22_5 = U22_4 + D23_5;
   const double mU12_5 = mDV12_5 + WP3_5;
   const double U32_5 = WP1_5 - mDV23_5;
@@ -675,13 +659,12 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double W1_6 = C6 * W1_5 + S6 * W3_5;
   const double W2_6 = C6 * W3_5 - S6 * W1_5;
   const double W3_6 = dq[5] + mW2_5;
-  const double DV23_6 = W2_6 * W3_6;
-  const double DV13_6 = W1_6 * W3_6;
   const double WP3_6 = ddq[5] - WP2_5;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double N1_6 = ZZ6 * DV23_6;
-  const double mN2_6 = ZZ6 * DV13_6;
+  const double W3_6_ZZ6 = ZZ6 * W3_6;
+  const double N1_6 = W2_6 * W3_6_ZZ6;
+  const double mN2_6 = W1_6 * W3_6_ZZ6;
   const double N3_6 = ZZ6 * WP3_6;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
@@ -689,20 +672,18 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double F2_5 = MYR5 * U22_5;
   const double F3_5 = MYR5 * U32_5;
   const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
-  const double N2_5 = DV13_5 * XmZ_5;
   const double N3_5 = XXR5 * mDV12_5 + ZZR5 * WP3_5 - MYR5 * VP1_5;
   const double T1_5 = C6 * N1_6 + S6 * mN2_6 + N1_5;
-  const double T2_5 = N2_5 - N3_6;
+  const double T2_5 = XmZ_5 * DV13_5 - N3_6;
   const double T3_5 = S6 * N1_6 - C6 * mN2_6 + N3_5;
   const double mFA1_5 = C5 * mF1_5 + S5 * F2_5;
   const double FA3_5 = S5 * mF1_5 - C5 * F2_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
   const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
-  const double N2_4 = DV13_4 * XmZ_4;
   const double N3_4 = ZZR4 * WP3_4 - XXR4 * DV12_4;
   const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
-  const double T2_4 = T3_5 + N2_4;
+  const double T2_4 = XmZ_4 * DV13_4 + T3_5;
   const double mT3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
   const double mFA1_4 = S4 * F3_5 + C4 * mFA1_5;
   const double FA3_4 = C4 * F3_5 - S4 * mFA1_5;
@@ -712,7 +693,7 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double F2_3 = MYR3 * U22_3 + MXR3 * U21_3;
   const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
   const double mN1_3 = ZZR3 * mDV23_3 + XXR3 * mWP1_3 - YZ3 * D23_3 - XYR3 * mU31_3 + MYR3 * mVA3_3;
-  const double mN2_3 = YZ3 * U12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3 + mDV13_3 * XmZ_3;
+  const double mN2_3 = XmZ_3 * mDV13_3 + YZ3 * U12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3;
   const double mN3_3 = XXR3 * DV12_3 - ZZR3 * WP3_3 + YZ3 * mU13_3 + XYR3 * mD12_3 + MYR3 * VP1_3
       - MXR3 * VP2_3;
   const double E1_3 = F1_3 - mFA1_4;
@@ -729,7 +710,7 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double F2_2 = MY2 * U22_2 + MXR2 * U21_2;
   const double N1_2 = YZ2 * D23_2 - ZZR2 * mDV23_2 - XXR2 * mWP1_2 + XZR2 * U21_2 + XY2 * mU31_2
       - MY2 * mVA2_2;
-  const double mN2_2 = YZ2 * U12_2 - XZR2 * D31_2 + XY2 * mU32_2 - MXR2 * mVA2_2 + mDV13_2 * XmZ_2;
+  const double mN2_2 = XmZ_2 * mDV13_2 - XZR2 * D31_2 + YZ2 * U12_2 + XY2 * mU32_2 - MXR2 * mVA2_2;
   const double mN3_2 = XXR2 * DV12_2 - ZZR2 * ddq[1] + YZ2 * mU13_2 + XZR2 * U23_2 + XY2 * mD12_2
       - MY2 * mVP1_2 - MXR2 * VP2_2;
   const double E1_2 = FA1_3 + F1_2;
@@ -740,8 +721,7 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double FA1_2 = C2 * E1_2 - S2 * E2_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = ZZR1 * ddq[0];
-  const double T3_1 = C2 * mT2_2 - S2 * T1_2 - r2 * FA1_2 + N3_1;
+  const double T3_1 = ZZR1 * ddq[0] - S2 * T1_2 + C2 * mT2_2 - r2 * FA1_2;
 
   /* joint torques */
   const double tau_3 = IA3 * ddq[2] - mT3_3;
@@ -759,14 +739,14 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[6] rad   tau[6] N m, out
- * 18 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 16 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void puma560_gravity(const double *q, double *tau) {
-  const double MXR2 = 3.79559; /* kg m, grouped */
-  const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
   const double MXR3 = -0.025375; /* kg m, grouped */
   const double MYR3 = -0.861795; /* kg m, grouped */
   const double MYR5 = -0.00288; /* kg m, grouped */
   const double GZ = 9.81; /* m/s^2, puma560.robot:48 */
+  const double GZ_MY2 = 1.024164;
+  const double GZ_MXR2 = 37.2347379;
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
@@ -781,35 +761,26 @@ void puma560_gravity(const double *q, double *tau) {
   const double S5 = PUMA560_AT(sine1, 3);
   const double C5 = PUMA560_AT(cosine1, 3);
 
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double mVP1_2 = GZ * S2;
-  const double mVP2_2 = GZ * C2;
-
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
   const double mVP1_3 = GZ * S2_3;
   const double mVP2_3 = GZ * C2_3;
 
-  /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double mVP1_4 = C4 * mVP1_3;
-  const double VP2_4 = S4 * mVP1_3;
-
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double mVP1_5 = S5 * mVP2_3 + C5 * mVP1_4;
+  const double mVP1_5 = C4 * C5 * mVP1_3 + S5 * mVP2_3;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double N1_5 = MYR5 * VP2_4;
+  const double N1_5 = MYR5 * S4 * mVP1_3;
   const double N3_5 = MYR5 * mVP1_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double T1_4 = C5 * N1_5;
   const double mT3_4 = S5 * N1_5;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
   const double N3_3 = MYR3 * mVP1_3 - MXR3 * mVP2_3;
-  const double T3_3 = C4 * N3_5 + S4 * T1_4 + N3_3;
+  const double T3_3 = S4 * C5 * N1_5 + C4 * N3_5 + N3_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double N3_2 = MY2 * mVP1_2 - MXR2 * mVP2_2;
+  const double N3_2 = S2 * GZ_MY2 - C2 * GZ_MXR2;
   const double T3_2 = T3_3 + N3_2;
 
   tau[0] = 0.0;
@@ -822,19 +793,17 @@ void puma560_gravity(const double *q, double *tau) {
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[6] rad   dq[6] rad/s   tau[6] N m, out
- * 167 mul, 122 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 163 mul, 120 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double XXR2 = -1.601861202; /* kg m^2, grouped */
   const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
   const double XZR2 = 0.233911466; /* kg m^2, grouped */
   const double YZ2 = 0.0016704; /* kg m^2, puma560.robot:35 */
-  const double ZZR2 = 6.458114002; /* kg m^2, grouped */
   const double MXR2 = 3.79559; /* kg m, grouped */
   const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
   const double XXR3 = 0.299575024; /* kg m^2, grouped */
   const double XYR3 = -0.0106736385; /* kg m^2, grouped */
   const double YZ3 = 0.004704; /* kg m^2, puma560.robot:35 */
-  const double ZZR3 = 0.333105249; /* kg m^2, grouped */
   const double MXR3 = -0.025375; /* kg m, grouped */
   const double MYR3 = -0.861795; /* kg m, grouped */
   const double XXR4 = 0.0003; /* kg m^2, grouped */
@@ -852,6 +821,9 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double XmZ_4 = -0.0013;
   const double XmZ_3 = -0.033530225;
   const double XmZ_2 = -8.059975204;
+  const double XXR3_plus_ZZR3 = 0.632680273;
+  const double XXR2_minus_ZZR2 = 4.8562528;
+  const double K_XY2 = 0.0141984;
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
@@ -887,7 +859,6 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double D31_2 = mU11_2 - DV33_1;
   const double mD12_2 = mU11_2 + U22_2;
   const double mU31_2 = 2.0 * mDV13_2;
-  const double mU32_2 = 2.0 * mDV23_2;
   const double mVA2_2 = r2 * DV33_1;
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
@@ -922,9 +893,7 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double U23_4 = S4 * DV12_3 + C4 * mU32_3;
   const double WP1_4 = DV23_4 - U23_4;
   const double WP2_4 = U13_4 - DV13_4;
-  const double DV22_4 = W2_4 * W2_4;
-  const double DV33_4 = W3_4 * W3_4;
-  const double D23_4 = DV22_4 - DV33_4;
+  const double D23_4 = W2_4 * W2_4 - W3_4 * W3_4;
   const double U22_4 = U22_3 + D23_4;
   const double U12_4 = mDV13_3 + DV12_4;
   const double U32_4 = DV23_4 + WP1_4;
@@ -945,9 +914,7 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double mU23_5 = S5 * U12_4 + C5 * U32_4;
   const double WP1_5 = mU23_5 - mDV23_5;
   const double WP2_5 = U13_5 - DV13_5;
-  const double DV22_5 = mW2_5 * mW2_5;
-  const double DV33_5 = W3_5 * W3_5;
-  const double D23_5 = DV22_5 - DV33_5;
+  const double D23_5 = mW2_5 * mW2_5 - W3_5 * W3_5;
   const double U22_5 = U22_4 + D23_5;
   const double mU12_5 = WP2_4 + mDV12_5;
   const double U32_5 = WP1_5 - mDV23_5;
@@ -957,12 +924,11 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double W1_6 = C6 * W1_5 + S6 * W3_5;
   const double W2_6 = C6 * W3_5 - S6 * W1_5;
   const double W3_6 = dq[5] + mW2_5;
-  const double DV23_6 = W2_6 * W3_6;
-  const double DV13_6 = W1_6 * W3_6;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double N1_6 = ZZ6 * DV23_6;
-  const double mN2_6 = ZZ6 * DV13_6;
+  const double W3_6_ZZ6 = ZZ6 * W3_6;
+  const double N1_6 = W2_6 * W3_6_ZZ6;
+  const double mN2_6 = W1_6 * W3_6_ZZ6;
   const double mN3_6 = ZZ6 * WP2_5;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
@@ -970,20 +936,18 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double F2_5 = MYR5 * U22_5;
   const double F3_5 = MYR5 * U32_5;
   const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
-  const double N2_5 = DV13_5 * XmZ_5;
   const double N3_5 = ZZR5 * WP2_4 + XXR5 * mDV12_5 - MYR5 * VP1_5;
   const double T1_5 = C6 * N1_6 + S6 * mN2_6 + N1_5;
-  const double T2_5 = mN3_6 + N2_5;
+  const double T2_5 = XmZ_5 * DV13_5 + mN3_6;
   const double T3_5 = S6 * N1_6 - C6 * mN2_6 + N3_5;
   const double mFA1_5 = C5 * mF1_5 + S5 * F2_5;
   const double FA3_5 = S5 * mF1_5 - C5 * F2_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
   const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
-  const double N2_4 = DV13_4 * XmZ_4;
   const double mN3_4 = ZZR4 * mDV13_3 + XXR4 * DV12_4;
   const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
-  const double T2_4 = T3_5 + N2_4;
+  const double T2_4 = XmZ_4 * DV13_4 + T3_5;
   const double mT3_4 = S5 * T1_5 + C5 * T2_5 + mN3_4;
   const double mFA1_4 = S4 * F3_5 + C4 * mFA1_5;
   const double FA3_4 = C4 * F3_5 - S4 * mFA1_5;
@@ -992,9 +956,8 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double F1_3 = MYR3 * DV12_3 - MXR3 * mU11_3;
   const double F2_3 = MXR3 * DV12_3 + MYR3 * U22_3;
   const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
-  const double mN1_3 = XXR3 * mDV23_3 + ZZR3 * mDV23_3 - YZ3 * D23_3 - XYR3 * mU31_3
-      + MYR3 * mVA3_3;
-  const double mN2_3 = YZ3 * DV12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3 + mDV13_3 * XmZ_3;
+  const double mN1_3 = MYR3 * mVA3_3 - YZ3 * D23_3 - XYR3 * mU31_3 + mDV23_3 * XXR3_plus_ZZR3;
+  const double mN2_3 = XmZ_3 * mDV13_3 + YZ3 * DV12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3;
   const double mN3_3 = XXR3 * DV12_3 + XYR3 * mD12_3 + MYR3 * VP1_3 - MXR3 * VP2_3;
   const double E1_3 = F1_3 - mFA1_4;
   const double E2_3 = F2_3 - FA3_5;
@@ -1008,9 +971,10 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
   const double F1_2 = MY2 * DV12_2 - MXR2 * mU11_2;
   const double F2_2 = MXR2 * DV12_2 + MY2 * U22_2;
-  const double N1_2 = XZR2 * DV12_2 - XXR2 * mDV23_2 - ZZR2 * mDV23_2 + YZ2 * D23_2 + XY2 * mU31_2
-      - MY2 * mVA2_2;
-  const double mN2_2 = YZ2 * DV12_2 - XZR2 * D31_2 + XY2 * mU32_2 - MXR2 * mVA2_2 + mDV13_2 * XmZ_2;
+  const double N1_2 = XZR2 * DV12_2 + YZ2 * D23_2 + XY2 * mU31_2 - MY2 * mVA2_2
+      - mDV23_2 * XXR2_minus_ZZR2;
+  const double mN2_2 = XmZ_2 * mDV13_2 + YZ2 * DV12_2 - XZR2 * D31_2 - MXR2 * mVA2_2
+      - mDV23_2 * K_XY2;
   const double mN3_2 = XXR2 * DV12_2 + XY2 * mD12_2;
   const double E1_2 = FA1_3 + F1_2;
   const double E2_2 = FA2_3 + F2_2;

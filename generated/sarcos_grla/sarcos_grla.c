@@ -195,7 +195,7 @@ static SARCOS_GRLA_NOINLINE void sarcos_grla_sincos7(double x0, double x1, doubl
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
- * 205 mul, 170 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 211 mul, 163 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double MX1 = 3.7467; /* kg m, sarcos_grla.robot:27 */
   const double MY1 = -3.7196; /* kg m, grouped */
@@ -235,26 +235,17 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double C7 = SARCOS_GRLA_AT(cosine1, 6);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
   const double VP1_1 = GY * S1;
   const double VP2_1 = GY * C1;
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double W1_2 = dq[0] * S2;
   const double W2_2 = dq[0] * C2;
-  const double DV23_2 = dq[1] * W2_2;
-  const double DV13_2 = dq[1] * W1_2;
-  const double DV12_2 = W1_2 * W2_2;
-  const double U13_2 = ddq[0] * C2;
-  const double mU23_2 = ddq[0] * S2;
-  const double WP1_2 = DV23_2 + mU23_2;
-  const double WP2_2 = U13_2 - DV13_2;
-  const double DV22_2 = W2_2 * W2_2;
-  const double DV33_2 = dq[1] * dq[1];
-  const double D23_2 = DV22_2 - DV33_2;
-  const double U22_2 = D23_2 - DV33_1;
-  const double U12_2 = DV12_2 - ddq[1];
-  const double U32_2 = DV23_2 + WP1_2;
+  const double WP2_2 = ddq[0] * C2 - dq[1] * W1_2;
+  const double D23_2 = W2_2 * W2_2 - dq[1] * dq[1];
+  const double U22_2 = D23_2 - dq[0] * dq[0];
+  const double U12_2 = W1_2 * W2_2 - ddq[1];
+  const double U32_2 = ddq[0] * S2 + 2.0 * dq[1] * W2_2;
   const double VP1_2 = GZ * S2 + C2 * VP1_1;
   const double VP2_2 = GZ * C2 - S2 * VP1_1;
 
@@ -262,14 +253,11 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double W1_3 = dq[1] * S3 + C3 * W1_2;
   const double W2_3 = dq[1] * C3 - S3 * W1_2;
   const double W3_3 = dq[2] - W2_2;
-  const double DV23_3 = W2_3 * W3_3;
-  const double DV13_3 = W1_3 * W3_3;
   const double DV12_3 = W1_3 * W2_3;
   const double WP3_3 = ddq[2] - WP2_2;
   const double mU13_3 = C3 * U12_2 + S3 * U32_2;
   const double U23_3 = S3 * U12_2 - C3 * U32_2;
-  const double WP1_3 = DV23_3 - U23_3;
-  const double mWP2_3 = DV13_3 + mU13_3;
+  const double mWP2_3 = W1_3 * W3_3 + mU13_3;
   const double DV22_3 = W2_3 * W2_3;
   const double DV33_3 = W3_3 * W3_3;
   const double D23_3 = DV22_3 - DV33_3;
@@ -277,7 +265,7 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double U22_3 = U22_2 + D23_3;
   const double U12_3 = DV12_3 - WP3_3;
   const double U21_3 = DV12_3 + WP3_3;
-  const double U32_3 = DV23_3 + WP1_3;
+  const double U32_3 = 2.0 * W2_3 * W3_3 - U23_3;
   const double VA1_3 = VP1_2 - r3 * U12_2;
   const double VA2_3 = VP2_2 - r3 * U22_2;
   const double mVA3_3 = VP2_1 + r3 * U32_2;
@@ -288,13 +276,11 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double W1_4 = C4 * W1_3 - S4 * W3_3;
   const double mW2_4 = S4 * W1_3 + C4 * W3_3;
   const double W3_4 = dq[3] + W2_3;
-  const double mDV23_4 = mW2_4 * W3_4;
   const double DV13_4 = W1_4 * W3_4;
   const double mDV12_4 = W1_4 * mW2_4;
   const double WP3_4 = ddq[3] - mWP2_3;
   const double U13_4 = C4 * U12_3 - S4 * U32_3;
   const double mU23_4 = S4 * U12_3 + C4 * U32_3;
-  const double WP1_4 = mU23_4 - mDV23_4;
   const double WP2_4 = U13_4 - DV13_4;
   const double DV22_4 = mW2_4 * mW2_4;
   const double DV33_4 = W3_4 * W3_4;
@@ -304,7 +290,7 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double mU12_4 = mDV12_4 + WP3_4;
   const double U21_4 = WP3_4 - mDV12_4;
   const double U31_4 = DV13_4 - WP2_4;
-  const double U32_4 = WP1_4 - mDV23_4;
+  const double U32_4 = mU23_4 - 2.0 * mW2_4 * W3_4;
   const double VP1_4 = S4 * VA2_3 + C4 * VP1_3;
   const double VP2_4 = C4 * VA2_3 - S4 * VP1_3;
 
@@ -312,13 +298,11 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double W1_5 = C5 * W1_4 + S5 * W3_4;
   const double W2_5 = C5 * W3_4 - S5 * W1_4;
   const double W3_5 = dq[4] + mW2_4;
-  const double DV23_5 = W2_5 * W3_5;
   const double DV13_5 = W1_5 * W3_5;
   const double DV12_5 = W1_5 * W2_5;
   const double WP3_5 = ddq[4] - WP2_4;
   const double U13_5 = C5 * mU12_4 - S5 * U32_4;
   const double mU23_5 = S5 * mU12_4 + C5 * U32_4;
-  const double WP1_5 = DV23_5 + mU23_5;
   const double WP2_5 = U13_5 - DV13_5;
   const double DV22_5 = W2_5 * W2_5;
   const double DV33_5 = W3_5 * W3_5;
@@ -328,7 +312,7 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double U12_5 = DV12_5 - WP3_5;
   const double U21_5 = DV12_5 + WP3_5;
   const double U31_5 = DV13_5 - WP2_5;
-  const double U32_5 = DV23_5 + WP1_5;
+  const double U32_5 = 2.0 * W2_5 * W3_5 + mU23_5;
   const double VA1_5 = r5 * mU12_4 + VP1_4;
   const double VA2_5 = VP2_4 - r5 * U22_4;
   const double mVA3_5 = mVP2_3 + r5 * U32_4;
@@ -339,13 +323,11 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double W1_6 = C6 * W1_5 - S6 * W3_5;
   const double mW2_6 = S6 * W1_5 + C6 * W3_5;
   const double W3_6 = dq[5] + W2_5;
-  const double mDV23_6 = mW2_6 * W3_6;
   const double DV13_6 = W1_6 * W3_6;
   const double mDV12_6 = W1_6 * mW2_6;
   const double WP3_6 = ddq[5] + WP2_5;
   const double U13_6 = C6 * U12_5 - S6 * U32_5;
   const double mU23_6 = S6 * U12_5 + C6 * U32_5;
-  const double WP1_6 = mU23_6 - mDV23_6;
   const double WP2_6 = U13_6 - DV13_6;
   const double DV22_6 = mW2_6 * mW2_6;
   const double DV33_6 = W3_6 * W3_6;
@@ -355,7 +337,7 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double mU12_6 = mDV12_6 + WP3_6;
   const double U21_6 = WP3_6 - mDV12_6;
   const double U31_6 = DV13_6 - WP2_6;
-  const double U32_6 = WP1_6 - mDV23_6;
+  const double U32_6 = mU23_6 - 2.0 * mW2_6 * W3_6;
   const double VP1_6 = S6 * VA2_5 + C6 * VP1_5;
   const double VP2_6 = C6 * VA2_5 - S6 * VP1_5;
 
@@ -363,14 +345,10 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double W1_7 = C7 * W1_6 + S7 * W3_6;
   const double W2_7 = C7 * W3_6 - S7 * W1_6;
   const double W3_7 = dq[6] + mW2_6;
-  const double DV23_7 = W2_7 * W3_7;
-  const double DV13_7 = W1_7 * W3_7;
   const double DV12_7 = W1_7 * W2_7;
   const double WP3_7 = ddq[6] - WP2_6;
   const double U13_7 = C7 * mU12_6 - S7 * U32_6;
   const double mU23_7 = S7 * mU12_6 + C7 * U32_6;
-  const double WP1_7 = DV23_7 + mU23_7;
-  const double WP2_7 = U13_7 - DV13_7;
   const double DV22_7 = W2_7 * W2_7;
   const double DV33_7 = W3_7 * W3_7;
   const double D23_7 = DV22_7 - DV33_7;
@@ -378,8 +356,9 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double U22_7 = U22_6 + D23_7;
   const double U12_7 = DV12_7 - WP3_7;
   const double U21_7 = DV12_7 + WP3_7;
-  const double U31_7 = DV13_7 - WP2_7;
-  const double U32_7 = DV23_7 + WP1_7;
+  const double U31_7_part = 2.0 * W3_7;
+  const double U31_7 = W1_7 * U31_7_part - U13_7;
+  const double U32_7 = mU23_7 + W2_7 * U31_7_part;
   const double VP1_7 = C7 * VP1_6 - S7 * mVP2_5;
   const double mVP2_7 = C7 * mVP2_5 + S7 * VP1_6;
 
@@ -397,14 +376,12 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double mF1_6 = MX6 * mU11_6 + MY6 * mU12_6;
   const double F2_6 = MY6 * U22_6 + MX6 * U21_6;
   const double F3_6 = MX6 * U31_6 + MY6 * U32_6;
-  const double mN1_6 = MY6 * mVP2_5;
-  const double N2_6 = MX6 * mVP2_5;
   const double N3_6 = MX6 * VP2_6 - MY6 * VP1_6;
   const double E1_6 = FA1_7 - mF1_6;
   const double E2_6 = F2_6 - F3_7;
   const double E3_6 = FA3_7 + F3_6;
-  const double mT1_6 = C7 * mN1_7 + S7 * N2_7 + mN1_6;
-  const double T2_6 = mN3_7 + N2_6;
+  const double mT1_6 = MY6 * mVP2_5 + C7 * mN1_7 + S7 * N2_7;
+  const double T2_6 = MX6 * mVP2_5 + mN3_7;
   const double T3_6 = C7 * N2_7 - S7 * mN1_7 + N3_6;
   const double FA1_6 = C6 * E1_6 - S6 * E2_6;
   const double mFA3_6 = S6 * E1_6 + C6 * E2_6;
@@ -413,14 +390,12 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double F1_5 = MY5 * U12_5 - MX5 * mU11_5;
   const double F2_5 = MY5 * U22_5 + MX5 * U21_5;
   const double F3_5 = MX5 * U31_5 + MY5 * U32_5;
-  const double mN1_5 = MY5 * VA2_5;
-  const double N2_5 = MX5 * VA2_5;
   const double mN3_5 = MY5 * VP1_5 + MX5 * mVP2_5;
   const double E1_5 = FA1_6 + F1_5;
   const double E2_5 = E3_6 + F2_5;
   const double E3_5 = F3_5 - mFA3_6;
-  const double mT1_5 = C6 * mT1_6 + S6 * T2_6 + mN1_5;
-  const double T2_5 = T3_6 + N2_5;
+  const double mT1_5 = MY5 * VA2_5 + C6 * mT1_6 + S6 * T2_6;
+  const double T2_5 = MX5 * VA2_5 + T3_6;
   const double mT3_5 = C6 * T2_6 - S6 * mT1_6 + mN3_5;
   const double FA1_5 = C5 * E1_5 - S5 * E2_5;
   const double FA3_5 = S5 * E1_5 + C5 * E2_5;
@@ -429,37 +404,31 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double mF1_4 = MX4 * mU11_4 + MY4 * mU12_4;
   const double F2_4 = MY4 * U22_4 + MX4 * U21_4;
   const double F3_4 = MX4 * U31_4 + MY4 * U32_4;
-  const double mN1_4 = MY4 * mVP2_3;
-  const double N2_4 = MX4 * mVP2_3;
   const double N3_4 = MX4 * VP2_4 - MY4 * VP1_4;
   const double E1_4 = FA1_5 - mF1_4;
   const double E2_4 = F2_4 - E3_5;
   const double E3_4 = FA3_5 + F3_4;
-  const double mT1_4 = C5 * mT1_5 + S5 * T2_5 + r5 * FA3_5 + mN1_4;
-  const double T2_4 = mT3_5 + N2_4;
+  const double mT1_4 = MY4 * mVP2_3 + C5 * mT1_5 + S5 * T2_5 + r5 * FA3_5;
+  const double T2_4 = MX4 * mVP2_3 + mT3_5;
   const double T3_4 = C5 * T2_5 - S5 * mT1_5 + r5 * FA1_5 + N3_4;
   const double FA1_4 = C4 * E1_4 - S4 * E2_4;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
   const double F1_3 = MY3 * U12_3 - MX3 * mU11_3;
   const double F2_3 = MY3 * U22_3 + MX3 * U21_3;
-  const double mN1_3 = MY3 * VA2_3;
-  const double N2_3 = MX3 * VA2_3;
   const double mN3_3 = MY3 * VP1_3 + MX3 * mVP2_3;
   const double E1_3 = FA1_4 + F1_3;
   const double E2_3 = E3_4 + F2_3;
-  const double mT1_3 = C4 * mT1_4 + S4 * T2_4 + mN1_3;
-  const double T2_3 = T3_4 + N2_3;
+  const double mT1_3 = MY3 * VA2_3 + C4 * mT1_4 + S4 * T2_4;
+  const double T2_3 = MX3 * VA2_3 + T3_4;
   const double mT3_3 = C4 * T2_4 - S4 * mT1_4 + mN3_3;
   const double FA1_3 = C3 * E1_3 - S3 * E2_3;
   const double FA3_3 = S3 * E1_3 + C3 * E2_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double mN1_2 = MY2 * VP2_1;
-  const double N2_2 = MX2 * VP2_1;
   const double N3_2 = MX2 * VP2_2 - MY2 * VP1_2;
-  const double mT1_2 = C3 * mT1_3 + S3 * T2_3 + r3 * FA3_3 + mN1_2;
-  const double T2_2 = mT3_3 + N2_2;
+  const double mT1_2 = MY2 * VP2_1 + C3 * mT1_3 + S3 * T2_3 + r3 * FA3_3;
+  const double T2_2 = MX2 * VP2_1 + mT3_3;
   const double T3_2 = C3 * T2_3 - S3 * mT1_3 + r3 * FA1_3 + N3_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
@@ -477,7 +446,7 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
- * 205 mul, 170 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 211 mul, 163 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
   const double MX1 = 3.7467; /* kg m, sarcos_grla.robot:27 */
   const double MY1 = -3.7196; /* kg m, grouped */
@@ -517,26 +486,17 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double C7 = SARCOS_GRLA_AT(cosine1, 6);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
   const double VP1_1 = GY * S1;
   const double VP2_1 = GY * C1;
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double W1_2 = dq[0] * S2;
   const double W2_2 = dq[0] * C2;
-  const double DV23_2 = dq[1] * W2_2;
-  const double DV13_2 = dq[1] * W1_2;
-  const double DV12_2 = W1_2 * W2_2;
-  const double U13_2 = ddq[0] * C2;
-  const double mU23_2 = ddq[0] * S2;
-  const double WP1_2 = DV23_2 + mU23_2;
-  const double WP2_2 = U13_2 - DV13_2;
-  const double DV22_2 = W2_2 * W2_2;
-  const double DV33_2 = dq[1] * dq[1];
-  const double D23_2 = DV22_2 - DV33_2;
-  const double U22_2 = D23_2 - DV33_1;
-  const double U12_2 = DV12_2 - ddq[1];
-  const double U32_2 = DV23_2 + WP1_2;
+  const double WP2_2 = ddq[0] * C2 - dq[1] * W1_2;
+  const double D23_2 = W2_2 * W2_2 - dq[1] * dq[1];
+  const double U22_2 = D23_2 - dq[0] * dq[0];
+  const double U12_2 = W1_2 * W2_2 - ddq[1];
+  const double U32_2 = ddq[0] * S2 + 2.0 * dq[1] * W2_2;
   const double VP1_2 = GZ * S2 + C2 * VP1_1;
   const double VP2_2 = GZ * C2 - S2 * VP1_1;
 
@@ -544,14 +504,11 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double W1_3 = dq[1] * S3 + C3 * W1_2;
   const double W2_3 = dq[1] * C3 - S3 * W1_2;
   const double W3_3 = dq[2] - W2_2;
-  const double DV23_3 = W2_3 * W3_3;
-  const double DV13_3 = W1_3 * W3_3;
   const double DV12_3 = W1_3 * W2_3;
   const double WP3_3 = ddq[2] - WP2_2;
   const double mU13_3 = C3 * U12_2 + S3 * U32_2;
   const double U23_3 = S3 * U12_2 - C3 * U32_2;
-  const double WP1_3 = DV23_3 - U23_3;
-  const double mWP2_3 = DV13_3 + mU13_3;
+  const double mWP2_3 = W1_3 * W3_3 + mU13_3;
   const double DV22_3 = W2_3 * W2_3;
   const double DV33_3 = W3_3 * W3_3;
   const double D23_3 = DV22_3 - DV33_3;
@@ -559,7 +516,7 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double U22_3 = U22_2 + D23_3;
   const double U12_3 = DV12_3 - WP3_3;
   const double U21_3 = DV12_3 + WP3_3;
-  const double U32_3 = DV23_3 + WP1_3;
+  const double U32_3 = 2.0 * W2_3 * W3_3 - U23_3;
   const double VA1_3 = VP1_2 - r3 * U12_2;
   const double VA2_3 = VP2_2 - r3 * U22_2;
   const double mVA3_3 = VP2_1 + r3 * U32_2;
@@ -570,13 +527,11 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double W1_4 = C4 * W1_3 - S4 * W3_3;
   const double mW2_4 = S4 * W1_3 + C4 * W3_3;
   const double W3_4 = dq[3] + W2_3;
-  const double mDV23_4 = mW2_4 * W3_4;
   const double DV13_4 = W1_4 * W3_4;
   const double mDV12_4 = W1_4 * mW2_4;
   const double WP3_4 = ddq[3] - mWP2_3;
   const double U13_4 = C4 * U12_3 - S4 * U32_3;
   const double mU23_4 = S4 * U12_3 + C4 * U32_3;
-  const double WP1_4 = mU23_4 - mDV23_4;
   const double WP2_4 = U13_4 - DV13_4;
   const double DV22_4 = mW2_4 * mW2_4;
   const double DV33_4 = W3_4 * W3_4;
@@ -586,7 +541,7 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double mU12_4 = mDV12_4 + WP3_4;
   const double U21_4 = WP3_4 - mDV12_4;
   const double U31_4 = DV13_4 - WP2_4;
-  const double U32_4 = WP1_4 - mDV23_4;
+  const double U32_4 = mU23_4 - 2.0 * mW2_4 * W3_4;
   const double VP1_4 = S4 * VA2_3 + C4 * VP1_3;
   const double VP2_4 = C4 * VA2_3 - S4 * VP1_3;
 
@@ -594,13 +549,11 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double W1_5 = C5 * W1_4 + S5 * W3_4;
   const double W2_5 = C5 * W3_4 - S5 * W1_4;
   const double W3_5 = dq[4] + mW2_4;
-  const double DV23_5 = W2_5 * W3_5;
   const double DV13_5 = W1_5 * W3_5;
   const double DV12_5 = W1_5 * W2_5;
   const double WP3_5 = ddq[4] - WP2_4;
   const double U13_5 = C5 * mU12_4 - S5 * U32_4;
   const double mU23_5 = S5 * mU12_4 + C5 * U32_4;
-  const double WP1_5 = DV23_5 + mU23_5;
   const double WP2_5 = U13_5 - DV13_5;
   const double DV22_5 = W2_5 * W2_5;
   const double DV33_5 = W3_5 * W3_5;
@@ -610,7 +563,7 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double U12_5 = DV12_5 - WP3_5;
   const double U21_5 = DV12_5 + WP3_5;
   const double U31_5 = DV13_5 - WP2_5;
-  const double U32_5 = DV23_5 + WP1_5;
+  const double U32_5 = 2.0 * W2_5 * W3_5 + mU23_5;
   const double VA1_5 = r5 * mU12_4 + VP1_4;
   const double VA2_5 = VP2_4 - r5 * U22_4;
   const double mVA3_5 = mVP2_3 + r5 * U32_4;
@@ -621,13 +574,11 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double W1_6 = C6 * W1_5 - S6 * W3_5;
   const double mW2_6 = S6 * W1_5 + C6 * W3_5;
   const double W3_6 = dq[5] + W2_5;
-  const double mDV23_6 = mW2_6 * W3_6;
   const double DV13_6 = W1_6 * W3_6;
   const double mDV12_6 = W1_6 * mW2_6;
   const double WP3_6 = ddq[5] + WP2_5;
   const double U13_6 = C6 * U12_5 - S6 * U32_5;
   const double mU23_6 = S6 * U12_5 + C6 * U32_5;
-  const double WP1_6 = mU23_6 - mDV23_6;
   const double WP2_6 = U13_6 - DV13_6;
   const double DV22_6 = mW2_6 * mW2_6;
   const double DV33_6 = W3_6 * W3_6;
@@ -637,7 +588,7 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double mU12_6 = mDV12_6 + WP3_6;
   const double U21_6 = WP3_6 - mDV12_6;
   const double U31_6 = DV13_6 - WP2_6;
-  const double U32_6 = WP1_6 - mDV23_6;
+  const double U32_6 = mU23_6 - 2.0 * mW2_6 * W3_6;
   const double VP1_6 = S6 * VA2_5 + C6 * VP1_5;
   const double VP2_6 = C6 * VA2_5 - S6 * VP1_5;
 
@@ -645,14 +596,10 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double W1_7 = C7 * W1_6 + S7 * W3_6;
   const double W2_7 = C7 * W3_6 - S7 * W1_6;
   const double W3_7 = dq[6] + mW2_6;
-  const double DV23_7 = W2_7 * W3_7;
-  const double DV13_7 = W1_7 * W3_7;
   const double DV12_7 = W1_7 * W2_7;
   const double WP3_7 = ddq[6] - WP2_6;
   const double U13_7 = C7 * mU12_6 - S7 * U32_6;
   const double mU23_7 = S7 * mU12_6 + C7 * U32_6;
-  const double WP1_7 = DV23_7 + mU23_7;
-  const double WP2_7 = U13_7 - DV13_7;
   const double DV22_7 = W2_7 * W2_7;
   const double DV33_7 = W3_7 * W3_7;
   const double D23_7 = DV22_7 - DV33_7;
@@ -660,8 +607,9 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double U22_7 = U22_6 + D23_7;
   const double U12_7 = DV12_7 - WP3_7;
   const double U21_7 = DV12_7 + WP3_7;
-  const double U31_7 = DV13_7 - WP2_7;
-  const double U32_7 = DV23_7 + WP1_7;
+  const double U31_7_part = 2.0 * W3_7;
+  const double U31_7 = W1_7 * U31_7_part - U13_7;
+  const double U32_7 = mU23_7 + W2_7 * U31_7_part;
   const double VP1_7 = C7 * VP1_6 - S7 * mVP2_5;
   const double mVP2_7 = C7 * mVP2_5 + S7 * VP1_6;
 
@@ -679,14 +627,12 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double mF1_6 = MX6 * mU11_6 + MY6 * mU12_6;
   const double F2_6 = MY6 * U22_6 + MX6 * U21_6;
   const double F3_6 = MX6 * U31_6 + MY6 * U32_6;
-  const double mN1_6 = MY6 * mVP2_5;
-  const double N2_6 = MX6 * mVP2_5;
   const double N3_6 = MX6 * VP2_6 - MY6 * VP1_6;
   const double E1_6 = FA1_7 - mF1_6;
   const double E2_6 = F2_6 - F3_7;
   const double E3_6 = FA3_7 + F3_6;
-  const double mT1_6 = C7 * mN1_7 + S7 * N2_7 + mN1_6;
-  const double T2_6 = mN3_7 + N2_6;
+  const double mT1_6 = MY6 * mVP2_5 + C7 * mN1_7 + S7 * N2_7;
+  const double T2_6 = MX6 * mVP2_5 + mN3_7;
   const double T3_6 = C7 * N2_7 - S7 * mN1_7 + N3_6;
   const double FA1_6 = C6 * E1_6 - S6 * E2_6;
   const double mFA3_6 = S6 * E1_6 + C6 * E2_6;
@@ -695,14 +641,12 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double F1_5 = MY5 * U12_5 - MX5 * mU11_5;
   const double F2_5 = MY5 * U22_5 + MX5 * U21_5;
   const double F3_5 = MX5 * U31_5 + MY5 * U32_5;
-  const double mN1_5 = MY5 * VA2_5;
-  const double N2_5 = MX5 * VA2_5;
   const double mN3_5 = MY5 * VP1_5 + MX5 * mVP2_5;
   const double E1_5 = FA1_6 + F1_5;
   const double E2_5 = E3_6 + F2_5;
   const double E3_5 = F3_5 - mFA3_6;
-  const double mT1_5 = C6 * mT1_6 + S6 * T2_6 + mN1_5;
-  const double T2_5 = T3_6 + N2_5;
+  const double mT1_5 = MY5 * VA2_5 + C6 * mT1_6 + S6 * T2_6;
+  const double T2_5 = MX5 * VA2_5 + T3_6;
   const double mT3_5 = C6 * T2_6 - S6 * mT1_6 + mN3_5;
   const double FA1_5 = C5 * E1_5 - S5 * E2_5;
   const double FA3_5 = S5 * E1_5 + C5 * E2_5;
@@ -711,37 +655,31 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double mF1_4 = MX4 * mU11_4 + MY4 * mU12_4;
   const double F2_4 = MY4 * U22_4 + MX4 * U21_4;
   const double F3_4 = MX4 * U31_4 + MY4 * U32_4;
-  const double mN1_4 = MY4 * mVP2_3;
-  const double N2_4 = MX4 * mVP2_3;
   const double N3_4 = MX4 * VP2_4 - MY4 * VP1_4;
   const double E1_4 = FA1_5 - mF1_4;
   const double E2_4 = F2_4 - E3_5;
   const double E3_4 = FA3_5 + F3_4;
-  const double mT1_4 = C5 * mT1_5 + S5 * T2_5 + r5 * FA3_5 + mN1_4;
-  const double T2_4 = mT3_5 + N2_4;
+  const double mT1_4 = MY4 * mVP2_3 + C5 * mT1_5 + S5 * T2_5 + r5 * FA3_5;
+  const double T2_4 = MX4 * mVP2_3 + mT3_5;
   const double T3_4 = C5 * T2_5 - S5 * mT1_5 + r5 * FA1_5 + N3_4;
   const double FA1_4 = C4 * E1_4 - S4 * E2_4;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
   const double F1_3 = MY3 * U12_3 - MX3 * mU11_3;
   const double F2_3 = MY3 * U22_3 + MX3 * U21_3;
-  const double mN1_3 = MY3 * VA2_3;
-  const double N2_3 = MX3 * VA2_3;
   const double mN3_3 = MY3 * VP1_3 + MX3 * mVP2_3;
   const double E1_3 = FA1_4 + F1_3;
   const double E2_3 = E3_4 + F2_3;
-  const double mT1_3 = C4 * mT1_4 + S4 * T2_4 + mN1_3;
-  const double T2_3 = T3_4 + N2_3;
+  const double mT1_3 = MY3 * VA2_3 + C4 * mT1_4 + S4 * T2_4;
+  const double T2_3 = MX3 * VA2_3 + T3_4;
   const double mT3_3 = C4 * T2_4 - S4 * mT1_4 + mN3_3;
   const double FA1_3 = C3 * E1_3 - S3 * E2_3;
   const double FA3_3 = S3 * E1_3 + C3 * E2_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double mN1_2 = MY2 * VP2_1;
-  const double N2_2 = MX2 * VP2_1;
   const double N3_2 = MX2 * VP2_2 - MY2 * VP1_2;
-  const double mT1_2 = C3 * mT1_3 + S3 * T2_3 + r3 * FA3_3 + mN1_2;
-  const double T2_2 = mT3_3 + N2_2;
+  const double mT1_2 = MY2 * VP2_1 + C3 * mT1_3 + S3 * T2_3 + r3 * FA3_3;
+  const double T2_2 = MX2 * VP2_1 + mT3_3;
   const double T3_2 = C3 * T2_3 - S3 * mT1_3 + r3 * FA1_3 + N3_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
@@ -884,7 +822,7 @@ void sarcos_grla_gravity(const double *q, double *tau) {
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[7] rad   dq[7] rad/s   tau[7] N m, out
- * 192 mul, 150 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 197 mul, 144 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double MX3 = -2.5465; /* kg m, sarcos_grla.robot:27 */
   const double MY3 = 3.9049; /* kg m, sarcos_grla.robot:29 */
@@ -915,32 +853,23 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double S7 = SARCOS_GRLA_AT(sine1, 5);
   const double C7 = SARCOS_GRLA_AT(cosine1, 5);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double W1_2 = dq[0] * S2;
   const double W2_2 = dq[0] * C2;
-  const double DV23_2 = dq[1] * W2_2;
   const double DV13_2 = dq[1] * W1_2;
   const double DV12_2 = W1_2 * W2_2;
-  const double DV22_2 = W2_2 * W2_2;
-  const double DV33_2 = dq[1] * dq[1];
-  const double D23_2 = DV22_2 - DV33_2;
-  const double U22_2 = D23_2 - DV33_1;
-  const double U32_2 = 2.0 * DV23_2;
+  const double D23_2 = W2_2 * W2_2 - dq[1] * dq[1];
+  const double U22_2 = D23_2 - dq[0] * dq[0];
+  const double U32_2 = 2.0 * dq[1] * W2_2;
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
   const double W1_3 = dq[1] * S3 + C3 * W1_2;
   const double W2_3 = dq[1] * C3 - S3 * W1_2;
   const double W3_3 = dq[2] - W2_2;
-  const double DV23_3 = W2_3 * W3_3;
-  const double DV13_3 = W1_3 * W3_3;
   const double DV12_3 = W1_3 * W2_3;
   const double mU13_3 = C3 * DV12_2 + S3 * U32_2;
   const double U23_3 = S3 * DV12_2 - C3 * U32_2;
-  const double WP1_3 = DV23_3 - U23_3;
-  const double mWP2_3 = DV13_3 + mU13_3;
+  const double mWP2_3 = W1_3 * W3_3 + mU13_3;
   const double DV22_3 = W2_3 * W2_3;
   const double DV33_3 = W3_3 * W3_3;
   const double D23_3 = DV22_3 - DV33_3;
@@ -948,7 +877,7 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double U22_3 = U22_2 + D23_3;
   const double U12_3 = DV12_3 - DV13_2;
   const double U21_3 = DV13_2 + DV12_3;
-  const double U32_3 = DV23_3 + WP1_3;
+  const double U32_3 = 2.0 * W2_3 * W3_3 - U23_3;
   const double mVA1_3 = r3 * DV12_2;
   const double mVA2_3 = r3 * U22_2;
   const double mVA3_3 = r3 * U32_2;
@@ -959,12 +888,10 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double W1_4 = C4 * W1_3 - S4 * W3_3;
   const double mW2_4 = S4 * W1_3 + C4 * W3_3;
   const double W3_4 = dq[3] + W2_3;
-  const double mDV23_4 = mW2_4 * W3_4;
   const double DV13_4 = W1_4 * W3_4;
   const double mDV12_4 = W1_4 * mW2_4;
   const double U13_4 = C4 * U12_3 - S4 * U32_3;
   const double mU23_4 = S4 * U12_3 + C4 * U32_3;
-  const double WP1_4 = mU23_4 - mDV23_4;
   const double WP2_4 = U13_4 - DV13_4;
   const double DV22_4 = mW2_4 * mW2_4;
   const double DV33_4 = W3_4 * W3_4;
@@ -974,7 +901,7 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double U12_4 = mWP2_3 - mDV12_4;
   const double mU21_4 = mWP2_3 + mDV12_4;
   const double U31_4 = DV13_4 - WP2_4;
-  const double U32_4 = WP1_4 - mDV23_4;
+  const double U32_4 = mU23_4 - 2.0 * mW2_4 * W3_4;
   const double mVP1_4 = S4 * mVA2_3 + C4 * mVP1_3;
   const double VP2_4 = S4 * mVP1_3 - C4 * mVA2_3;
 
@@ -982,12 +909,10 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double W1_5 = C5 * W1_4 + S5 * W3_4;
   const double W2_5 = C5 * W3_4 - S5 * W1_4;
   const double W3_5 = dq[4] + mW2_4;
-  const double DV23_5 = W2_5 * W3_5;
   const double DV13_5 = W1_5 * W3_5;
   const double DV12_5 = W1_5 * W2_5;
   const double mU13_5 = C5 * U12_4 + S5 * U32_4;
   const double U23_5 = S5 * U12_4 - C5 * U32_4;
-  const double WP1_5 = DV23_5 - U23_5;
   const double mWP2_5 = DV13_5 + mU13_5;
   const double DV22_5 = W2_5 * W2_5;
   const double DV33_5 = W3_5 * W3_5;
@@ -997,7 +922,7 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double U12_5 = WP2_4 + DV12_5;
   const double U21_5 = DV12_5 - WP2_4;
   const double U31_5 = DV13_5 + mWP2_5;
-  const double U32_5 = DV23_5 + WP1_5;
+  const double U32_5 = 2.0 * W2_5 * W3_5 - U23_5;
   const double mVA1_5 = r5 * U12_4 + mVP1_4;
   const double VA2_5 = VP2_4 - r5 * U22_4;
   const double VA3_5 = VP2_3 - r5 * U32_4;
@@ -1008,12 +933,10 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double W1_6 = C6 * W1_5 - S6 * W3_5;
   const double mW2_6 = S6 * W1_5 + C6 * W3_5;
   const double W3_6 = dq[5] + W2_5;
-  const double mDV23_6 = mW2_6 * W3_6;
   const double DV13_6 = W1_6 * W3_6;
   const double mDV12_6 = W1_6 * mW2_6;
   const double U13_6 = C6 * U12_5 - S6 * U32_5;
   const double mU23_6 = S6 * U12_5 + C6 * U32_5;
-  const double WP1_6 = mU23_6 - mDV23_6;
   const double WP2_6 = U13_6 - DV13_6;
   const double DV22_6 = mW2_6 * mW2_6;
   const double DV33_6 = W3_6 * W3_6;
@@ -1023,7 +946,7 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double U12_6 = mWP2_5 - mDV12_6;
   const double mU21_6 = mWP2_5 + mDV12_6;
   const double U31_6 = DV13_6 - WP2_6;
-  const double U32_6 = WP1_6 - mDV23_6;
+  const double U32_6 = mU23_6 - 2.0 * mW2_6 * W3_6;
   const double VP1_6 = S6 * VA2_5 + C6 * VP1_5;
   const double VP2_6 = C6 * VA2_5 - S6 * VP1_5;
 
@@ -1031,13 +954,9 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double W1_7 = C7 * W1_6 + S7 * W3_6;
   const double W2_7 = C7 * W3_6 - S7 * W1_6;
   const double W3_7 = dq[6] + mW2_6;
-  const double DV23_7 = W2_7 * W3_7;
-  const double DV13_7 = W1_7 * W3_7;
   const double DV12_7 = W1_7 * W2_7;
   const double mU13_7 = C7 * U12_6 + S7 * U32_6;
   const double U23_7 = S7 * U12_6 - C7 * U32_6;
-  const double WP1_7 = DV23_7 - U23_7;
-  const double mWP2_7 = DV13_7 + mU13_7;
   const double DV22_7 = W2_7 * W2_7;
   const double DV33_7 = W3_7 * W3_7;
   const double D23_7 = DV22_7 - DV33_7;
@@ -1045,8 +964,9 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double U22_7 = U22_6 + D23_7;
   const double U12_7 = WP2_6 + DV12_7;
   const double U21_7 = DV12_7 - WP2_6;
-  const double U31_7 = DV13_7 + mWP2_7;
-  const double U32_7 = DV23_7 + WP1_7;
+  const double U31_7_part = 2.0 * W3_7;
+  const double U31_7 = mU13_7 + W1_7 * U31_7_part;
+  const double U32_7 = W2_7 * U31_7_part - U23_7;
   const double VP1_7 = S7 * VP2_5 + C7 * VP1_6;
   const double VP2_7 = C7 * VP2_5 - S7 * VP1_6;
 
@@ -1064,14 +984,12 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double F1_6 = MY6 * U12_6 - MX6 * mU11_6;
   const double F2_6 = MY6 * U22_6 - MX6 * mU21_6;
   const double F3_6 = MX6 * U31_6 + MY6 * U32_6;
-  const double N1_6 = MY6 * VP2_5;
-  const double mN2_6 = MX6 * VP2_5;
   const double N3_6 = MX6 * VP2_6 - MY6 * VP1_6;
   const double E1_6 = FA1_7 + F1_6;
   const double E2_6 = F2_6 - F3_7;
   const double E3_6 = FA3_7 + F3_6;
-  const double mT1_6 = C7 * mN1_7 + S7 * N2_7 - N1_6;
-  const double mT2_6 = N3_7 + mN2_6;
+  const double mT1_6 = C7 * mN1_7 - MY6 * VP2_5 + S7 * N2_7;
+  const double mT2_6 = MX6 * VP2_5 + N3_7;
   const double T3_6 = C7 * N2_7 - S7 * mN1_7 + N3_6;
   const double FA1_6 = C6 * E1_6 - S6 * E2_6;
   const double mFA3_6 = S6 * E1_6 + C6 * E2_6;
@@ -1080,14 +998,12 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double F1_5 = MY5 * U12_5 - MX5 * mU11_5;
   const double F2_5 = MY5 * U22_5 + MX5 * U21_5;
   const double F3_5 = MX5 * U31_5 + MY5 * U32_5;
-  const double mN1_5 = MY5 * VA2_5;
-  const double N2_5 = MX5 * VA2_5;
   const double N3_5 = MX5 * VP2_5 - MY5 * VP1_5;
   const double E1_5 = FA1_6 + F1_5;
   const double E2_5 = E3_6 + F2_5;
   const double E3_5 = F3_5 - mFA3_6;
-  const double mT1_5 = C6 * mT1_6 - S6 * mT2_6 + mN1_5;
-  const double T2_5 = T3_6 + N2_5;
+  const double mT1_5 = MY5 * VA2_5 + C6 * mT1_6 - S6 * mT2_6;
+  const double T2_5 = MX5 * VA2_5 + T3_6;
   const double T3_5 = S6 * mT1_6 + C6 * mT2_6 + N3_5;
   const double FA1_5 = C5 * E1_5 - S5 * E2_5;
   const double FA3_5 = S5 * E1_5 + C5 * E2_5;
@@ -1096,27 +1012,23 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double F1_4 = MY4 * U12_4 - MX4 * mU11_4;
   const double F2_4 = MY4 * U22_4 - MX4 * mU21_4;
   const double F3_4 = MX4 * U31_4 + MY4 * U32_4;
-  const double N1_4 = MY4 * VP2_3;
-  const double mN2_4 = MX4 * VP2_3;
   const double N3_4 = MY4 * mVP1_4 + MX4 * VP2_4;
   const double E1_4 = FA1_5 + F1_4;
   const double E2_4 = F2_4 - E3_5;
   const double E3_4 = FA3_5 + F3_4;
-  const double mT1_4 = C5 * mT1_5 + S5 * T2_5 + r5 * FA3_5 - N1_4;
-  const double mT2_4 = T3_5 + mN2_4;
+  const double mT1_4 = C5 * mT1_5 - MY4 * VP2_3 + S5 * T2_5 + r5 * FA3_5;
+  const double mT2_4 = MX4 * VP2_3 + T3_5;
   const double T3_4 = C5 * T2_5 - S5 * mT1_5 + r5 * FA1_5 + N3_4;
   const double FA1_4 = C4 * E1_4 - S4 * E2_4;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
   const double F1_3 = MY3 * U12_3 - MX3 * mU11_3;
   const double F2_3 = MY3 * U22_3 + MX3 * U21_3;
-  const double N1_3 = MY3 * mVA2_3;
-  const double mN2_3 = MX3 * mVA2_3;
   const double N3_3 = MY3 * mVP1_3 + MX3 * VP2_3;
   const double E1_3 = FA1_4 + F1_3;
   const double E2_3 = E3_4 + F2_3;
-  const double T1_3 = S4 * mT2_4 - C4 * mT1_4 + N1_3;
-  const double T2_3 = T3_4 - mN2_3;
+  const double T1_3 = MY3 * mVA2_3 - C4 * mT1_4 + S4 * mT2_4;
+  const double T2_3 = T3_4 - MX3 * mVA2_3;
   const double T3_3 = S4 * mT1_4 + C4 * mT2_4 + N3_3;
   const double FA1_3 = C3 * E1_3 - S3 * E2_3;
   const double FA3_3 = S3 * E1_3 + C3 * E2_3;

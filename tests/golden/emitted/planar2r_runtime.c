@@ -220,7 +220,7 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, const dou
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   chi[11] see enum planar2r_chi   tau[2] N m, out
- * 8 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 6 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_gravity(const double *q, const double *chi, double *tau) {
   const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
 
@@ -233,28 +233,21 @@ void planar2r_gravity(const double *q, const double *chi, double *tau) {
   const double S1_2 = PLANAR2R_AT(sine1, 1);
   const double C1_2 = PLANAR2R_AT(cosine1, 1);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double VP1_1 = GY * S1;
-  const double VP2_1 = GY * C1;
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double VP1_2 = GY * S1_2;
-  const double VP2_2 = GY * C1_2;
-
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double N3_2 = chi[PLANAR2R_MX2] * VP2_2 - chi[PLANAR2R_MY2] * VP1_2;
+  const double S1_2_MY2_minus_C1_2_MX2 = chi[PLANAR2R_MY2] * S1_2 - chi[PLANAR2R_MX2] * C1_2;
+  const double mN3_2 = GY * S1_2_MY2_minus_C1_2_MX2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = chi[PLANAR2R_MXR1] * VP2_1 - chi[PLANAR2R_MY1] * VP1_1;
-  const double T3_1 = N3_2 + N3_1;
+  const double S1_MY1_minus_C1_MXR1 = chi[PLANAR2R_MY1] * S1 - chi[PLANAR2R_MXR1] * C1;
+  const double T3_1 = -mN3_2 - GY * S1_MY1_minus_C1_MXR1;
 
   tau[0] = T3_1;
-  tau[1] = N3_2;
+  tau[1] = -mN3_2;
 }
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad   dq[2] rad/s   chi[11] see enum planar2r_chi   tau[2] N m, out
- * 12 mul, 4 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 7 mul, 3 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_coriolis(const double *q, const double *dq, const double *chi, double *tau) {
   const double d2 = 0.5; /* m, planar2r.robot:13 */
 
@@ -264,24 +257,16 @@ void planar2r_coriolis(const double *q, const double *dq, const double *chi, dou
   const double S2 = PLANAR2R_AT(sine1, 0);
   const double C2 = PLANAR2R_AT(cosine1, 0);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double W3_2 = dq[0] + dq[1];
-  const double DV33_2 = W3_2 * W3_2;
-  const double mVA1_2 = d2 * DV33_1;
-  const double mVP1_2 = C2 * mVA1_2;
-  const double VP2_2 = S2 * mVA1_2;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double mF1_2 = chi[PLANAR2R_MX2] * DV33_2;
-  const double mF2_2 = chi[PLANAR2R_MY2] * DV33_2;
-  const double N3_2 = chi[PLANAR2R_MY2] * mVP1_2 + chi[PLANAR2R_MX2] * VP2_2;
-  const double mFA2_2 = S2 * mF1_2 + C2 * mF2_2;
+  const double S2_MX2_plus_C2_MY2 = chi[PLANAR2R_MX2] * S2 + chi[PLANAR2R_MY2] * C2;
+  const double N3_2_part = d2 * S2_MX2_plus_C2_MY2;
+  const double N3_2 = dq[0] * dq[0] * N3_2_part;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = N3_2 - d2 * mFA2_2;
+  const double T3_1 = N3_2 - W3_2 * W3_2 * N3_2_part;
 
   tau[0] = T3_1;
   tau[1] = N3_2;

@@ -43,12 +43,12 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, const dou
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   chi[11] see enum planar2r_chi   tau[2] N m, out
- * 8 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 6 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_gravity(const double *q, const double *chi, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad   dq[2] rad/s   chi[11] see enum planar2r_chi   tau[2] N m, out
- * 12 mul, 4 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 7 mul, 3 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_coriolis(const double *q, const double *dq, const double *chi, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.

@@ -196,14 +196,12 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad (m at 1)   tau[2] N m (N at 1), out
- * 9 mul, 4 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 6 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void rp_gravity(const double *q, double *tau) {
-  const double MX1 = 0.086795103; /* kg m, rp.robot:19 */
-  const double MY1 = 0.327062208; /* kg m, rp.robot:20 */
-  const double MX2 = 1.193591871; /* kg m, rp.robot:19 */
-  const double MZ2 = 1.187908904; /* kg m, rp.robot:21 */
   const double M2 = 5.6267; /* kg, rp.robot:18 */
   const double GY = 9.81; /* m/s^2, rp.robot:36 */
+  const double MZ2_minus_MY1 = 0.860846696;
+  const double MX2_plus_MX1 = 1.280386974;
 
   /* sines and cosines of the joint angles */
   rp_doubles sine1[(1 + RP_DOUBLES - 1) / RP_DOUBLES], cosine1[(1 + RP_DOUBLES - 1) / RP_DOUBLES];
@@ -212,17 +210,14 @@ void rp_gravity(const double *q, double *tau) {
   const double C1 = RP_AT(cosine1, 0);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double VP1_1 = GY * S1;
   const double VP2_1 = GY * C1;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = M2 * VP1_1;
   const double mF3_2 = M2 * VP2_1;
-  const double N2_2 = MZ2 * VP1_1 + MX2 * VP2_1;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = MX1 * VP2_1 - MY1 * VP1_1;
-  const double T3_1 = q[1] * F1_2 + N2_2 + N3_1;
+  const double M2_q_2_plus_MZ2_minus_MY1 = M2 * q[1] + MZ2_minus_MY1;
+  const double T3_1 = GY * S1 * M2_q_2_plus_MZ2_minus_MY1 + VP2_1 * MX2_plus_MX1;
 
   tau[0] = T3_1;
   tau[1] = -mF3_2;
