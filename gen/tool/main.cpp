@@ -2,9 +2,11 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <string>
 #include <vector>
 
 #include "gen/diagnostic/assert.h"
+#include "gen/explain/explain.h"
 #include "gen/generator/generator.h"
 #include "gen/model/robot_model.h"
 #include "gen/robot_file/robot_file.h"
@@ -29,6 +31,11 @@ void print_warnings(const RobotFile& file, const RobotModel& model) {
   std::cerr << diagnostics.render();
 }
 
+void print(const std::string& text) {
+  std::cout << text << std::flush;
+  if (!std::cout) throw OutputError("standard output: error: cannot write");
+}
+
 void run(const ToolOptions& options) {
   const RobotFile file = read_robot_file(options.robot);
   const RobotModel model = build_model(file);
@@ -45,10 +52,10 @@ void run(const ToolOptions& options) {
     }
     write_files(files);
   }
+  if (options.explain) print(explain(model));
   if (options.count) {
     const CodeModel code = make_code_model(model, options.generator);
-    std::cout << count_table(code, write_functions(code, options.generator)) << std::flush;
-    if (!std::cout) throw OutputError("standard output: error: cannot write");
+    print(count_table(code, write_functions(code, options.generator)));
   }
 }
 

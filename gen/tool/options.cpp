@@ -54,8 +54,8 @@ void check_paths(const ToolOptions& options) {
 }
 
 void check(ToolOptions& options) {
-  if (options.output.empty() && !options.count) {
-    throw std::invalid_argument("nothing to do: give -o FILE, or --count");
+  if (options.output.empty() && !options.count && !options.explain) {
+    throw std::invalid_argument("nothing to do: give -o FILE, --count or --explain");
   }
   if (!options.output.empty() && !is_source_name(options.output)) {
     throw std::invalid_argument("-o: '" + options.output +
@@ -137,6 +137,9 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       ->type_name("FILE");
   app.add_flag("--count", options.count,
                "Print multiplications and additions beside the bounds 105n-92 and 94n-86");
+  app.add_flag("--explain", options.explain,
+               "Print what was read in words, the base parameters with their formulas, and what "
+               "cannot be identified");
   try {
     app.parse(argc, argv);
     options.generator.parameters = meaning<ParameterMode>(

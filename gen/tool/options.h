@@ -13,6 +13,7 @@ struct ToolOptions {
   std::string output;   ///< the C or C++ source; its header stands beside it; empty: none
   std::string depfile;  ///< empty: none
   bool count = false;
+  bool explain = false;
   GeneratorOptions generator;
 
   /// The header's path: the output's with ".h".

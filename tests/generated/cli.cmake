@@ -107,7 +107,10 @@ refuse(2 "the header as depfile" ARGUMENTS ${robot} -o out/x.c --depfile out/x.h
 refuse(2 "empty prefix" ARGUMENTS ${robot} -o out/x.c --prefix "" SAYS "--prefix")
 refuse(2 "inline float" ARGUMENTS ${robot} -o out/x.c --scalar float --trig inline SAYS "--trig")
 refuse(2 "no arguments" SAYS robot --help)
-refuse(2 "nothing to do" ARGUMENTS ${robot} SAYS "-o" "--count")
+refuse(2 "nothing to do" ARGUMENTS ${robot} SAYS "-o" "--count" "--explain")
+run(text 0 ${DYNGEN} ${robot} --explain)
+expect_text(--explain "${text}" "puma560: 6 joints" "ZZR2 = ZZ2 + IA2 + d3^2 (M3 + M4 + M5 + M6)" "d3 = 0.4318 m"
+  "perpendicular" "only in sums" "Gravity alone")
 refuse(2 "unknown option" ARGUMENTS ${robot} -o out/x.c --frobnicate SAYS --frobnicate --help)
 refuse(2 "unknown function" ARGUMENTS ${robot} -o out/x.c --functions id,inverse
   SAYS "--functions" "'inverse'" "gravity")
