@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "gen/algorithms/energy.h"
+#include "gen/algorithms/gravity_regressor.h"
+#include "gen/algorithms/regressor.h"
 #include "gen/algorithms/rnea.h"
 #include "gen/passes/optimise.h"
 
@@ -90,6 +93,36 @@ const std::vector<FunctionSpec>& function_catalogue() {
        {},
        "tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.",
        write_friction},
+      {"regressor",
+       {"q", "dq", "ddq"},
+       {{.array = "Y", .columns = Extent::kChi, .unit = "torque per unit parameter"}},
+       {.gravity = true},
+       "tau = Y chi: regressor of inverse dynamics; columns of lengths are 0.",
+       write_regressor},
+      {"base_regressor",
+       {"q", "dq", "ddq"},
+       {{.array = "Y", .columns = Extent::kBeta, .unit = "torque per unit parameter"}},
+       {.gravity = true},
+       "tau = Y beta: regressor of inverse dynamics in the base parameters.",
+       write_base_regressor},
+      {"gravity_regressor",
+       {"q"},
+       {{.array = "Y", .columns = Extent::kBeta, .unit = "torque per unit parameter"}},
+       {.gravity = true},
+       "g(q) = Y beta: regressor of the torque that holds the arm still.",
+       write_gravity_regressor},
+      {"energy_regressor",
+       {"q", "dq"},
+       {{.array = "H", .rows = Extent::kBeta, .unit = "J per unit parameter"}},
+       {.gravity = true},
+       "E = H beta: kinetic and potential energy, of the rotors too; no accelerations.",
+       write_energy_regressor},
+      {"power",
+       {"dq"},
+       {{.array = "P", .rows = Extent::kBeta, .unit = "W per unit parameter"}},
+       {},
+       "P beta: power that is not stored; dq . tau = d(H beta)/dt + P beta.",
+       write_power},
   };
   return kCatalogue;
 }

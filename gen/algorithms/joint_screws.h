@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <vector>
+
+#include "gen/algorithms/code_model.h"
+#include "gen/algorithms/frames.h"
+#include "gen/trace/trace.h"
+
+namespace dyngen {
+
+/// A joint that carries a link: what a unit of its rate does to the link, in the link's frame.
+///
+/// Of joints with parallel axes, the one next to the link leads. The others turn the link by
+/// `sign` times as much as the leader, and move its origin by `sign` times the leader's velocity
+/// and `b` more: a constant vector that only turns from frame to frame.
+struct JointScrew {
+  int joint = 0;
+  Vector3 a = {0, 0, 0};  ///< angular velocity of the link; of a leader only
+  Vector3 b = {0, 0, 0};  ///< velocity of the link's origin; of the others: what comes on top
+  int leader = 0;         ///< itself, or the parallel joint nearer to the link
+  GiNaC::ex sign = 1;     ///< of the axis along the leader's
+
+  [[nodiscard]] bool leads() const { return leader == joint; }
+};
+
+/// The joint in a list, or null.
+const JointScrew* find_screw(const std::vector<JointScrew>& screws, int joint);
+
+/// Writes the screws of the moving joints that carry each link, from the base to the link's own
+/// joint; element 0 is the base's empty list.
+///
+/// One rotation about the joint's axis for each vector; chains of parallel axes turn once.
+std::vector<std::vector<JointScrew>> write_joint_screws(Trace& trace, const CodeModel& code,
+                                                        const std::vector<LinkFrame>& frames);
+
+}  // namespace dyngen

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gen/algorithms/regressor.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "gen/algorithms/frames.h"
+#include "gen/algorithms/joint_screws.h"
+#include "gen/algorithms/kinematics.h"
+#include "gen/algorithms/link_regressor.h"
+#include "gen/algorithms/origin_slides.h"
+
+namespace dyngen {
+namespace {
+
+using GiNaC::ex;
+
+/// Columns of the regressor: parameters, then zeros up to the width.
+struct Columns {
+  const std::vector<Column>& parameters;
+  std::size_t width;
+};
+
+bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
+
+/// What one joint's drive adds to its own row.
+ex drive_entry(const CodeLink& link, Chi kind) {
+  switch (kind) {
+    case Chi::kIA:
+      return link.ddq;
+    case Chi::kFV:
+      return link.dq;
+    case Chi::kFS:
+      return GiNaC::csgn(link.dq);
+    default:
+      return 1;
+  }
+}
+
+class RegressorWriter {
+ public:
+  RegressorWriter(Trace& trace, const CodeModel& code, const Columns& columns,
+                  const OriginSlides& slides)
+      : trace_(trace), code_(code), columns_(columns), slides_(slides) {}
+
+  void write() {
+    std::vector<LinkFrame> frames = write_frames(trace_, code_);
+    slide_origins(trace_, code_, slides_, frames);
+    const std::vector<LinkMotion> motions = write_motion(trace_, code_, frames, MotionTerms{});
+    const std::vector<std::vector<JointScrew>> screws = write_joint_screws(trace_, code_, frames);
+    std::vector<CarriedLink> links(code_.links.size() + 1);
+    links[0].stands = true;
+    rows_.resize(links.size());
+    std::set<int> along_gravity;
+    for (int j = 1; j <= code_.size(); ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      const auto anchor = static_cast<std::size_t>(frames[at].anchor);
+      const CodeLink& link = code_.link(j);
+      CarriedLink& own = links[at];
+      const bool shares_origin = link.type != JointType::kPrismatic && is_zero(frames[at].P);
+      own.stands = link.parent == 0
+                       ? link.type != JointType::kPrismatic
+                       : links[static_cast<std::size_t>(link.parent)].stands && shares_origin;
+      const Vector3& VP = motions[at].VP;
+      if (own.stands && VP[0].is_zero() && VP[1].is_zero()) along_gravity.insert(j);
+      own.link = j;
+      own.motion = &motions[at];
+      own.screws = &screws[at];
+      own.frame = &frames[at];
+      own.anchor_motion = &motions[anchor];
+      own.anchor_screws = &screws[anchor];
+      own.along_gravity = along_gravity;
+      write_link(own);
+    }
+    write_output();
+  }
+
+ private:
+  void write_link(CarriedLink& own) {
+    const ex& slide = slides_[static_cast<std::size_t>(own.link)];
+    for (const Column& column : columns_.parameters) {
+      if (column.link != own.link || index(column.kind) >= kInertialCount) continue;
+      own.wanted[index(column.kind)] = true;
+      if (slide.is_zero()) continue;
+      if (column.kind == Chi::kMX) own.wanted[index(Chi::kXZ)] = true;
+      if (column.kind == Chi::kMY) own.wanted[index(Chi::kYZ)] = true;
+    }
+    trace_.section(
+        fmt::format("link {}: torque of the joints that carry it, per unit parameter", own.link));
+    auto& rows = rows_[static_cast<std::size_t>(own.link)];
+    rows = write_link_regressor(trace_, own);
+    if (slide.is_zero()) return;
+    for (auto& [joint, row] : rows) {
+      const auto back = [&](Chi first, Chi product) {
+        const std::string name = fmt::format("Y{}_{}{}", joint, kChiNames[index(first)], own.link);
+        row[index(first)] = trace_.assign(name, row[index(first)] - slide * row[index(product)]);
+      };
+      back(Chi::kMX, Chi::kXZ);
+      back(Chi::kMY, Chi::kYZ);
+    }
+  }
+
+  [[nodiscard]] ex entry(const Column& column, int joint) const {
+    if (index(column.kind) >= kInertialCount) {
+      return column.link == joint ? drive_entry(code_.link(joint), column.kind) : ex(0);
+    }
+    const auto& rows = rows_[static_cast<std::size_t>(column.link)];
+    const auto row = rows.find(joint);
+    return row == rows.end() ? ex(0) : row->second[index(column.kind)];
+  }
+
+  void write_output() {
+    trace_.section("regressor");
+    const int width = static_cast<int>(columns_.width);
+    for (int j = 1; j <= code_.size(); ++j) {
+      const int row = code_.link(j).coordinate;
+      if (row < 0) continue;
+      for (int c = 0; c < width; ++c) {
+        const auto at = static_cast<std::size_t>(c);
+        const bool parameter = at < columns_.parameters.size();
+        trace_.output("Y", row * width + c, parameter ? entry(columns_.parameters[at], j) : ex(0));
+      }
+    }
+  }
+
+  Trace& trace_;
+  const CodeModel& code_;
+  const Columns& columns_;
+  const OriginSlides& slides_;
+  std::vector<std::map<int, InertialRow>> rows_;  // of each link, by joint
+};
+
+void write_columns(Trace& trace, const CodeModel& code, const Columns& columns) {
+  const std::vector<bool> may_slide = links_that_may_slide(code, columns.parameters);
+  const OriginSlides slides = choose_slides(code, may_slide, [&](const OriginSlides& trial) {
+    Trace scratch(&code.inputs);
+    RegressorWriter(scratch, code, columns, trial).write();
+    scratch.drop_dead_code();
+    return scratch.count().total();
+  });
+  RegressorWriter(trace, code, columns, slides).write();
+}
+
+}  // namespace
+
+void write_regressor(Trace& trace, const CodeModel& code) {
+  write_columns(trace, code, {code.chi_columns, code.chi.size()});
+}
+
+void write_base_regressor(Trace& trace, const CodeModel& code) {
+  write_columns(trace, code, {code.beta_columns, code.beta.size()});
+}
+
+}  // namespace dyngen
