@@ -119,7 +119,7 @@ std::string make_header(const CodeModel& code, const std::vector<RobotFunction>&
   }
   for (const RobotFunction& function : functions) {
     text += "\n" + function_comment(code, function, options);
-    text += wrap_arguments(signature(code, *function.spec, options) + ";\n");
+    text += wrap_arguments(signature(code, function, options) + ";\n");
   }
   text += "\n" + guard("}");
   return text + fmt::format("\n#endif /* {}_H */\n", upper);

@@ -136,10 +136,17 @@ bool reads_sign(const Trace& trace) {
   return false;
 }
 
+std::string summary_text(const CodeModel& code, const RobotFunction& function) {
+  std::string text(function.spec->summary);
+  if (!function.spec->of_link()) return text;
+  const int link = parse_function_name(function.name).link;
+  return text + fmt::format(" The link: {}.", link == 0 ? code.size() : link);
+}
+
 std::string function_comment(const CodeModel& code, const RobotFunction& function,
                              const EmitOptions& options) {
   const FunctionSpec& spec = *function.spec;
-  std::string text = wrap_comment(std::string(spec.summary), "/* ", " * ") + "\n";
+  std::string text = wrap_comment(summary_text(code, function), "/* ", " * ") + "\n";
   std::string written;
   std::string line = " *";
   for (const Argument& argument : arguments(spec, code)) {
@@ -160,11 +167,12 @@ std::string function_comment(const CodeModel& code, const RobotFunction& functio
   return text;
 }
 
-std::string signature(const CodeModel& code, const FunctionSpec& spec, const EmitOptions& options) {
+std::string signature(const CodeModel& code, const RobotFunction& function,
+                      const EmitOptions& options) {
   const char* scalar = options.scalar == Scalar::kDouble ? "double" : "float";
-  std::string text = fmt::format("void {}_{}(", options.prefix, spec.name);
+  std::string text = fmt::format("void {}_{}(", options.prefix, function.name);
   bool first = true;
-  for (const Argument& argument : arguments(spec, code)) {
+  for (const Argument& argument : arguments(*function.spec, code)) {
     text += fmt::format("{}{}{} *{}", first ? "" : ", ", argument.output ? "" : "const ", scalar,
                         argument.name);
     first = false;
@@ -178,7 +186,7 @@ std::string function_definition(const CodeModel& code, const RobotFunction& func
   const Reads reads = find_reads(trace);
   const CSpelling spelling(options, trace.symbols());
   std::string text = function_comment(code, function, options);
-  text += wrap_arguments(signature(code, *function.spec, options) + " {\n");
+  text += wrap_arguments(signature(code, function, options) + " {\n");
   text += constants(trace, reads, spelling);
 
   std::vector<GiNaC::ex> angles;

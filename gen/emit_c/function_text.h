@@ -10,12 +10,16 @@ namespace dyngen {
 /// True if the function takes the sign of something.
 bool reads_sign(const Trace& trace);
 
+/// What the function computes, and of which link.
+std::string summary_text(const CodeModel& code, const RobotFunction& function);
+
 /// What the function computes, its arguments with their units, and its operation counts.
 std::string function_comment(const CodeModel& code, const RobotFunction& function,
                              const EmitOptions& options);
 
 /// "void P_id(const double *q, ..., double *tau)", on one line.
-std::string signature(const CodeModel& code, const FunctionSpec& spec, const EmitOptions& options);
+std::string signature(const CodeModel& code, const RobotFunction& function,
+                      const EmitOptions& options);
 
 /// The comment, the signature and the body.
 std::string function_definition(const CodeModel& code, const RobotFunction& function,

@@ -11,6 +11,7 @@
 
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/emit_c/c_spelling.h"
+#include "gen/emit_c/function_text.h"
 
 namespace dyngen {
 namespace {
@@ -109,11 +110,11 @@ std::string type_name(std::string_view function) {
 }
 
 /// The struct that a function with several outputs returns.
-std::string output_struct(const FunctionSpec& spec, const CodeModel& code,
+std::string output_struct(const RobotFunction& function, const CodeModel& code,
                           const EmitOptions& options) {
-  std::string text =
-      fmt::format("/// What {}() returns.\nstruct {} {{\n", spec.name, type_name(spec.name));
-  for (const OutputSpec& output : spec.outputs) {
+  std::string text = fmt::format("/// What {}() returns.\nstruct {} {{\n", function.name,
+                                 type_name(function.name));
+  for (const OutputSpec& output : function.spec->outputs) {
     const OutputType type = output_type(output, code, options.scalar);
     text += fmt::format("  {} {}", type.type, output.array);
     if (type.on_heap) {
@@ -124,15 +125,16 @@ std::string output_struct(const FunctionSpec& spec, const CodeModel& code,
   return text + "};\n\n";
 }
 
-std::string function_text(const FunctionSpec& spec, const CodeModel& code,
+std::string function_text(const RobotFunction& function, const CodeModel& code,
                           const EmitOptions& options) {
+  const FunctionSpec& spec = *function.spec;
   const bool several = spec.outputs.size() > 1;
   bool heap = false;
   for (const OutputSpec& output : spec.outputs) {
     heap = heap || output_type(output, code, options.scalar).on_heap;
   }
   const std::string result =
-      several ? type_name(spec.name) : output_type(spec.outputs[0], code, options.scalar).type;
+      several ? type_name(function.name) : output_type(spec.outputs[0], code, options.scalar).type;
 
   std::string parameters, passed, before, after;
   for (const Argument& argument : arguments(spec, code)) {
@@ -164,12 +166,12 @@ std::string function_text(const FunctionSpec& spec, const CodeModel& code,
     passed += place + ".data(), ";
   }
   passed.resize(passed.size() - 2);
-  std::string text = several ? output_struct(spec, code, options) : "";
-  text += wrap_comment(std::string(spec.summary), "/// ", "/// ") + "\n";
-  text += wrap_arguments(fmt::format("[[nodiscard]] inline {} {}({}){} {{\n", result, spec.name,
+  std::string text = several ? output_struct(function, code, options) : "";
+  text += wrap_comment(summary_text(code, function), "/// ", "/// ") + "\n";
+  text += wrap_arguments(fmt::format("[[nodiscard]] inline {} {}({}){} {{\n", result, function.name,
                                      parameters, heap ? "" : " noexcept"));
   text += before;
-  text += wrap_arguments(fmt::format("  ::{}_{}({});\n", options.prefix, spec.name, passed));
+  text += wrap_arguments(fmt::format("  ::{}_{}({});\n", options.prefix, function.name, passed));
   text += after;
   return text +
          fmt::format("  return {};\n}}\n\n", several ? "out" : std::string(spec.outputs[0].array));
@@ -255,7 +257,7 @@ std::string emit_cpp(const CodeModel& code, const std::vector<RobotFunction>& fu
         options.prefix);
   }
   for (const RobotFunction& function : functions) {
-    text += function_text(*function.spec, code, options);
+    text += function_text(function, code, options);
   }
   return text + fmt::format("}}  // namespace {}\n\n#endif /* {}_HPP */\n", options.prefix,
                             upper_case(options.prefix));

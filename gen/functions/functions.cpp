@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gen/functions/functions.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 
 #include "gen/algorithms/energy.h"
 #include "gen/algorithms/gravity_regressor.h"
+#include "gen/algorithms/jacobian.h"
+#include "gen/algorithms/pose.h"
 #include "gen/algorithms/regressor.h"
 #include "gen/algorithms/rnea.h"
+#include "gen/diagnostic/assert.h"
 #include "gen/passes/optimise.h"
 
 namespace dyngen {
@@ -123,21 +129,51 @@ const std::vector<FunctionSpec>& function_catalogue() {
        {},
        "P beta: power that is not stored; dq . tau = d(H beta)/dt + P beta.",
        write_power},
+      {.name = "fk",
+       .inputs = {"q"},
+       .outputs = {{"T", Extent::kFour, Extent::kFour, "m (last column)"}},
+       .reads = {},
+       .summary = "T: pose of the link's frame in frame 0.",
+       .write_of_link = write_pose},
+      {.name = "jacobian",
+       .inputs = {"q"},
+       .outputs = {{"J", Extent::kSix, Extent::kJoints, "m, 1 (m/s, rad/s per joint rate)"}},
+       .reads = {},
+       .summary = "v = J dq: velocity vx vy vz of the link's origin and angular velocity wx wy wz, "
+                  "in the axes of frame 0.",
+       .write_of_link = write_jacobian},
   };
   return kCatalogue;
 }
 
-const FunctionSpec* find_function(std::string_view name) {
-  const auto& catalogue = function_catalogue();
-  const auto it = std::find_if(catalogue.begin(), catalogue.end(),
-                               [&](const FunctionSpec& spec) { return spec.name == name; });
-  return it == catalogue.end() ? nullptr : &*it;
+std::string FunctionName::text() const {
+  return link == 0 ? std::string(spec->name) : fmt::format("{}_{}", spec->name, link);
 }
+
+FunctionName parse_function_name(std::string_view name) {
+  for (const FunctionSpec& spec : function_catalogue()) {
+    if (spec.name == name) return {&spec, 0};
+    if (!spec.of_link() || name.size() < spec.name.size() + 2 || !name.starts_with(spec.name) ||
+        name[spec.name.size()] != '_') {
+      continue;
+    }
+    const std::string_view digits = name.substr(spec.name.size() + 1);
+    int link = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), link);
+    // the one spelling of a number: no sign, no zero in front
+    const bool whole = error == std::errc() && end == digits.data() + digits.size();
+    if (whole && digits[0] >= '1') return {&spec, link};
+  }
+  return {};
+}
+
+const FunctionSpec* find_function(std::string_view name) { return parse_function_name(name).spec; }
 
 std::string catalogue_names() {
   std::string names;
   for (const FunctionSpec& spec : function_catalogue()) {
     names += (names.empty() ? "" : ", ") + std::string(spec.name);
+    if (spec.of_link()) names += fmt::format(", {}_LINK", spec.name);
   }
   return names;
 }
@@ -162,17 +198,23 @@ std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code)
   return result;
 }
 
-RobotFunction write_plain_function(const FunctionSpec& spec, const CodeModel& code) {
-  RobotFunction function{&spec, Trace(&code.inputs)};
+RobotFunction write_plain_function(const FunctionName& name, const CodeModel& code) {
+  const FunctionSpec& spec = *name.spec;
+  DYNGEN_ASSERT(name.link <= code.size(), name.text());
+  RobotFunction function{&spec, name.text(), Trace(&code.inputs)};
   CodeModel named = code;
   named.links = with_named_parameters(function.trace, code);
-  spec.write(function.trace, named);
+  if (spec.of_link()) {
+    spec.write_of_link(function.trace, named, name.link > 0 ? name.link : code.size());
+  } else {
+    spec.write(function.trace, named);
+  }
   function.trace.drop_dead_code();
   return function;
 }
 
-RobotFunction write_function(const FunctionSpec& spec, const CodeModel& code) {
-  return {&spec, optimised(write_plain_function(spec, code).trace)};
+RobotFunction write_function(const FunctionName& name, const CodeModel& code) {
+  return {name.spec, name.text(), optimised(write_plain_function(name, code).trace)};
 }
 
 }  // namespace dyngen

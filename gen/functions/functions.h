@@ -30,19 +30,37 @@ struct ExtraInputs {
 };
 
 /// A function that dyngen can write: the one place that knows its name, inputs and meaning.
+///
+/// A function of one link's frame (`of_link()`) has a name for each link: "fk" speaks of the last
+/// link of the file, "fk_3" of link 3.
 struct FunctionSpec {
   std::string_view name;                 ///< without the prefix
   std::vector<std::string_view> inputs;  ///< "q", "dq", "ddq", "tau": one value per coordinate
   std::vector<OutputSpec> outputs;
   ExtraInputs reads;
   std::string_view summary;
-  void (*write)(Trace&, const CodeModel&);
+  void (*write)(Trace&, const CodeModel&) = nullptr;
+  void (*write_of_link)(Trace&, const CodeModel&, int link) = nullptr;  ///< instead of `write`
+
+  [[nodiscard]] bool of_link() const { return write_of_link != nullptr; }
 };
 
 /// All functions, in the order in which they are emitted.
 const std::vector<FunctionSpec>& function_catalogue();
 
-/// @return null if there is none of this name
+/// A function as it is asked for: "id", "fk" or "fk_3".
+struct FunctionName {
+  const FunctionSpec* spec = nullptr;
+  int link = 0;  ///< that the name ends in; 0 if none
+
+  [[nodiscard]] std::string text() const;
+};
+
+/// @return no spec if the catalogue has no such function; whether the robot has the link is not
+/// asked here
+FunctionName parse_function_name(std::string_view name);
+
+/// @return null if there is none of this name ("fk_3" is "fk")
 const FunctionSpec* find_function(std::string_view name);
 
 /// "id, gravity": for messages.
@@ -66,13 +84,15 @@ std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code)
 /// A function of one robot.
 struct RobotFunction {
   const FunctionSpec* spec = nullptr;
+  std::string name;  ///< without the prefix: "fk_3"
   Trace trace;
 };
 
 /// Writes a function of the robot as its algorithm does; what the outputs do not need is gone.
-RobotFunction write_plain_function(const FunctionSpec& spec, const CodeModel& code);
+RobotFunction write_plain_function(const FunctionName& name, const CodeModel& code);
 
 /// Writes a function of the robot with as few operations as the passes find.
-RobotFunction write_function(const FunctionSpec& spec, const CodeModel& code);
+/// @param name  of the catalogue, and of a link that the robot has
+RobotFunction write_function(const FunctionName& name, const CodeModel& code);
 
 }  // namespace dyngen

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <stdexcept>
 
 #include "gen/emit_cpp/emit_cpp.h"
@@ -24,6 +25,21 @@ RobotModel with_unknown_gravity(RobotModel model) {
   return model;
 }
 
+/// In the catalogue's order; of one of them: the last link's, then links as they are numbered.
+std::vector<FunctionName> wanted_functions(const GeneratorOptions& options) {
+  std::vector<FunctionName> wanted;
+  for (const FunctionSpec& spec : function_catalogue()) {
+    std::set<int> links;
+    if (options.functions.empty()) links.insert(0);
+    for (const std::string& text : options.functions) {
+      const FunctionName name = parse_function_name(text);
+      if (name.spec == &spec) links.insert(name.link);
+    }
+    for (const int link : links) wanted.push_back({&spec, link});
+  }
+  return wanted;
+}
+
 }  // namespace
 
 void GeneratorOptions::validate() const {
@@ -37,6 +53,17 @@ void GeneratorOptions::validate() const {
     throw std::invalid_argument(fmt::format(
         "--prefix: '{}' is not a C identifier; expected letters, digits and '_', no digit first",
         prefix));
+  }
+}
+
+void GeneratorOptions::validate(const RobotModel& model) const {
+  validate();
+  for (const std::string& text : functions) {
+    const FunctionName name = parse_function_name(text);
+    if (name.link <= model.size()) continue;
+    throw std::invalid_argument(
+        fmt::format("--functions: '{}': {} has no link {}; expected {}_1 to {}_{}", text,
+                    model.name, name.link, name.spec->name, name.spec->name, model.size()));
   }
 }
 
@@ -56,17 +83,14 @@ CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& optio
 
 std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options) {
   std::vector<RobotFunction> functions;
-  for (const FunctionSpec& spec : function_catalogue()) {
-    const bool wanted = options.functions.empty() ||
-                        std::find(options.functions.begin(), options.functions.end(), spec.name) !=
-                            options.functions.end();
-    if (wanted) functions.push_back(write_function(spec, code));
+  for (const FunctionName& name : wanted_functions(options)) {
+    functions.push_back(write_function(name, code));
   }
   return functions;
 }
 
 CText generate(const RobotModel& model, const GeneratorOptions& options) {
-  options.validate();
+  options.validate(model);
   const CodeModel code = make_code_model(model, options);
   EmitOptions emit;
   emit.prefix = options.prefix.empty() ? model.name : options.prefix;
@@ -86,7 +110,7 @@ std::string count_table(const CodeModel& code, const std::vector<RobotFunction>&
                       "sin/cos", "sgn", "div");
   for (const RobotFunction& function : functions) {
     const OperationCount count = function.trace.count();
-    text += fmt::format("{:<18}{:>6}{:>6}{:>8}{:>9}{:>6}{:>6}\n", function.spec->name,
+    text += fmt::format("{:<18}{:>6}{:>6}{:>8}{:>9}{:>6}{:>6}\n", function.name,
                         count.multiplications, count.additions, count.total(), count.sin_cos_pairs,
                         count.signs, count.divisions);
   }

@@ -28,6 +28,8 @@ struct GeneratorOptions {
 
   /// @throws std::invalid_argument  naming the option, what was found and what was expected
   void validate() const;
+  /// The same, and whether the robot has the links that functions are asked for.
+  void validate(const RobotModel& model) const;
 };
 
 /// The robot's symbols; those of gravity too if it is an argument.
@@ -39,7 +41,8 @@ CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& optio
 /// The functions of the options (all if none are named), in the catalogue's order.
 std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options);
 
-/// The whole road from the checked robot to C text. @throws std::invalid_argument  as validate()
+/// The whole road from the checked robot to C text. @throws std::invalid_argument  as
+/// validate()
 CText generate(const RobotModel& model, const GeneratorOptions& options);
 
 /// Operation counts of the functions beside the general bounds 105n - 92 and 94n - 86

@@ -2,6 +2,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@
 namespace dyngen {
 namespace {
 
-constexpr int kDone = 0, kInputWrong = 1, kOurBug = 70;
+constexpr int kDone = 0, kInputWrong = 1, kUsage = 2, kOurBug = 70;
 
 void print_warnings(const RobotFile& file, const RobotModel& model) {
   Diagnostics diagnostics(file.file_name, file.text);
@@ -36,9 +37,21 @@ void print(const std::string& text) {
   if (!std::cout) throw OutputError("standard output: error: cannot write");
 }
 
-void run(const ToolOptions& options) {
+/// What is asked for does not go with this robot.
+bool report_misuse(const GeneratorOptions& options, const RobotModel& model) {
+  try {
+    options.validate(model);
+    return false;
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "dyngen: " << error.what() << "\n";
+    return true;
+  }
+}
+
+int run(const ToolOptions& options) {
   const RobotFile file = read_robot_file(options.robot);
   const RobotModel model = build_model(file);
+  if (report_misuse(options.generator, model)) return kUsage;
   print_warnings(file, model);
   if (!options.output.empty()) {
     const CText text = generate(model, options.generator);
@@ -57,14 +70,14 @@ void run(const ToolOptions& options) {
     const CodeModel code = make_code_model(model, options.generator);
     print(count_table(code, write_functions(code, options.generator)));
   }
+  return kDone;
 }
 
 int guarded_main(int argc, const char* const* argv) {
   const ParsedOptions parsed = parse_options(argc, argv);
   if (parsed.exit_code >= 0) return parsed.exit_code;
   try {
-    run(parsed.options);
-    return kDone;
+    return run(parsed.options);
   } catch (const ModelError& error) {
     std::cerr << error.what();
     return kInputWrong;

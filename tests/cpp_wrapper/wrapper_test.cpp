@@ -30,8 +30,8 @@ std::string shim_text(const CodeModel& code, const GeneratorOptions& options) {
   for (const RobotFunction& function : write_functions(code, options)) {
     const FunctionSpec& spec = *function.spec;
     const auto head = [&](const std::string& kind) {
-      const std::string declaration =
-          fmt::format("void {}_{}(const Scalar* const* in, Scalar* const* out)", kind, spec.name);
+      const std::string declaration = fmt::format(
+          "void {}_{}(const Scalar* const* in, Scalar* const* out)", kind, function.name);
       return fmt::format("extern \"C\" {0};\n{0} {{\n", declaration);
     };
     text += head("wrapped");
@@ -48,15 +48,15 @@ std::string shim_text(const CodeModel& code, const GeneratorOptions& options) {
       direct += fmt::format("in[{}], ", inputs);
       ++inputs;
     }
-    text += fmt::format("  static_assert(noexcept(model::{}({})));\n", spec.name, passed);
-    text += fmt::format("  const auto y = model::{}({});\n", spec.name, passed);
+    text += fmt::format("  static_assert(noexcept(model::{}({})));\n", function.name, passed);
+    text += fmt::format("  const auto y = model::{}({});\n", function.name, passed);
     for (std::size_t i = 0; i < spec.outputs.size(); ++i) {
       text += spec.outputs.size() > 1
                   ? fmt::format("  put(y.{}, out[{}]);\n", spec.outputs[i].array, i)
                   : fmt::format("  put(y, out[{}]);\n", i);
       direct += fmt::format("{}out[{}]", i > 0 ? ", " : "", i);
     }
-    text += "}\n" + head("direct") + fmt::format("  model_{}({});\n}}\n", spec.name, direct);
+    text += "}\n" + head("direct") + fmt::format("  model_{}({});\n}}\n", function.name, direct);
   }
   // the tables, and that all of this is known to the compiler
   text += fmt::format(
@@ -104,11 +104,12 @@ class Wrapped {
                  "-std=c++20 -O1 -ffp-contract=off -isystem " DYNGEN_EIGEN_INCLUDE, compiler) {}
 
   /// @param kind  "wrapped" or "direct"
-  [[nodiscard]] std::vector<std::vector<T>> call(const std::string& kind, const FunctionSpec& spec,
+  [[nodiscard]] std::vector<std::vector<T>> call(const std::string& kind,
+                                                 const RobotFunction& function,
                                                  const MotionSample& sample,
                                                  const std::vector<double>& chi) const {
     std::vector<std::vector<T>> in, out;
-    for (const Argument& argument : arguments(spec, code_)) {
+    for (const Argument& argument : arguments(*function.spec, code_)) {
       if (argument.output) {
         out.emplace_back(static_cast<std::size_t>(argument.size()), T(-77));
       } else {
@@ -122,8 +123,8 @@ class Wrapped {
     for (const std::vector<T>& array : in) inputs.push_back(array.data());
     for (std::vector<T>& array : out) outputs.push_back(array.data());
     using Function = void (*)(const T* const*, T* const*);
-    reinterpret_cast<Function>(library_.symbol(kind + "_" + std::string(spec.name)))(
-        inputs.data(), outputs.data());
+    reinterpret_cast<Function>(library_.symbol(kind + "_" + function.name))(inputs.data(),
+                                                                            outputs.data());
     return out;
   }
   [[nodiscard]] std::vector<double> chi_values() const {
@@ -149,8 +150,8 @@ int differences_as(const WrapperCase& wrapper_case, const CText& text,
   for (const RobotFunction& function : evaluated.functions()) {
     bool equal = true;
     for (const MotionSample& sample : random_samples(wrapper_case.model.coordinate_count, 4, 8)) {
-      equal = equal && wrapped.call("wrapped", *function.spec, sample, evaluated.chi()) ==
-                           wrapped.call("direct", *function.spec, sample, evaluated.chi());
+      equal = equal && wrapped.call("wrapped", function, sample, evaluated.chi()) ==
+                           wrapped.call("direct", function, sample, evaluated.chi());
     }
     different += equal ? 0 : 1;
   }

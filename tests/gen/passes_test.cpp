@@ -221,7 +221,7 @@ class PassesOnRobot : public testing::TestWithParam<RobotCase> {};
 TEST_P(PassesOnRobot, EveryFunctionKeepsItsValues) {
   const CodeModel code = make_code_model(read_model(GetParam().robot), GetParam().options);
   for (const FunctionSpec& spec : function_catalogue()) {
-    expect_kept(write_plain_function(spec, code).trace, std::string(spec.name));
+    expect_kept(write_plain_function({&spec}, code).trace, std::string(spec.name));
   }
 }
 

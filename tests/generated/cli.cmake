@@ -114,6 +114,8 @@ expect_text(--explain "${text}" "puma560: 6 joints" "ZZR2 = ZZ2 + IA2 + d3^2 (M3
 refuse(2 "unknown option" ARGUMENTS ${robot} -o out/x.c --frobnicate SAYS --frobnicate --help)
 refuse(2 "unknown function" ARGUMENTS ${robot} -o out/x.c --functions id,inverse
   SAYS "--functions" "'inverse'" "gravity")
+refuse(2 "frame of no link" ARGUMENTS ${robot} -o out/x.c --functions id,fk_7
+  SAYS "--functions" "'fk_7'" "no link 7" "fk_1 to fk_6")
 refuse(2 "wrong scalar" ARGUMENTS ${robot} -o out/x.c --scalar half SAYS --scalar half double float)
 refuse(2 "wrong parameters" ARGUMENTS ${robot} -o out/x.c --parameters hot
   SAYS --parameters hot baked runtime)

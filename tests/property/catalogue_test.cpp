@@ -44,7 +44,7 @@ class Catalogue : public testing::TestWithParam<CatalogueCase> {
     const EvaluatedModel evaluated(model, with_random_values(model, 11), options);
     for (const RobotFunction& function : evaluated.functions()) {
       for (const OutputSpec& output : function.spec->outputs) {
-        const std::string name(function.spec->name), array(output.array);
+        const std::string name = function.name, array(output.array);
         RelativeError error;
         error.add(1e-3, 1e-3);  // an output that is zero throughout is judged against 0.001
         for (const MotionSample& sample : random_samples(model.coordinate_count, 20, 5)) {

@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include "tests/support/frame_error.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/numeric_dynamics.h"
 #include "tests/support/random_robot.h"
@@ -57,14 +58,25 @@ RC_GTEST_PROP(RandomRobot, UnprunedCodeFedWithZerosEqualsTheJudge, ()) {
   }
 }
 
-RC_GTEST_PROP(RandomRobot, RunTimeLengthsEqualKnownOnes, ()) {
-  const NumericRobot numbers = random_robot();
-  const RobotModel values = robot_model(numbers);
-  RobotModel symbolic = values;
-  for (JointModel& joint : symbolic.joints) {
+RobotModel with_some_lengths_unknown(RobotModel model) {
+  for (JointModel& joint : model.joints) {
     if (*rc::gen::arbitrary<bool>()) joint.d.unknown = true;
     if (*rc::gen::arbitrary<bool>()) joint.r.unknown = true;
   }
+  return model;
+}
+
+RC_GTEST_PROP(RandomRobot, FramesEqualTheJudge, ()) {
+  const RobotModel values = robot_model(random_robot());
+  const RobotModel model = *rc::gen::arbitrary<bool>() ? with_some_lengths_unknown(values) : values;
+  // 12 products in double, lengths of some metres
+  RC_ASSERT(frame_error(model, values, {}, 3) < 1e-12);
+}
+
+RC_GTEST_PROP(RandomRobot, RunTimeLengthsEqualKnownOnes, ()) {
+  const NumericRobot numbers = random_robot();
+  const RobotModel values = robot_model(numbers);
+  RobotModel symbolic = with_some_lengths_unknown(values);
   symbolic.gravity[2].unknown = *rc::gen::arbitrary<bool>();
   for (const ParameterMode mode : {ParameterMode::kBaked, ParameterMode::kRuntime}) {
     for (const bool regroup : {true, false}) {

@@ -247,7 +247,7 @@ EvaluatedModel::EvaluatedModel(const RobotModel& model, const RobotModel& values
 
 std::size_t EvaluatedModel::place(const std::string& function) const {
   for (std::size_t i = 0; i < functions_.size(); ++i) {
-    if (functions_[i].spec->name == function) return i;
+    if (functions_[i].name == function) return i;
   }
   throw std::invalid_argument("EvaluatedModel: no function " + function);
 }
