@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +38,7 @@ struct Other {
   Case convention;
   std::string_view name;
   int mul, add;
+  int sum = mul + add;  ///< given alone (mul = add = 0) where only the sum is known
 };
 
 // Of OpenSYMORO and SymPyBotics after their own dead code is removed, sin and cos apart; UR10 has
@@ -56,6 +58,10 @@ constexpr Other kOthers[] = {
     {"panda", "id", Case::kRigid, "SymPyBotics", 375, 292},
     {"panda", "gravity", Case::kRigid, "better of both", 64, 38},
     {"sarcos_grla", "gravity", Case::kFile, "thesis, needed part", 74, 46},
+    {"puma560", "base_regressor", Case::kRigid, "OpenSYMORO", 0, 0, 1071},
+    {"rx90", "base_regressor", Case::kRigid, "SymPyBotics", 0, 0, 843},
+    {"ur10e", "base_regressor", Case::kRigid, "better of both", 0, 0, 986},
+    {"panda", "base_regressor", Case::kRigid, "SymPyBotics", 0, 0, 1342},
 };
 
 /// The best of the others in this convention.
@@ -66,7 +72,7 @@ std::optional<Other> best_other(std::string_view robot, std::string_view functio
     if (other.robot != robot || other.function != function || other.convention != convention) {
       continue;
     }
-    if (!best || other.mul + other.add < best->mul + best->add) best = other;
+    if (!best || other.sum < best->sum) best = other;
   }
   return best;
 }
@@ -77,16 +83,36 @@ std::string all_others(std::string_view robot, std::string_view function, Case c
     if (other.robot != robot || other.function != function || other.convention != convention) {
       continue;
     }
-    text += fmt::format("{}{} {}/{}", text.empty() ? "" : ", ", other.name, other.mul, other.add);
+    text += fmt::format("{}{} ", text.empty() ? "" : ", ", other.name);
+    text += other.mul > 0 ? fmt::format("{}/{}", other.mul, other.add)
+                          : fmt::format("sum {}", other.sum);
   }
   return text.empty() ? "-" : text;
 }
+
+/// A function that is counted, and in which conventions.
+struct CountedFunction {
+  std::string_view name, title;
+  bool with_drives;  ///< (b) differs from (a) in more than some additions
+  bool as_in_file;
+
+  [[nodiscard]] bool in(Case which) const {
+    return which == Case::kRigid || (which == Case::kWithDrives ? with_drives : as_in_file);
+  }
+};
+constexpr CountedFunction kFunctions[] = {
+    {"id", "Inverse dynamics", true, true},
+    {"gravity", "Gravity", false, true},
+    {"base_regressor", "Regressor in base parameters", false, false},
+    {"gravity_regressor", "Regressor of gravity", false, false},
+    {"energy_regressor", "Regressor of energy", false, false},
+};
 
 struct CountedRobot {
   std::string name;
   int joints = 0;
   std::size_t base_parameters = 0;
-  OperationCount id, gravity;
+  std::map<std::string_view, OperationCount> counts;  ///< by function
 };
 
 CountedRobot count(RobotModel model, Case which) {
@@ -95,12 +121,14 @@ CountedRobot count(RobotModel model, Case which) {
     model = with_unknown_parameters(model, Unknown::kInertialAndDrive);
   }
   GeneratorOptions options;
-  options.functions = {"id", "gravity"};
+  for (const CountedFunction& function : kFunctions) {
+    if (function.in(which)) options.functions.emplace_back(function.name);
+  }
   options.parameters = which == Case::kFile ? ParameterMode::kBaked : ParameterMode::kRuntime;
   const CodeModel code = make_code_model(model, options);
-  CountedRobot result{model.name, model.coordinate_count, code.beta.size(), {}, {}};
+  CountedRobot result{model.name, model.coordinate_count, code.beta.size(), {}};
   for (const RobotFunction& function : write_functions(code, options)) {
-    (function.spec->name == "id" ? result.id : result.gravity) = function.trace.count();
+    result.counts[function.spec->name] = function.trace.count();
   }
   return result;
 }
@@ -108,20 +136,18 @@ CountedRobot count(RobotModel model, Case which) {
 /// One table per function and convention; counts the robots that need more than the best other.
 class Comparison {
  public:
-  Comparison(std::string function, Case convention)
-      : function_(std::move(function)), convention_(convention) {
+  Comparison(std::string_view function, Case convention)
+      : function_(function), convention_(convention) {
     table_.header = {"robot", "n", "mul", "add", "sum", "sin/cos"};
-    if (is_id()) {
-      table_.header.insert(table_.header.begin() + 2, "base");
-      table_.header.insert(table_.header.end(), {"bound", "of bound"});
-    }
+    if (shows_base()) table_.header.insert(table_.header.begin() + 2, "base");
+    if (is_id()) table_.header.insert(table_.header.end(), {"bound", "of bound"});
     table_.header.insert(table_.header.end(), {"others (mul/add)", "best sum", "of best"});
   }
 
   void add(const CountedRobot& robot) {
-    const OperationCount& own = is_id() ? robot.id : robot.gravity;
+    const OperationCount& own = robot.counts.at(function_);
     std::vector<std::string> row = {robot.name, fmt::to_string(robot.joints)};
-    if (is_id()) row.push_back(fmt::to_string(robot.base_parameters));
+    if (shows_base()) row.push_back(fmt::to_string(robot.base_parameters));
     for (const int number : {own.multiplications, own.additions, own.total(), own.sin_cos_pairs}) {
       row.push_back(fmt::to_string(number));
     }
@@ -133,11 +159,11 @@ class Comparison {
     row.push_back(all_others(robot.name, function_, convention_));
     const std::optional<Other> best = best_other(robot.name, function_, convention_);
     if (best) {
-      const int sum = best->mul + best->add;
-      row.push_back(fmt::to_string(sum));
+      const bool above = own.total() > best->sum;
+      row.push_back(fmt::to_string(best->sum));
       row.push_back(
-          fmt::format("{:.1f} %{}", 100.0 * own.total() / sum, own.total() > sum ? " ABOVE" : ""));
-      if (own.total() > sum) ++above_;
+          fmt::format("{:.1f} %{}", 100.0 * own.total() / best->sum, above ? " ABOVE" : ""));
+      if (above) ++above_;
     } else {
       row.insert(row.end(), {"-", "-"});
     }
@@ -149,8 +175,9 @@ class Comparison {
 
  private:
   [[nodiscard]] bool is_id() const { return function_ == "id"; }
+  [[nodiscard]] bool shows_base() const { return is_id() || function_ == "base_regressor"; }
 
-  std::string function_;
+  std::string_view function_;
   Case convention_;
   Table table_;
   int above_ = 0;
@@ -172,20 +199,15 @@ int run(const std::vector<std::filesystem::path>& paths, bool markdown) {
   for (const auto& path : paths) models.push_back(build_model(read_robot_file(path.string())));
   int above = 0;
   for (const Convention& convention : kConventions) {
-    Comparison id("id", convention.which), gravity("gravity", convention.which);
-    for (const RobotModel& model : models) {
-      const CountedRobot robot = count(model, convention.which);
-      id.add(robot);
-      gravity.add(robot);
-    }
-    for (const auto& [name, comparison] :
-         {std::pair{"Inverse dynamics", &id}, std::pair{"Gravity", &gravity}}) {
-      // rotor inertia and friction do not enter gravity: it would be the table of (a) again
-      if (comparison == &gravity && convention.which == Case::kWithDrives) continue;
-      const Table& table = comparison->table();
-      fmt::print("{}{}, {}\n\n{}\n", markdown ? "### " : "", name, convention.title,
-                 markdown ? table.markdown() : table.text());
-      above += comparison->above();
+    std::vector<CountedRobot> robots;
+    for (const RobotModel& model : models) robots.push_back(count(model, convention.which));
+    for (const CountedFunction& function : kFunctions) {
+      if (!function.in(convention.which)) continue;
+      Comparison comparison(function.name, convention.which);
+      for (const CountedRobot& robot : robots) comparison.add(robot);
+      fmt::print("{}{}, {}\n\n{}\n", markdown ? "### " : "", function.title, convention.title,
+                 markdown ? comparison.table().markdown() : comparison.table().text());
+      above += comparison.above();
     }
   }
   if (above > 0) fmt::print(stderr, "bench_ops: above the best other in {} case(s)\n", above);
