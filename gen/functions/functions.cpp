@@ -9,6 +9,7 @@
 #include "gen/algorithms/energy.h"
 #include "gen/algorithms/gravity_regressor.h"
 #include "gen/algorithms/jacobian.h"
+#include "gen/algorithms/mass_matrix.h"
 #include "gen/algorithms/pose.h"
 #include "gen/algorithms/regressor.h"
 #include "gen/algorithms/rnea.h"
@@ -99,6 +100,13 @@ const std::vector<FunctionSpec>& function_catalogue() {
        {},
        "tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.",
        write_friction},
+      {"mass_matrix",
+       {"q"},
+       {{.array = "M", .rows = Extent::kJoints, .columns = Extent::kJoints, .unit = "kg m^2"}},
+       {.payload = true},
+       "M = M(q): the inertia matrix of the joints, rotor inertia on its diagonal; by composite "
+       "bodies.",
+       write_mass_matrix},
       {"regressor",
        {"q", "dq", "ddq"},
        {{.array = "Y", .columns = Extent::kChi, .unit = "torque per unit parameter"}},

@@ -16,7 +16,8 @@ namespace {
 // 12 joints in double against a judge in double: rounding grows with the chain.
 constexpr double kTolerance = 1e-10;
 
-const std::vector<std::string> kFunctions = {"id", "id_rigid", "gravity", "coriolis", "friction"};
+const std::vector<std::string> kFunctions = {"id",       "id_rigid", "gravity",
+                                             "coriolis", "friction", "mass_matrix"};
 
 void check_functions(const RobotModel& model, const NumericRobot& numbers,
                      const EvaluatedModel& evaluated) {

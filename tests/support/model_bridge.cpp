@@ -184,9 +184,28 @@ const std::vector<double>& MotionSample::input(const std::string& name) const {
   throw std::invalid_argument("MotionSample: no input " + name);
 }
 
+namespace {
+
+/// Rows and columns of the moving joints, row-major.
+std::vector<double> judge_mass_matrix(const RobotModel& model, const NumericRobot& robot,
+                                      const std::vector<double>& q) {
+  const SquareMatrix<double> M = mass_matrix(robot, q);
+  std::vector<double> moving;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    for (std::size_t j = 0; j < model.joints.size(); ++j) {
+      if (model.joints[i].coordinate < 0 || model.joints[j].coordinate < 0) continue;
+      moving.push_back(M(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+    }
+  }
+  return moving;
+}
+
+}  // namespace
+
 std::vector<double> judge(const RobotModel& model, const NumericRobot& robot,
                           const std::string& function, const MotionSample& sample) {
   const std::vector<double> q = per_joint(model, sample.q);
+  if (function == "mass_matrix") return judge_mass_matrix(model, robot, q);
   const std::vector<double> dq = per_joint(model, sample.dq);
   const std::vector<double> ddq = per_joint(model, sample.ddq);
   std::vector<double> torque;
