@@ -4,10 +4,12 @@
 #include <ginac/ginac.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "gen/algorithms/link_form.h"
 #include "gen/base_parameters/base_parameters.h"
 #include "gen/symbols/symbol_table.h"
 #include "gen/trace/trace.h"
@@ -73,6 +75,9 @@ struct CodeModel {
   std::vector<bool> coordinate_revolute;
   bool takes_chi = false;  ///< the functions have an argument chi: some entry of it is read
   CodeOptions options;
+  /// The form in which the functions of the recursion are written: empty until the first of them
+  /// looks for it; copies share it.
+  std::shared_ptr<RneaForm> rnea_form = std::make_shared<RneaForm>();
 
   [[nodiscard]] int size() const { return static_cast<int>(links.size()); }
   [[nodiscard]] const CodeLink& link(int j) const { return links[static_cast<std::size_t>(j - 1)]; }

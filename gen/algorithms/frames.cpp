@@ -46,6 +46,21 @@ Vector3 to_parent(Trace& trace, const std::string& name, const FrameRotation& r,
   return {x, r.cos_alpha * shared - r.sin_alpha * v[2], r.sin_alpha * shared + r.cos_alpha * v[2]};
 }
 
+FrameRotation without_turn(const FrameRotation& rotation) {
+  FrameRotation result = rotation;
+  result.sin_angle = 0;
+  result.cos_angle = 1;
+  return result;
+}
+
+Vector3 turn(const FrameRotation& r, const Vector3& v) {
+  return {r.cos_angle * v[0] - r.sin_angle * v[1], r.sin_angle * v[0] + r.cos_angle * v[1], v[2]};
+}
+
+Vector3 turn_back(const FrameRotation& r, const Vector3& v) {
+  return {r.cos_angle * v[0] + r.sin_angle * v[1], r.cos_angle * v[1] - r.sin_angle * v[0], v[2]};
+}
+
 Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -58,7 +73,11 @@ Vector3 assign_vector(Trace& trace, const std::string& name, int link, const Vec
   return result;
 }
 
-std::vector<LinkFrame> write_frames(Trace& trace, const CodeModel& code) {
+std::vector<LinkFrame> write_frames(Trace& trace, const CodeModel& code,
+                                    const std::vector<ex>& shifts) {
+  const auto shift = [&](int j) {
+    return shifts.empty() ? ex(0) : shifts[static_cast<std::size_t>(j)];
+  };
   trace.section("sines and cosines of the joint angles");
   std::vector<LinkFrame> frames(code.links.size() + 1);
   std::vector<Chain> chains(code.links.size() + 1);
@@ -71,10 +90,11 @@ std::vector<LinkFrame> write_frames(Trace& trace, const CodeModel& code) {
     const ex angle = revolute ? ex(link.q + link.theta) : link.theta;
 
     frame.rotation = write_rotation(trace, number, link.alpha, angle);
-    const ex along =
-        link.type == JointType::kPrismatic ? trace.assign("R_" + number, link.r + link.q) : link.r;
+    const ex along = link.type == JointType::kPrismatic
+                         ? trace.assign("R_" + number, link.r + link.q)
+                         : link.r + shift(j);
     frame.P = {link.d, trace.assign("P2_" + number, -along * frame.rotation.sin_alpha),
-               trace.assign("P3_" + number, along * frame.rotation.cos_alpha)};
+               trace.assign("P3_" + number, along * frame.rotation.cos_alpha - shift(link.parent))};
 
     frame.parallel = link.parent != 0 && is_zero_number(GiNaC::sin(link.alpha));
     if (!frame.parallel) {

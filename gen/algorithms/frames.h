@@ -34,7 +34,9 @@ struct LinkFrame {
 };
 
 /// Writes sin, cos and origin of every link; element 0 is the base.
-std::vector<LinkFrame> write_frames(Trace& trace, const CodeModel& code);
+/// @param shifts  how far the origins are moved along their axes, in m; empty: not at all
+std::vector<LinkFrame> write_frames(Trace& trace, const CodeModel& code,
+                                    const std::vector<GiNaC::ex>& shifts = {});
 
 /// Vector of the link's frame in the parent's (or the anchor's). @param name  of the help variable,
 /// if one is needed
@@ -43,6 +45,12 @@ Vector3 to_parent(Trace& trace, const std::string& name, const FrameRotation& ro
 /// The reverse.
 Vector3 to_child(Trace& trace, const std::string& name, const FrameRotation& rotation,
                  const Vector3& v);
+
+/// The part of a rotation that is no turn about z: to the axis frame.
+FrameRotation without_turn(const FrameRotation& rotation);
+/// Rz(angle) v, and the reverse; the z component stays.
+Vector3 turn(const FrameRotation& rotation, const Vector3& v);
+Vector3 turn_back(const FrameRotation& rotation, const Vector3& v);
 
 /// a x b
 Vector3 cross(const Vector3& a, const Vector3& b);

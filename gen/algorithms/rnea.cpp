@@ -3,46 +3,53 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <vector>
+
+#include "gen/algorithms/link_inertia.h"
+#include "gen/algorithms/rnea_search.h"
 
 namespace dyngen {
 namespace {
 
 using GiNaC::ex;
 
-/// Force and moment about the origin, in the link's frame.
+/// Force and moment about the origin.
 struct Wrench {
   Vector3 force = {0, 0, 0};
   Vector3 moment = {0, 0, 0};
+
+  void add(const Vector3& more_force, const Vector3& more_moment) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      force[k] += more_force[k];
+      moment[k] += more_moment[k];
+    }
+  }
 };
 
-ex chi(const CodeLink& link, Chi kind) { return link.chi[index(kind)]; }
-
-Vector3 first_moments(const CodeLink& link) {
-  return {chi(link, Chi::kMX), chi(link, Chi::kMY), chi(link, Chi::kMZ)};
-}
+Vector3 sum(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
 /// F = M VP + U MS
-Vector3 link_force(const CodeLink& link, const LinkMotion& motion) {
-  const Vector3 ms = first_moments(link);
+Vector3 link_force(const LinkInertia& inertia, const LinkMotion& motion) {
   Vector3 force;
   for (std::size_t k = 0; k < 3; ++k) {
-    force[k] = chi(link, Chi::kM) * motion.VP[k];
-    for (std::size_t i = 0; i < 3; ++i) force[k] += motion.U[k][i] * ms[i];
+    force[k] = inertia.M * motion.VP[k];
+    for (std::size_t i = 0; i < 3; ++i) force[k] += motion.U[k][i] * inertia.MS[i];
   }
   return force;
 }
 
-/// J WP + W x (J W), written with U.
-Vector3 euler_moment(Trace& trace, int j, const CodeLink& link, const LinkMotion& motion) {
-  const ex XX = chi(link, Chi::kXX), XY = chi(link, Chi::kXY), XZ = chi(link, Chi::kXZ);
-  const ex YY = chi(link, Chi::kYY), YZ = chi(link, Chi::kYZ), ZZ = chi(link, Chi::kZZ);
+/// J WP + W x (J W), written with U:
+///   N1 = XX WP1 + (ZZ - YY) W2 W3 + XZ U21 - XY U31 + YZ (W2^2 - W3^2), and cyclically.
+Vector3 moment_of_tensor(Trace& trace, const std::string& mark, int j, const Tensor& tensor,
+                         const LinkMotion& motion) {
+  const auto& [XX, XY, XZ, YY, YZ, ZZ] = tensor;
   const Vector3& WP = motion.WP;
   const Vector3& WW = motion.WW;
   const Vector3& D = motion.D;
   const Matrix3& U = motion.U;
   const auto difference = [&](const char* name, const ex& a, const ex& b) {
-    return trace.assign(fmt::format("{}_{}", name, j), a - b);
+    return trace.assign(fmt::format("{}{}_{}", mark, name, j), a - b);
   };
   const ex zy = difference("ZmY", ZZ, YY), xz = difference("XmZ", XX, ZZ),
            yx = difference("YmX", YY, XX);
@@ -51,6 +58,19 @@ Vector3 euler_moment(Trace& trace, int j, const CodeLink& link, const LinkMotion
           ZZ * WP[2] + yx * WW[2] + YZ * U[0][2] - XZ * U[1][2] + XY * D[2]};
 }
 
+/// The same with the Euler tensor K: the integral of r x (U r) dm is made of the elements of
+/// U K - (U K)^T, since K is the integral of r r^T dm.
+Vector3 moment_of_euler_tensor(const Tensor& tensor, const LinkMotion& motion) {
+  const auto& [XX, XY, XZ, YY, YZ, ZZ] = tensor;
+  const Vector3& D = motion.D;
+  const Matrix3& U = motion.U;
+  return {U[2][0] * XY + U[2][1] * YY - D[0] * YZ - U[1][0] * XZ - U[1][2] * ZZ,
+          U[0][1] * YZ + U[0][2] * ZZ - D[1] * XZ - U[2][0] * XX - U[2][1] * XY,
+          U[1][0] * XX + U[1][2] * XZ - D[2] * XY - U[0][1] * YY - U[0][2] * YZ};
+}
+
+ex chi(const CodeLink& link, Chi kind) { return link.chi[index(kind)]; }
+
 ex friction_torque(const CodeLink& link) {
   ex torque = chi(link, Chi::kFV) * link.dq + chi(link, Chi::kOFF);
   const ex FS = chi(link, Chi::kFS);
@@ -58,69 +78,155 @@ ex friction_torque(const CodeLink& link) {
   return torque;
 }
 
-/// Gravity alone, along the axis of a revolute joint, does no work about it.
-bool gravity_along_axis(const LinkMotion& motion) {
-  return motion.VP[0].is_zero() && motion.VP[1].is_zero();
-}
+/// Writes the backward recursion. The wrench that a link hands over is kept in both views; what
+/// stands in one of them is turned into the other only where the parent's frame is at an angle.
+class Backward {
+ public:
+  Backward(Trace& trace, const CodeModel& code, const std::vector<LinkFrame>& frames,
+           const std::vector<ChainMotion>& motions, const std::vector<LinkInertia>& inertia,
+           const RneaForm& form)
+      : trace_(trace),
+        code_(code),
+        frames_(frames),
+        motions_(motions),
+        inertia_(inertia),
+        form_(form),
+        link_(code.links.size() + 1),
+        axis_(code.links.size() + 1) {}
+
+  /// Acts on the last link, about a point z on its axis from its origin.
+  void add_wrench(const Vector3& force, const Vector3& moment, const ex& z) {
+    link_.back().add(force, sum(moment, cross({0, 0, z}, force)));
+  }
+
+  /// @return force and moment of link j on its joint along the axis
+  Wrench write_link(int j) {
+    trace_.section(
+        fmt::format("backward, link {}: F force, N moment of the link about O{}; E, T with the "
+                    "links it carries",
+                    j, j));
+    const std::size_t at = static_cast<std::size_t>(j);
+    const bool in_axis = form_[at - 1].inertia == View::kAxis;
+    Wrench& own = in_axis ? axis_[at] : link_[at];
+    write_own(j, own);
+
+    Wrench& link = link_[at];
+    Wrench& axis = axis_[at];
+    join_along_axis(link, axis);
+    const std::string mark = in_axis ? "A" : "";
+    link.force = assign_vector(trace_, "E", j, link.force);
+    link.moment = assign_vector(trace_, "T", j, link.moment);
+    axis.force = assign_vector(trace_, "AE", j, axis.force);
+    axis.moment = assign_vector(trace_, "AT", j, axis.moment);
+    if (code_.link(j).parent != 0) hand_over(j);
+    return link;
+  }
+
+ private:
+  void write_own(int j, Wrench& own) {
+    const std::size_t at = static_cast<std::size_t>(j);
+    const View view = form_[at - 1].inertia;
+    const std::string mark = view == View::kAxis ? "A" : "";
+    const LinkMotion& motion = motions_[at].in(view);
+    const LinkInertia inertia = view == View::kAxis
+                                    ? turned(trace_, j, inertia_[at], frames_[at].from_anchor)
+                                    : inertia_[at];
+    const Vector3 F = assign_vector(trace_, mark + "F", j, link_force(inertia, motion));
+    const Vector3 N = inertia.euler_tensor
+                          ? moment_of_euler_tensor(inertia.tensor, motion)
+                          : moment_of_tensor(trace_, mark, j, inertia.tensor, motion);
+    own.add(F, assign_vector(trace_, mark + "N", j, sum(N, cross(inertia.MS, motion.VP))));
+  }
+
+  /// The components along the axis are the same in both views: they stand in the link's.
+  static void join_along_axis(Wrench& link, Wrench& axis) {
+    link.force[2] += axis.force[2];
+    link.moment[2] += axis.moment[2];
+    axis.force[2] = axis.moment[2] = 0;
+  }
+
+  /// All of a vector in the axis frame, or in the link's.
+  static Vector3 in_axis(const FrameRotation& turned_by, const Vector3& link, const Vector3& axis) {
+    const Vector3 v = sum(turn(turned_by, link), axis);
+    return {v[0], v[1], link[2]};
+  }
+  static Vector3 in_link(const FrameRotation& turned_by, const Vector3& link, const Vector3& axis) {
+    const Vector3 v = sum(link, turn_back(turned_by, axis));
+    return {v[0], v[1], link[2]};
+  }
+
+  void hand_over(int j) {
+    const std::size_t at = static_cast<std::size_t>(j);
+    const std::size_t to = static_cast<std::size_t>(code_.link(j).parent);
+    const LinkFrame& frame = frames_[at];
+    const LinkForm& form = form_[at - 1];
+    const FrameRotation& turned_by = frame.from_anchor;
+    const FrameRotation fixed = without_turn(frame.rotation);
+    const auto name = [&](const char* quantity) { return fmt::format("{}_{}", quantity, j); };
+
+    // of the parent: the view in which the vector arrives
+    Vector3 force, moment;
+    const bool force_in_axis = frame.parallel && form.force == View::kAxis;
+    const bool moment_in_axis = frame.parallel && form.moment == View::kAxis;
+    const Wrench& link = link_[at];
+    const Wrench& axis = axis_[at];
+    if (force_in_axis || !frame.parallel) {
+      force = assign_vector(trace_, "EB", j, in_axis(turned_by, link.force, axis.force));
+      force = to_parent(trace_, name("EA"), fixed, force);
+    } else {
+      force = assign_vector(trace_, "EB", j, in_link(turned_by, link.force, axis.force));
+      force = to_parent(trace_, name("EA"), frame.rotation, force);
+    }
+    if (moment_in_axis || !frame.parallel) {
+      moment = to_parent(trace_, name("TA"), fixed, in_axis(turned_by, link.moment, axis.moment));
+    } else {
+      moment = to_parent(trace_, name("TA"), frame.rotation,
+                         in_link(turned_by, link.moment, axis.moment));
+    }
+    force = assign_vector(trace_, "FA", j, force);
+    const Vector3 P = force_in_axis
+                          ? assign_vector(trace_, "AP", j, turn(frames_[to].from_anchor, frame.P))
+                          : frame.P;
+    (force_in_axis ? axis_ : link_)[to].add(force, cross(P, force));
+    (moment_in_axis ? axis_ : link_)[to].add({0, 0, 0}, moment);
+  }
+
+  Trace& trace_;
+  const CodeModel& code_;
+  const std::vector<LinkFrame>& frames_;
+  const std::vector<ChainMotion>& motions_;
+  const std::vector<LinkInertia>& inertia_;
+  const RneaForm& form_;
+  std::vector<Wrench> link_, axis_;  // of the links that hang on each, in each view
+};
 
 }  // namespace
 
 void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms) {
-  const std::vector<LinkFrame> frames = write_frames(trace, code);
-  const std::vector<LinkMotion> motions = write_motion(trace, code, frames, terms.motion);
-  const bool standing = !terms.motion.velocity && !terms.motion.acceleration;
+  write_rnea(trace, code, terms, choose_form(trace, code));
+}
 
-  std::vector<Wrench> total(code.links.size() + 1);  // of the links that hang on each
-  std::vector<ex> torque(code.links.size() + 1);
+void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, const RneaForm& form) {
+  trace.section("parameters of the links");
+  const std::vector<ex> shifts = origin_shifts(code, form);
+  const std::vector<LinkInertia> inertia = write_inertia(trace, code, form, shifts);
+  const std::vector<LinkFrame> frames = write_frames(trace, code, shifts);
+  const std::vector<ChainMotion> motions =
+      write_chain_motion(trace, code, frames, terms.motion, form);
+
+  Backward backward(trace, code, frames, motions, inertia, form);
   if (terms.wrench) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      total.back().force[k] = -code.wrench[k];
-      total.back().moment[k] = -code.wrench[k + 3];
-    }
+    const auto& w = code.wrench;
+    backward.add_wrench({-w[0], -w[1], -w[2]}, {-w[3], -w[4], -w[5]}, -shifts.back());
   }
+  std::vector<ex> torque(code.links.size() + 1);
   for (int j = code.size(); j >= 1; --j) {
     const CodeLink& link = code.link(j);
-    const std::size_t at = static_cast<std::size_t>(j);
-    const LinkMotion& motion = motions[at];
-    const LinkFrame& frame = frames[at];
-    Wrench& own = total[at];
-    trace.section(
-        fmt::format("backward, link {}: F force, N moment of the link about O{}; E, T with the "
-                    "links it carries",
-                    j, j));
-
-    const Vector3 F = assign_vector(trace, "F", j, link_force(link, motion));
-    Vector3 N = euler_moment(trace, j, link, motion);
-    const Vector3 lever = cross(first_moments(link), motion.VP);
-    for (std::size_t k = 0; k < 3; ++k) N[k] += lever[k];
-    N = assign_vector(trace, "N", j, N);
-    for (std::size_t k = 0; k < 3; ++k) {
-      own.force[k] += F[k];
-      own.moment[k] += N[k];
-    }
-    own.force = assign_vector(trace, "E", j, own.force);
-    own.moment = assign_vector(trace, "T", j, own.moment);
-
-    if (link.type == JointType::kRevolute) {
-      torque[at] = standing && gravity_along_axis(motion) ? ex(0) : own.moment[2];
-    } else if (link.type == JointType::kPrismatic) {
-      torque[at] = own.force[2];
-    }
-    if (link.coordinate >= 0) {
-      if (terms.rotor && terms.motion.acceleration) torque[at] += chi(link, Chi::kIA) * link.ddq;
-      if (terms.friction) torque[at] += friction_torque(link);
-    }
-    if (link.parent == 0) continue;
-
-    Wrench& parent = total[static_cast<std::size_t>(link.parent)];
-    const Vector3 FA = assign_vector(
-        trace, "FA", j, to_parent(trace, fmt::format("EA_{}", j), frame.rotation, own.force));
-    const Vector3 TA = to_parent(trace, fmt::format("TA_{}", j), frame.rotation, own.moment);
-    const Vector3 arm = cross(frame.P, FA);
-    for (std::size_t k = 0; k < 3; ++k) {
-      parent.force[k] += FA[k];
-      parent.moment[k] += TA[k] + arm[k];
-    }
+    ex& own = torque[static_cast<std::size_t>(j)];
+    const Wrench wrench = backward.write_link(j);
+    own = link.type == JointType::kPrismatic ? wrench.force[2] : wrench.moment[2];
+    if (terms.rotor && terms.motion.acceleration) own += chi(link, Chi::kIA) * link.ddq;
+    if (terms.friction) own += friction_torque(link);
   }
   trace.section("joint torques");
   for (int j = 1; j <= code.size(); ++j) {

@@ -15,12 +15,14 @@ struct RneaTerms {
   bool wrench = true;    ///< the last link's, if the model has one
 };
 
-/// Writes tau by customised Newton-Euler, as the output array "tau" (N m, N if prismatic).
+/// Writes tau by customised Newton-Euler, as the output array "tau" (N m, N if prismatic), in the
+/// form that needs the fewest operations of those that were tried.
 ///
-/// Source: Khalil and Dombre 2002, ch. 9. The moment J WP + W x (J W) is written
-/// with the elements of U, which the forces need anyway:
-///   N1 = XX WP1 + (ZZ - YY) W2 W3 + XZ U21 - XY U31 + YZ (W2^2 - W3^2), and cyclically.
+/// Source: Khalil and Dombre 2002, ch. 9.
 void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms);
+
+/// The same in a given form.
+void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, const RneaForm& form);
 
 /// Writes the friction torque FS sign(dq) + FV dq + OFF of every joint.
 void write_friction(Trace& trace, const CodeModel& code);

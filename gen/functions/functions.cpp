@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "gen/algorithms/energy.h"
+#include "gen/algorithms/gravity.h"
 #include "gen/algorithms/gravity_regressor.h"
 #include "gen/algorithms/jacobian.h"
 #include "gen/algorithms/mass_matrix.h"
@@ -24,13 +25,6 @@ void write_id(Trace& trace, const CodeModel& code) { write_rnea(trace, code, Rne
 void write_id_rigid(Trace& trace, const CodeModel& code) {
   RneaTerms terms;
   terms.friction = false;
-  write_rnea(trace, code, terms);
-}
-
-void write_gravity(Trace& trace, const CodeModel& code) {
-  RneaTerms terms;
-  terms.motion = {.velocity = false, .acceleration = false, .gravity = true};
-  terms.rotor = terms.friction = terms.wrench = false;
   write_rnea(trace, code, terms);
 }
 
@@ -87,7 +81,7 @@ const std::vector<FunctionSpec>& function_catalogue() {
        {joint_torque()},
        {.gravity = true, .payload = true},
        "tau = g(q): the torque that holds the arm still.",
-       write_gravity},
+       write_gravity_torque},
       {"coriolis",
        {"q", "dq"},
        {joint_torque()},
