@@ -44,7 +44,9 @@ std::string CSpelling::symbol(const GiNaC::ex& symbol) const {
 std::string CSpelling::form(const Form& form) const {
   if (form.kind == Form::Kind::kCall) {
     const std::string argument = this->form(form.parts[0]);
-    if (form.call == "sign") return options_.prefix + "_sign(" + argument + ")";
+    if (form.call == "sign") {
+      return options_.prefix + (lanes_ ? "_sign_lanes(" : "_sign(") + argument + ")";
+    }
     return form.call + (options_.scalar == Scalar::kFloat ? "f(" : "(") + argument + ")";
   }
   if (form.kind == Form::Kind::kSum || form.kind == Form::Kind::kProduct ||
@@ -88,6 +90,18 @@ std::string wrap_arguments(const std::string& declaration) {
     line = indent + line.substr(cut + 2);
   }
   return result + line;
+}
+
+std::string wrap_list(const std::string& first, const std::string& list) {
+  std::string result;
+  std::string line = first + list;
+  while (line.size() > kColumns) {
+    const std::size_t cut = line.rfind(", ", kColumns - 1);
+    if (cut == std::string::npos || cut < 6) break;
+    result += line.substr(0, cut + 1) + "\n";
+    line = "      " + line.substr(cut + 2);
+  }
+  return result + line + "\n";
 }
 
 std::string wrap_comment(const std::string& text, const std::string& first,

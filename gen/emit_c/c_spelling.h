@@ -13,8 +13,9 @@ namespace dyngen {
 /// The C names of one model: what depends on prefix and scalar.
 class CSpelling {
  public:
-  CSpelling(const EmitOptions& options, const SymbolTable& symbols)
-      : options_(options), symbols_(symbols) {}
+  /// @param lanes  of the functions that compute many samples at once
+  CSpelling(const EmitOptions& options, const SymbolTable& symbols, bool lanes = false)
+      : options_(options), symbols_(symbols), lanes_(lanes) {}
 
   [[nodiscard]] std::string scalar() const;
   /// "9.81", "9.81f"; a leading minus if negative
@@ -27,6 +28,7 @@ class CSpelling {
 
   const EmitOptions& options_;
   const SymbolTable& symbols_;
+  bool lanes_;
 };
 
 /// "PUMA560" of "puma560".
@@ -37,6 +39,9 @@ std::string wrap_statement(const std::string& statement);
 
 /// Breaks a declaration at its commas, under the opening bracket.
 std::string wrap_arguments(const std::string& declaration);
+
+/// A list of values in brackets, broken at its commas. @param first  "  const double x[2] = {"
+std::string wrap_list(const std::string& first, const std::string& list);
 
 /// A comment block of wrapped lines: " * text". @param first  what the first line starts with
 std::string wrap_comment(const std::string& text, const std::string& first,

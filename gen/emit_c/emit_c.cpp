@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <set>
 
 #include "gen/diagnostic/diagnostic.h"
+#include "gen/emit_c/batch_text.h"
+#include "gen/emit_c/body_text.h"
 #include "gen/emit_c/c_spelling.h"
 #include "gen/emit_c/function_text.h"
 #include "gen/emit_c/inline_trig.h"
@@ -71,14 +74,24 @@ std::string chi_values(const CodeModel& code, const EmitOptions& options) {
 }
 
 /// The static functions that the emitted ones call.
-std::string helpers(const std::vector<RobotFunction>& functions, const EmitOptions& options) {
-  bool sign = false;
+std::string helpers(const CodeModel& code, const std::vector<RobotFunction>& functions,
+                    const EmitOptions& options) {
+  bool sign = false, lanes = false, lanes_sign = false, lanes_trig = false, spread = false;
   std::set<std::size_t> sizes;  // of calls of the inline sines and cosines
   for (const RobotFunction& function : functions) {
-    sign = sign || reads_sign(function.trace);
-    if (options.trig != Trig::kInline) continue;
-    for (const std::size_t size : sincos_sizes(find_angles(function.trace).size())) {
-      sizes.insert(size);
+    const bool reads = reads_sign(function.trace);
+    const std::size_t angles = find_angles(function.trace).size();
+    if (function.scalar) {
+      sign = sign || reads;
+      if (options.trig == Trig::kInline) {
+        for (const std::size_t size : sincos_sizes(angles)) sizes.insert(size);
+      }
+    }
+    if (function.batch) {
+      lanes = true;
+      lanes_sign = lanes_sign || reads;
+      lanes_trig = lanes_trig || angles > 0;
+      spread = spread || writes_constant(code, function, options);
     }
   }
   std::string text;
@@ -88,9 +101,9 @@ std::string helpers(const std::vector<RobotFunction>& functions, const EmitOptio
         "0));\n}}\n\n",
         options.scalar == Scalar::kDouble ? "double" : "float", options.prefix);
   }
-  if (!sizes.empty()) {
-    text += doubles_helper(options.prefix) + "\n" + sincos_helper(options.prefix, sizes) + "\n";
-  }
+  if (lanes || !sizes.empty()) text += doubles_helper(options.prefix) + "\n";
+  if (lanes) text += lanes_helper(options, lanes_sign, spread) + "\n";
+  if (lanes_trig || !sizes.empty()) text += sincos_helper(options, sizes, lanes_trig) + "\n";
   return text;
 }
 
@@ -99,6 +112,8 @@ std::string make_header(const CodeModel& code, const std::vector<RobotFunction>&
   const std::string upper = upper_case(options.prefix);
   std::string text = banner(code);
   text += fmt::format("#ifndef {0}_H\n#define {0}_H\n\n", upper);
+  const auto batch = [](const RobotFunction& function) { return function.batch; };
+  if (std::any_of(functions.begin(), functions.end(), batch)) text += "#include <stddef.h>\n\n";
   text += guard("extern \"C\" {");
   text += fmt::format(
       "\n#define {0}_NQ {1}    /* joint coordinates */\n#define {0}_NCHI {2}  /* parameters in chi "
@@ -118,8 +133,14 @@ std::string make_header(const CodeModel& code, const std::vector<RobotFunction>&
         options.scalar == Scalar::kDouble ? "double" : "float", options.prefix);
   }
   for (const RobotFunction& function : functions) {
-    text += "\n" + function_comment(code, function, options);
-    text += wrap_arguments(signature(code, function, options) + ";\n");
+    if (function.scalar) {
+      text += "\n" + function_comment(code, function, options);
+      text += wrap_arguments(signature(code, function, options) + ";\n");
+    }
+    if (function.batch) {
+      text += "\n" + batch_comment(code, function, options);
+      text += wrap_arguments(batch_signature(code, function, options) + ";\n");
+    }
   }
   text += "\n" + guard("}");
   return text + fmt::format("\n#endif /* {}_H */\n", upper);
@@ -128,14 +149,19 @@ std::string make_header(const CodeModel& code, const std::vector<RobotFunction>&
 std::string make_source(const CodeModel& code, const std::vector<RobotFunction>& functions,
                         const EmitOptions& options) {
   std::string text = banner(code);
-  text += fmt::format("#include \"{}\"\n\n#include <math.h>\n\n", options.header_name);
+  text += fmt::format("#include \"{}\"\n\n#include <math.h>\n", options.header_name);
+  const auto batch = [](const RobotFunction& function) { return function.batch; };
+  text += std::any_of(functions.begin(), functions.end(), batch) ? "#include <string.h>\n\n" : "\n";
   text += name_table(options.prefix + "_joint_names", code.coordinate_names) + "\n";
   text += name_table(options.prefix + "_chi_names", chi_names(code)) + "\n";
   text += name_table(options.prefix + "_beta_names", code.beta) + "\n";
   if (code.takes_chi || !code.chi.empty()) text += chi_values(code, options) + "\n";
-  text += helpers(functions, options);
+  text += helpers(code, functions, options);
   for (std::size_t i = 0; i < functions.size(); ++i) {
-    text += (i > 0 ? "\n" : "") + function_definition(code, functions[i], options);
+    if (i > 0) text += "\n";
+    if (functions[i].scalar) text += function_definition(code, functions[i], options);
+    if (functions[i].scalar && functions[i].batch) text += "\n";
+    if (functions[i].batch) text += batch_definition(code, functions[i], options);
   }
   return text;
 }

@@ -12,7 +12,7 @@ enum class Scalar { kDouble, kFloat };
 
 /// Where sines and cosines come from.
 enum class Trig {
-  kInline,  ///< all angles of a function at once, in the code itself; double only
+  kInline,  ///< all angles of a function at once, in the code itself
   kLibm     ///< sin() and cos() of the C library
 };
 
@@ -20,8 +20,8 @@ enum class Trig {
 struct EmitOptions {
   std::string prefix;  ///< a C identifier, in front of every external name
   Scalar scalar = Scalar::kDouble;
-  Trig trig = Trig::kInline;  ///< kLibm with kFloat
-  std::string header_name;    ///< what the source includes
+  Trig trig = Trig::kInline;
+  std::string header_name;  ///< what the source includes
 };
 
 /// The files that make up a generated model.

@@ -4,39 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
+#include "gen/emit_c/body_text.h"
 #include "gen/emit_c/c_spelling.h"
-#include "gen/emit_c/inline_trig.h"
 
 namespace dyngen {
 namespace {
 
 constexpr std::size_t kColumns = 100;
-
-/// What one function reads, found in its statements.
-struct Reads {
-  std::set<std::string> arrays;   // "q", "chi"
-  std::set<int> constant_places;  // named numbers
-};
-
-Reads find_reads(const Trace& trace) {
-  Reads reads;
-  const auto visit = [&](const GiNaC::ex& value) {
-    for (auto it = value.preorder_begin(); it != value.preorder_end(); ++it) {
-      if (!GiNaC::is_a<GiNaC::symbol>(*it)) continue;
-      const SymbolInfo& info = trace.symbols().info(*it);
-      if (info.kind == SymbolKind::kConstant) {
-        reads.constant_places.insert(trace.symbols().place(*it));
-      } else if (!info.array.empty()) {
-        reads.arrays.insert(info.array);
-      }
-    }
-  };
-  for (const Assignment& assignment : trace.assignments()) visit(assignment.value);
-  for (const Output& output : trace.outputs()) visit(output.value);
-  return reads;
-}
 
 /// "q[6] rad" with the joints that differ: "q[4] rad (m: 3)".
 std::string array_legend(const CodeModel& code, std::string_view array, const char* revolute_unit,
@@ -82,59 +57,7 @@ std::string argument_legend(const CodeModel& code, const FunctionSpec& spec,
   return fmt::format("{}[{}]", name, argument.size());
 }
 
-std::string constants(const Trace& trace, const Reads& reads, const CSpelling& spelling) {
-  std::string text;
-  const auto add = [&](const SymbolInfo& info) {
-    if (!reads.constant_places.contains(trace.symbols().place(info.symbol))) return;
-    std::string comment = info.unit;
-    const bool formula = info.comment.starts_with("=");  // it stands in the enum of chi
-    const std::string origin = formula ? "grouped" : info.comment;
-    if (!origin.empty()) comment += (comment.empty() ? "" : ", ") + origin;
-    text += fmt::format("  const {} {} = {};", spelling.scalar(), info.name,
-                        spelling.number(info.value));
-    text += comment.empty() ? "\n" : fmt::format(" /* {} */\n", comment);
-  };
-  if (trace.symbols().parent() != nullptr) {
-    for (const SymbolInfo& info : trace.symbols().parent()->own()) add(info);
-  }
-  for (const SymbolInfo& info : trace.symbols().own()) add(info);
-  return text;
-}
-
-std::string statement(const Assignment& assignment, const CSpelling& spelling) {
-  return wrap_statement(fmt::format("  const {} {} = {};", spelling.scalar(),
-                                    spelling.symbol(assignment.target),
-                                    spelling.expression(assignment.value)));
-}
-
-/// The sines and cosines of all angles at once, before everything else: angles depend on inputs
-/// alone.
-std::string gathered_angles(const Trace& trace, const std::vector<GiNaC::ex>& angles,
-                            const CSpelling& spelling, const EmitOptions& options) {
-  std::string text;
-  std::vector<std::string> names;
-  for (const GiNaC::ex& angle : angles) {
-    names.push_back(spelling.symbol(angle));
-    for (const Assignment& assignment : trace.assignments()) {
-      if (angle.is_equal(assignment.target)) text += statement(assignment, spelling);
-    }
-  }
-  return text + sincos_calls(names, options.prefix);
-}
-
 }  // namespace
-
-bool reads_sign(const Trace& trace) {
-  for (const Assignment& assignment : trace.assignments()) {
-    for (auto it = assignment.value.preorder_begin(); it != assignment.value.preorder_end(); ++it) {
-      if (GiNaC::is_a<GiNaC::function>(*it) &&
-          GiNaC::ex_to<GiNaC::function>(*it).get_name() == "csgn") {
-        return true;
-      }
-    }
-  }
-  return false;
-}
 
 std::string summary_text(const CodeModel& code, const RobotFunction& function) {
   std::string text(function.spec->summary);
@@ -183,36 +106,17 @@ std::string signature(const CodeModel& code, const RobotFunction& function,
 std::string function_definition(const CodeModel& code, const RobotFunction& function,
                                 const EmitOptions& options) {
   const Trace& trace = function.trace;
-  const Reads reads = find_reads(trace);
+  const std::vector<Argument> all = arguments(*function.spec, code);
   const CSpelling spelling(options, trace.symbols());
+  const Body body(trace, all, options);
   std::string text = function_comment(code, function, options);
   text += wrap_arguments(signature(code, function, options) + " {\n");
-  text += constants(trace, reads, spelling);
-
-  std::vector<GiNaC::ex> angles;
-  if (options.trig == Trig::kInline) angles = find_angles(trace);
-  if (!angles.empty()) {
-    text += "\n  /* sines and cosines of the joint angles */\n";
-    text += gathered_angles(trace, angles, spelling, options);
-  }
-  int section = 0;
-  for (const Assignment& assignment : trace.assignments()) {
-    if (is_one_of(angles, assignment.target)) continue;
-    const std::string gathered = gathered_value(assignment.value, angles, options.prefix);
-    if (assignment.section != section && !gathered.empty()) section = assignment.section;
-    if (assignment.section != section) {
-      section = assignment.section;
-      const std::string& title = trace.sections()[static_cast<std::size_t>(section)];
-      text += "\n" + wrap_comment(title, "  /* ", "   * ") + " */\n";
-    }
-    text += gathered.empty() ? statement(assignment, spelling)
-                             : fmt::format("  const {} {} = {};\n", spelling.scalar(),
-                                           spelling.symbol(assignment.target), gathered);
-  }
+  text += body.constants() + body.statements();
   if (!text.ends_with("{\n")) text += "\n";
-  for (const Argument& argument : arguments(*function.spec, code)) {
-    if (argument.output || reads.arrays.contains(argument.name)) continue;
-    text += fmt::format("  (void){};\n", argument.name);
+  for (const Argument& argument : all) {
+    if (!argument.output && !body.reads(argument.name)) {
+      text += fmt::format("  (void){};\n", argument.name);
+    }
   }
   for (const Output& output : trace.outputs()) {
     text += wrap_statement(fmt::format("  {}[{}] = {};", output.array, output.index,

@@ -7,9 +7,6 @@
 
 namespace dyngen {
 
-/// True if the function takes the sign of something.
-bool reads_sign(const Trace& trace);
-
 /// What the function computes, and of which link.
 std::string summary_text(const CodeModel& code, const RobotFunction& function);
 

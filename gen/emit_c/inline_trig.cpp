@@ -19,71 +19,205 @@ bool is_sin_or_cos(const GiNaC::ex& value) {
   return name == "sin" || name == "cos";
 }
 
-// {0} is the prefix, {1} the prefix in capitals. The tail t of the reduced angle r + t keeps the
-// last bit right near multiples of pi/2.
+// Statements of the kernels; every value is one of registers a and b, which "@" stands for, so that
+// neither register waits for the other. The tail t of the reduced angle r + t keeps the last bit
+// right near multiples of pi/2.
+constexpr std::string_view kReduction =
+    R"(D sum@ = x@ * 0.6366197723675814 + whole;
+D k@ = sum@ - whole; /* right angles in x */
+D r0@ = x@ - k@ * 1.5707963267341256; /* exact */
+D p@ = k@ * 6.077100506303966e-11; /* exact */
+D r@ = r0@ - p@;
+D z@ = r@ * r@;
+D w@ = z@ * z@;
+D s3@ = z@ * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+D s2@ = z@ * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+D c3@ = 2.08757232129817482790e-09 - z@ * 1.13596475577881948265e-11;
+D c2@ = 2.48015872894767294178e-05 - z@ * 2.75573143513906633035e-07;
+D s1@ = z@ * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+D c1@ = 4.16666666666666019037e-02 - z@ * 1.38888888888741095749e-03;
+D t@ = ((r0@ - r@) - p@) - k@ * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+D h@ = 0.5 * z@;
+D u@ = 1.0 - h@;
+D sp@ = s1@ + w@ * (s2@ + w@ * s3@);
+D cp@ = c1@ + w@ * (c2@ + w@ * c3@);
+D s@ = r@ + (t@ * u@ + z@ * r@ * sp@);
+D c@ = u@ + (((1.0 - u@) - h@) - r@ * t@ + w@ * cp@);
+)";
+
+// For float: double arithmetic leaves all bits of a float right.
+constexpr std::string_view kFloatReduction =
+    R"(D sum@ = x@ * 0.6366197723675814 + whole;
+D k@ = sum@ - whole; /* right angles in x */
+D r@ = (x@ - k@ * 1.5707963267341256) - k@ * 6.077100506506192e-11;
+D z@ = r@ * r@;
+D w@ = z@ * z@;
+D s1@ = z@ * 0.0083333293858894632 - 0.16666666641626524;
+D s2@ = z@ * 0.0000027183114939898219 - 0.00019839334836096632;
+D c1@ = 1.0 - z@ * 0.499999997251031003120;
+D c2@ = 0.0416666233237390631894 - z@ * 0.00138867637746099294692;
+D s@ = r@ + z@ * r@ * (s1@ + w@ * s2@);
+D c@ = c1@ + w@ * (c2@ + w@ * 0.0000243904487962774090654);
+)";
+
+// The last bits of sum are those of k: the quadrant.
+constexpr std::string_view kQuadrant =
+    R"(B i@ = (BITS)sum@;
+B swap@ = ((BITS)s@ ^ (BITS)c@) & -(i@ & 1);
+)";
+
+constexpr std::string_view kResult =
+    R"(sine[#] = (LANES)((BITS)s@ ^ swap@ ^ ((i@ & 2) << 62));
+cosine[#] = (LANES)((BITS)c@ ^ swap@ ^ (((i@ + 1) & 2) << 62));
+)";
+
+std::string replaced(std::string text, std::string_view what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at)) {
+    text.replace(at, what.size(), by);
+    at += by.size();
+  }
+  return text;
+}
+
+/// The statements for one register or two, each for all registers before the next.
+std::string kernel_statements(std::string_view statements, int registers,
+                              const std::string& prefix) {
+  std::string text;
+  while (!statements.empty()) {
+    const std::size_t end = statements.find('\n');
+    std::string line(statements.substr(0, end));
+    statements.remove_prefix(end + 1);
+    for (int i = 0; i < registers; ++i) {
+      if (i == 1) line = line.substr(0, line.find(" /*"));
+      std::string one = line;
+      if (one.starts_with("D ")) one = "const " + prefix + "_doubles" + one.substr(1);
+      if (one.starts_with("B ")) one = "const " + prefix + "_bits" + one.substr(1);
+      one = replaced(one, "BITS", prefix + "_bits");
+      one = replaced(one, "LANES", prefix + "_doubles");
+      one = replaced(one, "@", registers == 1 ? "" : i == 0 ? "a" : "b");
+      text += "  " + replaced(one, "#", std::to_string(i)) + "\n";
+    }
+  }
+  return text;
+}
+
+// {0} is the prefix, {1} the prefix in capitals, {2} the number of registers, {3} its statements.
 constexpr const char* kKernel =
-    R"(/* Sines and cosines of a register of angles, without a branch: within 1 ulp for |x| < 1e5, rounding
- * to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980), coefficients of fdlibm (Sun
- * Microsystems 1993).  -ffast-math would undo the reduction: the C library is called then. */
-#if defined({1}_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
-#define {1}_INLINE_TRIG
-static {1}_INLINE void {0}_sincos_kernel(const {0}_doubles *angle, {0}_doubles *sine,
-    {0}_doubles *cosine) {{
+    R"(static {1}_INLINE void {0}_sincos_kernel{2}(const {0}_doubles *angle, {0}_doubles *sine,
+                                          {0}_doubles *cosine) {{
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
   const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
-  const {0}_doubles x = *angle;
-  const {0}_doubles sum = x * 0.6366197723675814 + whole;
-  const {0}_doubles k = sum - whole;                 /* right angles in x */
-  const {0}_doubles r0 = x - k * 1.5707963267341256; /* exact */
-  const {0}_doubles p = k * 6.077100506303966e-11;   /* exact */
-  const {0}_doubles r = r0 - p;
-  const {0}_doubles t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
-  const {0}_doubles z = r * r;
-  const {0}_doubles w = z * z;
-  const {0}_doubles h = 0.5 * z;
-  const {0}_doubles u = 1.0 - h;
-  const {0}_doubles s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
-  const {0}_doubles s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
-  const {0}_doubles s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
-  const {0}_doubles s = r + (t * u + z * r * (s1 + w * (s2 + w * s3)));
-  const {0}_doubles c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
-  const {0}_doubles c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
-  const {0}_doubles c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
-  const {0}_doubles c = u + (((1.0 - u) - h) - r * t + w * (c1 + w * (c2 + w * c3)));
-  const {0}_bits i = ({0}_bits)sum; /* its last bits are those of k */
-  const {0}_bits swap = (({0}_bits)s ^ ({0}_bits)c) & -(i & 1);
-  *sine = ({0}_doubles)(({0}_bits)s ^ swap ^ ((i & 2) << 62));
-  *cosine = ({0}_doubles)(({0}_bits)c ^ swap ^ (((i + 1) & 2) << 62));
-}}
-#endif
+{3}}}
 )";
 
-/// "{x0, x1}, {x2, 0.0}": the angles in groups, filled up with zeros.
-std::vector<std::string> groups(std::size_t count, std::size_t lanes) {
-  std::vector<std::string> result;
-  for (std::size_t i = 0; i < count; i += lanes) {
-    std::string group;
-    for (std::size_t l = i; l < i + lanes; ++l) {
-      group += (l > i ? ", " : "") + (l < count ? fmt::format("x{}", l) : std::string("0.0"));
+constexpr const char* kComment =
+    R"(/* Sines and cosines of a register of angles, or of two at once, without a branch: within 1 ulp for
+ * |x| < 1e5, rounding to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980),
+ * coefficients of fdlibm (Sun Microsystems 1993).  -ffast-math would undo the reduction: the C
+ * library is called then. */
+)";
+
+constexpr const char* kFloatComment =
+    R"(/* Sines and cosines of a register of angles, or of two at once, without a branch, for single
+ * precision: to 1e-8 for |x| < 1e5, rounding to nearest.  Reduction by pi/2 in two parts (Cody and
+ * Waite 1980), coefficients of FreeBSD's k_sinf.c and k_cosf.c.  -ffast-math would undo the
+ * reduction: the C library is called then. */
+)";
+
+std::string kernels(const std::string& prefix, bool single) {
+  const std::string upper = upper_case(prefix);
+  std::string text = single ? kFloatComment : kComment;
+  text += fmt::format(
+      "#if defined({0}_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)\n"
+      "#define {0}_INLINE_TRIG\n",
+      upper);
+  for (int registers = 1; registers <= 2; ++registers) {
+    std::string load =
+        registers == 1 ? "D x = angle[0];\n" : "D xa = angle[0];\nD xb = angle[1];\n";
+    std::string statements = kernel_statements(load, 1, prefix);
+    for (const std::string_view part :
+         {single ? kFloatReduction : kReduction, kQuadrant, kResult}) {
+      statements += kernel_statements(part, registers, prefix);
     }
-    result.push_back(group);
+    if (registers == 2) text += "\n";
+    text += fmt::format(fmt::runtime(kKernel), prefix, upper, registers, statements);
   }
-  return result;
+  return text + "#endif\n";
 }
 
-/// The calls of the kernel for one width of registers.
-std::string kernel_calls(const std::string& prefix, std::size_t count, std::size_t lanes) {
-  std::string declarations, calls;
-  const std::vector<std::string> registers = groups(count, lanes);
-  for (std::size_t v = 0; v < registers.size(); ++v) {
-    declarations += fmt::format("    const {}_doubles v{} = {{{}}};\n", prefix, v, registers[v]);
-    const std::string offset = v == 0 ? "" : fmt::format(" + {}", v);
-    calls += fmt::format("    {0}_sincos_kernel(&v{1}, s{2}, c{2});\n", prefix, v, offset);
+/// "{x0, x1}, {x2, 0.0}": the angles in groups, filled up with zeros.
+std::string groups(std::size_t count, std::size_t lanes) {
+  std::string text;
+  for (std::size_t i = 0; i < count; i += lanes) {
+    text += i > 0 ? ", {" : "{";
+    for (std::size_t l = i; l < i + lanes; ++l) {
+      text += (l > i ? ", " : "") + (l < count ? fmt::format("x{}", l) : std::string("0.0"));
+    }
+    text += "}";
   }
-  return declarations + calls;
+  return text;
 }
+
+/// The calls of the kernels for one width of registers.
+std::string kernel_calls(const std::string& prefix, std::size_t count, std::size_t lanes) {
+  const std::size_t registers = (count + lanes - 1) / lanes;
+  std::string text = wrap_list(fmt::format("    const {}_doubles v[{}] = {{", prefix, registers),
+                               groups(count, lanes) + "};");
+  for (std::size_t v = 0; v < registers; v += 2) {
+    const std::string offset = v == 0 ? "" : fmt::format(" + {}", v);
+    text += fmt::format("    {0}_sincos_kernel{1}(v{2}, s{2}, c{2});\n", prefix,
+                        v + 1 < registers ? 2 : 1, offset);
+  }
+  return text;
+}
+
+// {0} is the prefix, {1} the prefix in capitals, {2} the scalar, {3} "f" for float, {4} what
+// computes the sines of one register.
+constexpr const char* kLanes =
+    R"(/* Sines and cosines of n angles of each sample. */
+static {1}_NOINLINE void {0}_sincos_lanes(int n, const {0}_lanes *x, {0}_lanes *s, {0}_lanes *c) {{
+  int i, k;
+#ifdef {1}_INLINE_TRIG
+  {0}_lanes size = {{0}};
+  {2} total = 0.0{3};
+  for (i = 0; i < n; ++i) size += x[i] * x[i];
+{4}
+  for (k = 0; k < {1}_LANES; ++k) total += {1}_LANE(size, k);
+  if (total < 1e10{3}) return;
+#endif
+  for (k = 0; k < {1}_LANES; ++k) {{
+#ifdef {1}_INLINE_TRIG
+    if ({1}_LANE(size, k) < 1e10{3}) continue;
+#endif
+    for (i = 0; i < n; ++i) {{
+      {1}_LANE(s[i], k) = sin{3}({1}_LANE(x[i], k));
+      {1}_LANE(c[i], k) = cos{3}({1}_LANE(x[i], k));
+    }}
+  }}
+}}
+)";
+
+constexpr const char* kLoop =
+    R"(  for (i = 0; i + 1 < n; i += 2) {0}_sincos_kernel2(x + i, s + i, c + i);
+  if (i < n) {0}_sincos_kernel1(x + i, s + i, c + i);)";
+
+/// A register of floats is two of doubles.
+constexpr const char* kFloatLoop = R"(  for (i = 0; i < n; ++i) {{
+    {0}_half half[2];
+    {0}_doubles angle[2], sine[2], cosine[2];
+    memcpy(half, x + i, sizeof half);
+    angle[0] = __builtin_convertvector(half[0], {0}_doubles);
+    angle[1] = __builtin_convertvector(half[1], {0}_doubles);
+    {0}_sincos_kernel2(angle, sine, cosine);
+    half[0] = __builtin_convertvector(sine[0], {0}_half);
+    half[1] = __builtin_convertvector(sine[1], {0}_half);
+    memcpy(s + i, half, sizeof half);
+    half[0] = __builtin_convertvector(cosine[0], {0}_half);
+    half[1] = __builtin_convertvector(cosine[1], {0}_half);
+    memcpy(c + i, half, sizeof half);
+  }})";
 
 /// "x0 * x0 + x1 * x1", split in halves so that the terms do not wait for each other.
 std::string squares(std::size_t first, std::size_t count) {
@@ -135,16 +269,11 @@ bool is_one_of(const std::vector<GiNaC::ex>& angles, const GiNaC::ex& symbol) {
                      [&](const GiNaC::ex& angle) { return angle.is_equal(symbol); });
 }
 
-std::string gathered_value(const GiNaC::ex& value, const std::vector<GiNaC::ex>& angles,
-                           const std::string& prefix) {
+std::optional<SineOf> find_sine(const GiNaC::ex& value, const std::vector<GiNaC::ex>& angles) {
   if (!is_sin_or_cos(value)) return {};
-  const std::string name = GiNaC::ex_to<GiNaC::function>(value).get_name();
   for (std::size_t i = 0; i < angles.size(); ++i) {
-    if (angles[i].is_equal(value.op(0))) {
-      const std::string array =
-          fmt::format("{}{}", name == "sin" ? "sine" : "cosine", i / kMostAngles + 1);
-      return fmt::format("{}_AT({}, {})", upper_case(prefix), array, i % kMostAngles);
-    }
+    if (!angles[i].is_equal(value.op(0))) continue;
+    return SineOf{i, GiNaC::ex_to<GiNaC::function>(value).get_name() == "cos"};
   }
   return {};
 }
@@ -155,7 +284,9 @@ std::vector<std::size_t> sincos_sizes(std::size_t angles) {
   return sizes;
 }
 
-std::string sincos_calls(const std::vector<std::string>& angles, const std::string& prefix) {
+std::string sincos_calls(const std::vector<std::string>& angles, const EmitOptions& options) {
+  const std::string& prefix = options.prefix;
+  const std::string cast = options.scalar == Scalar::kFloat ? "(double)" : "";
   std::string declarations, calls;
   std::size_t first = 0;
   int call = 1;
@@ -164,7 +295,7 @@ std::string sincos_calls(const std::vector<std::string>& angles, const std::stri
         fmt::format("  {0}_doubles sine{1}[{2}], cosine{1}[{2}];\n", prefix, call,
                     fmt::format("({0} + {1}_DOUBLES - 1) / {1}_DOUBLES", size, upper_case(prefix)));
     std::string list;
-    for (std::size_t i = first; i < first + size; ++i) list += angles[i] + ", ";
+    for (std::size_t i = first; i < first + size; ++i) list += cast + angles[i] + ", ";
     calls += wrap_arguments(
         fmt::format("  {0}_sincos{1}({2}sine{3}, cosine{3});\n", prefix, size, list, call));
     first += size;
@@ -173,10 +304,47 @@ std::string sincos_calls(const std::vector<std::string>& angles, const std::stri
   return declarations + calls;
 }
 
-std::string sincos_helper(const std::string& prefix, const std::set<std::size_t>& sizes) {
-  std::string text = fmt::format(fmt::runtime(kKernel), prefix, upper_case(prefix));
-  for (const std::size_t size : sizes) text += "\n" + sincos_function(prefix, size);
-  return text;
+std::string sine_in_register(const SineOf& sine, const EmitOptions& options) {
+  return fmt::format("{}{}_AT({}{}, {})", options.scalar == Scalar::kFloat ? "(float)" : "",
+                     upper_case(options.prefix), sine.cosine ? "cosine" : "sine",
+                     sine.angle / kMostAngles + 1, sine.angle % kMostAngles);
+}
+
+std::string sincos_lanes_calls(const std::vector<std::string>& angles, const EmitOptions& options) {
+  std::string list, calls;
+  for (const std::string& angle : angles) list += (list.empty() ? "" : ", ") + angle;
+  std::size_t first = 0;
+  for (const std::size_t size : sincos_sizes(angles.size())) {  // the same calls as for one sample
+    const std::string offset = first == 0 ? "" : fmt::format(" + {}", first);
+    calls += fmt::format("  {0}_sincos_lanes({1}, angle{2}, sine{2}, cosine{2});\n", options.prefix,
+                         size, offset);
+    first += size;
+  }
+  return wrap_list(fmt::format("  const {}_lanes angle[{}] = {{", options.prefix, angles.size()),
+                   list + "};") +
+         fmt::format("  {0}_lanes sine[{1}], cosine[{1}];\n{2}", options.prefix, angles.size(),
+                     calls);
+}
+
+std::string sine_in_lanes(const SineOf& sine) {
+  return fmt::format("{}[{}]", sine.cosine ? "cosine" : "sine", sine.angle);
+}
+
+std::string sincos_helper(const EmitOptions& options, const std::set<std::size_t>& sizes,
+                          bool lanes) {
+  const bool single = options.scalar == Scalar::kFloat;
+  const std::string& prefix = options.prefix;
+  const std::string upper = upper_case(prefix);
+  std::string text;
+  if (options.trig == Trig::kInline) {
+    text += kernels(prefix, single);
+    for (const std::size_t size : sizes) text += "\n" + sincos_function(prefix, size);
+  }
+  if (!lanes) return text;
+  const std::string kernel = fmt::format(fmt::runtime(single ? kFloatLoop : kLoop), prefix);
+  if (!text.empty()) text += "\n";
+  return text + fmt::format(fmt::runtime(kLanes), prefix, upper, single ? "float" : "double",
+                            single ? "f" : "", kernel);
 }
 
 }  // namespace dyngen

@@ -34,10 +34,89 @@ typedef double {0}_doubles;
 #endif
 )";
 
+// {0} is the prefix, {1} the prefix in capitals, {2} the scalar.
+constexpr const char* kDoubleLanes = R"(/* A number of each of several samples. */
+#define {1}_LANES {1}_DOUBLES
+typedef {0}_doubles {0}_lanes;
+)";
+
+constexpr const char* kFloatLanes = R"(/* A number of each of several samples. */
+#ifdef {1}_VECTORS
+#define {1}_LANES (2 * {1}_DOUBLES)
+typedef float {0}_lanes __attribute__((vector_size(4 * {1}_LANES)));
+typedef float {0}_half __attribute__((vector_size(4 * {1}_DOUBLES)));
+#else
+#define {1}_LANES 1
+typedef float {0}_lanes;
+#endif
+)";
+
+constexpr const char* kLoadAndStore = R"(#ifdef {1}_VECTORS
+#define {1}_LANE(x, k) x[k]
+#else
+#define {1}_LANE(x, k) x
+#endif
+
+static {1}_INLINE {0}_lanes {0}_load(const {2} *from) {{
+  {0}_lanes x;
+  memcpy(&x, from, sizeof x);
+  return x;
+}}
+
+static {1}_INLINE void {0}_store({2} *to, {0}_lanes x) {{
+  memcpy(to, &x, sizeof x);
+}}
+
+/* Rows of the last samples, count of them: as many as there are lanes, copies of the last one, and
+ * back. */
+static {1}_NOINLINE void {0}_fill_up(size_t count, size_t n, size_t rows, const {2} *from, {2} *to) {{
+  size_t i, k;
+  for (i = 0; i < rows; ++i) {{
+    for (k = 0; k < {1}_LANES; ++k) to[i * {1}_LANES + k] = from[i * n + (k < count ? k : count - 1)];
+  }}
+}}
+
+static {1}_NOINLINE void {0}_take(size_t count, size_t n, size_t rows, const {2} *from, {2} *to) {{
+  size_t i, k;
+  for (i = 0; i < rows; ++i) {{
+    for (k = 0; k < count; ++k) to[i * n + k] = from[i * {1}_LANES + k];
+  }}
+}}
+)";
+
+constexpr const char* kSign = R"(
+/* -1, 0 or 1 */
+static {1}_INLINE {0}_lanes {0}_sign_lanes({0}_lanes x) {{
+#ifdef {1}_VECTORS
+  const {0}_lanes zero = {{0}};
+  const {0}_bits one = ({0}_bits)(zero + 1);
+  return ({0}_lanes)(one & ({0}_bits)(x > zero)) - ({0}_lanes)(one & ({0}_bits)(x < zero));
+#else
+  return ({2})((x > 0) - (x < 0));
+#endif
+}}
+)";
+
+constexpr const char* kSpread = R"(
+static {1}_INLINE {0}_lanes {0}_spread({2} x) {{
+  const {0}_lanes zero = {{0}};
+  return zero + x;
+}}
+)";
+
 }  // namespace
 
 std::string doubles_helper(const std::string& prefix) {
   return fmt::format(fmt::runtime(kDoubles), prefix, upper_case(prefix));
+}
+
+std::string lanes_helper(const EmitOptions& options, bool sign, bool spread) {
+  const bool single = options.scalar == Scalar::kFloat;
+  std::string text = std::string(single ? kFloatLanes : kDoubleLanes) + kLoadAndStore;
+  if (sign) text += kSign;
+  if (spread) text += kSpread;
+  return fmt::format(fmt::runtime(text), options.prefix, upper_case(options.prefix),
+                     single ? "float" : "double");
 }
 
 }  // namespace dyngen

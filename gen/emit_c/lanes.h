@@ -3,10 +3,19 @@
 
 #include <string>
 
+#include "gen/emit_c/emit_c.h"
+
 namespace dyngen {
 
 /// The type <prefix>_doubles, as many doubles as one register holds (GNU C vectors: 2, 4 or 8; one
 /// double with other compilers and on other processors), and how one of them is reached.
 std::string doubles_helper(const std::string& prefix);
+
+/// The type <prefix>_lanes, one number of each of <PREFIX>_LANES samples, and what the batch
+/// functions do with it: load, store, and the copies that fill up the last samples. Needs
+/// doubles_helper().
+/// @param sign    the sign of lanes too
+/// @param spread  what makes lanes of one number too
+std::string lanes_helper(const EmitOptions& options, bool sign, bool spread);
 
 }  // namespace dyngen

@@ -257,6 +257,7 @@ std::string emit_cpp(const CodeModel& code, const std::vector<RobotFunction>& fu
         options.prefix);
   }
   for (const RobotFunction& function : functions) {
+    if (!function.scalar) continue;
     text += function_text(function, code, options);
   }
   return text + fmt::format("}}  // namespace {}\n\n#endif /* {}_HPP */\n", options.prefix,

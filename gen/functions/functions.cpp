@@ -203,7 +203,7 @@ std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code)
 RobotFunction write_plain_function(const FunctionName& name, const CodeModel& code) {
   const FunctionSpec& spec = *name.spec;
   DYNGEN_ASSERT(name.link <= code.size(), name.text());
-  RobotFunction function{&spec, name.text(), Trace(&code.inputs)};
+  RobotFunction function{.spec = &spec, .name = name.text(), .trace = Trace(&code.inputs)};
   CodeModel named = code;
   named.links = with_named_parameters(function.trace, code);
   if (spec.of_link()) {
@@ -216,7 +216,9 @@ RobotFunction write_plain_function(const FunctionName& name, const CodeModel& co
 }
 
 RobotFunction write_function(const FunctionName& name, const CodeModel& code) {
-  return {name.spec, name.text(), optimised(write_plain_function(name, code).trace)};
+  return {.spec = name.spec,
+          .name = name.text(),
+          .trace = optimised(write_plain_function(name, code).trace)};
 }
 
 }  // namespace dyngen

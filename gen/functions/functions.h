@@ -81,11 +81,16 @@ struct Argument {
 /// outputs. The one definition of a function's signature.
 std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code);
 
+/// The same function over many samples, structure of arrays: the name with this ending.
+inline constexpr std::string_view kBatchEnding = "_batch";
+
 /// A function of one robot.
 struct RobotFunction {
   const FunctionSpec* spec = nullptr;
   std::string name;  ///< without the prefix: "fk_3"
   Trace trace;
+  bool scalar = true;  ///< is to be emitted for one sample
+  bool batch = false;  ///< is to be emitted for many samples
 };
 
 /// Writes a function of the robot as its algorithm does; what the outputs do not need is gone.

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <set>
+#include <map>
 #include <stdexcept>
 
 #include "gen/emit_cpp/emit_cpp.h"
@@ -25,17 +25,39 @@ RobotModel with_unknown_gravity(RobotModel model) {
   return model;
 }
 
+/// "id" of "id_batch".
+std::string_view without_batch(std::string_view name) {
+  if (name.ends_with(kBatchEnding)) name.remove_suffix(kBatchEnding.size());
+  return name;
+}
+
+/// A function, in which forms it is asked for.
+struct WantedFunction {
+  FunctionName name;
+  bool scalar = false;
+  bool batch = false;
+};
+
 /// In the catalogue's order; of one of them: the last link's, then links as they are numbered.
-std::vector<FunctionName> wanted_functions(const GeneratorOptions& options) {
-  std::vector<FunctionName> wanted;
+std::vector<WantedFunction> wanted_functions(const GeneratorOptions& options) {
+  std::vector<WantedFunction> wanted;
   for (const FunctionSpec& spec : function_catalogue()) {
-    std::set<int> links;
-    if (options.functions.empty()) links.insert(0);
+    std::map<int, WantedFunction> links;
+    if (options.functions.empty()) links[0].scalar = true;
     for (const std::string& text : options.functions) {
-      const FunctionName name = parse_function_name(text);
-      if (name.spec == &spec) links.insert(name.link);
+      if (text == kAllFunctions) {
+        links[0].scalar = links[0].batch = true;
+        continue;
+      }
+      const std::string_view base = without_batch(text);
+      const FunctionName name = parse_function_name(base);
+      if (name.spec != &spec) continue;
+      (base == text ? links[name.link].scalar : links[name.link].batch) = true;
     }
-    for (const int link : links) wanted.push_back({&spec, link});
+    for (auto& [link, function] : links) {
+      function.name = {&spec, link};
+      wanted.push_back(function);
+    }
   }
   return wanted;
 }
@@ -44,9 +66,10 @@ std::vector<FunctionName> wanted_functions(const GeneratorOptions& options) {
 
 void GeneratorOptions::validate() const {
   for (const std::string& name : functions) {
-    if (find_function(name) == nullptr) {
-      throw std::invalid_argument(fmt::format(
-          "--functions: unknown function '{}'; expected {} or all", name, catalogue_names()));
+    if (name != kAllFunctions && find_function(without_batch(name)) == nullptr) {
+      throw std::invalid_argument(
+          fmt::format("--functions: unknown function '{}'; expected {}, one of them with {}, or {}",
+                      name, catalogue_names(), kBatchEnding, kAllFunctions));
     }
   }
   if (!prefix.empty() && !is_c_identifier(prefix)) {
@@ -59,7 +82,7 @@ void GeneratorOptions::validate() const {
 void GeneratorOptions::validate(const RobotModel& model) const {
   validate();
   for (const std::string& text : functions) {
-    const FunctionName name = parse_function_name(text);
+    const FunctionName name = parse_function_name(without_batch(text));
     if (name.link <= model.size()) continue;
     throw std::invalid_argument(
         fmt::format("--functions: '{}': {} has no link {}; expected {}_1 to {}_{}", text,
@@ -83,8 +106,10 @@ CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& optio
 
 std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options) {
   std::vector<RobotFunction> functions;
-  for (const FunctionName& name : wanted_functions(options)) {
-    functions.push_back(write_function(name, code));
+  for (const WantedFunction& wanted : wanted_functions(options)) {
+    functions.push_back(write_function(wanted.name, code));
+    functions.back().scalar = wanted.scalar;
+    functions.back().batch = wanted.batch;
   }
   return functions;
 }
@@ -95,7 +120,7 @@ CText generate(const RobotModel& model, const GeneratorOptions& options) {
   EmitOptions emit;
   emit.prefix = options.prefix.empty() ? model.name : options.prefix;
   emit.scalar = options.scalar;
-  emit.trig = options.scalar == Scalar::kFloat ? Trig::kLibm : options.trig;
+  emit.trig = options.trig;
   emit.header_name = options.header_name.empty() ? emit.prefix + ".h" : options.header_name;
   const std::vector<RobotFunction> functions = write_functions(code, options);
   CText text = emit_c(code, functions, emit);

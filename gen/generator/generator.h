@@ -12,9 +12,13 @@
 
 namespace dyngen {
 
+inline constexpr const char* kAllFunctions = "all";
+
 /// What to generate of a robot.
 struct GeneratorOptions {
-  std::vector<std::string> functions;  ///< names of the catalogue; empty: all
+  /// Names of the catalogue, with kBatchEnding or without; empty: all for one sample;
+  /// kAllFunctions: all, for one sample and for many.
+  std::vector<std::string> functions;
   ParameterMode parameters = ParameterMode::kBaked;
   bool regroup = true;       ///< use base parameters
   bool gravity = false;      ///< gravity is an argument; the file's is ignored
@@ -22,9 +26,9 @@ struct GeneratorOptions {
   bool payload = false;      ///< the parameters of a body on the last link are an argument
   bool cpp_wrapper = false;  ///< a C++ header too
   Scalar scalar = Scalar::kDouble;
-  Trig trig = Trig::kInline;  ///< the C library's with kFloat, whatever this says
-  std::string prefix;         ///< empty: the robot's name
-  std::string header_name;    ///< what the source includes
+  Trig trig = Trig::kInline;
+  std::string prefix;       ///< empty: the robot's name
+  std::string header_name;  ///< what the source includes
 
   /// @throws std::invalid_argument  naming the option, what was found and what was expected
   void validate() const;
@@ -38,7 +42,7 @@ SymbolicRobot make_symbolic(const RobotModel& model, const GeneratorOptions& opt
 /// From the checked robot to what the algorithms see.
 CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& options);
 
-/// The functions of the options (all if none are named), in the catalogue's order.
+/// The functions of the options, in the catalogue's order.
 std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options);
 
 /// The whole road from the checked robot to C text. @throws std::invalid_argument  as

@@ -68,8 +68,6 @@ void check(ToolOptions& options) {
     throw std::invalid_argument("--cpp-wrapper needs -o FILE");
   }
   check_paths(options);
-  auto& functions = options.generator.functions;
-  if (functions.size() == 1 && functions[0] == "all") functions.clear();
   if (!options.output.empty()) {
     options.generator.header_name = std::filesystem::path(options.header()).filename().string();
   }
@@ -96,7 +94,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                  "C or C++ source to write; the header is written beside it")
       ->type_name("FILE");
   app.add_option("--functions", options.generator.functions,
-                 "Functions to write (default: all): " + catalogue_names())
+                 "Functions to write (default: all for one sample): " + catalogue_names() +
+                     "; with _batch: for many samples, structure of arrays; all: both")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAME,...");
@@ -109,10 +108,9 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--scalar", scalar, "Arithmetic of the code (default: double)")
       ->type_name("double|float");
   std::string trig;
-  app.add_option(
-         "--trig", trig,
-         "Sines and cosines: inline, all angles at once in the code (default; double only), "
-         "or libm, calls of the C library")
+  app.add_option("--trig", trig,
+                 "Sines and cosines: inline, all angles at once in the code (default), "
+                 "or libm, calls of the C library")
       ->type_name("inline|libm");
   app.add_option("--prefix", options.generator.prefix,
                  "Begins every external name (default: the robot's name)")
@@ -147,9 +145,6 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
         {{"baked", ParameterMode::kBaked}, {"runtime", ParameterMode::kRuntime}});
     options.generator.scalar = meaning<Scalar>(
         "--scalar", scalar, {{"double", Scalar::kDouble}, {"float", Scalar::kFloat}});
-    if (trig == "inline" && options.generator.scalar == Scalar::kFloat) {
-      throw std::invalid_argument("--trig: inline is for --scalar double only; expected libm");
-    }
     options.generator.trig = meaning<Trig>("--trig", trig.empty() ? "inline" : trig,
                                            {{"inline", Trig::kInline}, {"libm", Trig::kLibm}});
     options.generator.gravity =

@@ -19,7 +19,9 @@ std::string source() {
     arguments += fmt::format("x[{}], ", n - 1);
     cases += fmt::format("    case {0}: t_sincos{0}({1}sine, cosine); break;\n", n, arguments);
   }
-  return "#include <math.h>\n" + doubles_helper("t") + sincos_helper("t", sizes) +
+  EmitOptions options;
+  options.prefix = "t";
+  return "#include <math.h>\n" + doubles_helper("t") + sincos_helper(options, sizes, false) +
          "void sincos_of(int n, const double *x, double *s, double *c);\n"
          "void sincos_of(int n, const double *x, double *s, double *c) {\n"
          "  t_doubles sine[8], cosine[8];\n  int i;\n  switch (n) {\n" +
