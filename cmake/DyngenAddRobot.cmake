@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #[[
 dyngen_add_robot(<target> ROBOT file
-  [FUNCTIONS name ...]            # default: all
+  [FUNCTIONS name ...]            # default: all for one sample; name_batch: for many; all: both
   [PREFIX p]                      # begins every external name; default: <target>
   [PARAMETERS baked|runtime]      # default: baked
   [SCALAR double|float]           # default: double
@@ -58,7 +58,10 @@ function(dyngen_add_robot target)
   if(NOT EXISTS "${robot}" OR IS_DIRECTORY "${robot}")
     message(FATAL_ERROR "${where}: ROBOT: there is no file '${robot}'")
   endif()
-  _dyngen_check_choice(FUNCTIONS arg_FUNCTIONS all id id_rigid gravity coriolis friction)
+  set(functions id id_rigid gravity coriolis friction)
+  set(batch_functions ${functions})
+  list(TRANSFORM batch_functions APPEND _batch)
+  _dyngen_check_choice(FUNCTIONS arg_FUNCTIONS all ${functions} ${batch_functions})
   _dyngen_check_choice(PARAMETERS arg_PARAMETERS baked runtime)
   _dyngen_check_choice(SCALAR arg_SCALAR double float)
   _dyngen_check_choice(TRIG arg_TRIG inline libm)

@@ -101,7 +101,7 @@ std::string helpers(const CodeModel& code, const std::vector<RobotFunction>& fun
         "0));\n}}\n\n",
         options.scalar == Scalar::kDouble ? "double" : "float", options.prefix);
   }
-  if (lanes || !sizes.empty()) text += doubles_helper(options.prefix) + "\n";
+  if (lanes || !sizes.empty()) text += pack_helper(options) + "\n";
   if (lanes) text += lanes_helper(options, lanes_sign, spread) + "\n";
   if (lanes_trig || !sizes.empty()) text += sincos_helper(options, sizes, lanes_trig) + "\n";
   return text;

@@ -90,10 +90,10 @@ std::string kernel_statements(std::string_view statements, int registers,
     for (int i = 0; i < registers; ++i) {
       if (i == 1) line = line.substr(0, line.find(" /*"));
       std::string one = line;
-      if (one.starts_with("D ")) one = "const " + prefix + "_doubles" + one.substr(1);
+      if (one.starts_with("D ")) one = "const " + prefix + "_pack" + one.substr(1);
       if (one.starts_with("B ")) one = "const " + prefix + "_bits" + one.substr(1);
       one = replaced(one, "BITS", prefix + "_bits");
-      one = replaced(one, "LANES", prefix + "_doubles");
+      one = replaced(one, "LANES", prefix + "_pack");
       one = replaced(one, "@", registers == 1 ? "" : i == 0 ? "a" : "b");
       text += "  " + replaced(one, "#", std::to_string(i)) + "\n";
     }
@@ -101,15 +101,14 @@ std::string kernel_statements(std::string_view statements, int registers,
   return text;
 }
 
-// {0} is the prefix, {1} the prefix in capitals, {2} the number of registers, {3} its statements.
-constexpr const char* kKernel =
-    R"(static {1}_INLINE void {0}_sincos_kernel{2}(const {0}_doubles *angle, {0}_doubles *sine,
-                                          {0}_doubles *cosine) {{
+// {0} is the signature, {1} the statements.
+constexpr std::string_view kKernel =
+    R"({0}
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
   const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
-{3}}}
+{1}}}
 )";
 
 constexpr const char* kComment =
@@ -142,7 +141,11 @@ std::string kernels(const std::string& prefix, bool single) {
       statements += kernel_statements(part, registers, prefix);
     }
     if (registers == 2) text += "\n";
-    text += fmt::format(fmt::runtime(kKernel), prefix, upper, registers, statements);
+    const std::string signature = wrap_arguments(fmt::format(
+        "static {1}_INLINE void {0}_sincos_kernel{2}(const {0}_pack *angle, {0}_pack *sine, "
+        "{0}_pack *cosine) {{",
+        prefix, upper, registers));
+    text += fmt::format(kKernel, signature, statements);
   }
   return text + "#endif\n";
 }
@@ -163,7 +166,7 @@ std::string groups(std::size_t count, std::size_t lanes) {
 /// The calls of the kernels for one width of registers.
 std::string kernel_calls(const std::string& prefix, std::size_t count, std::size_t lanes) {
   const std::size_t registers = (count + lanes - 1) / lanes;
-  std::string text = wrap_list(fmt::format("    const {}_doubles v[{}] = {{", prefix, registers),
+  std::string text = wrap_list(fmt::format("    const {}_pack v[{}] = {{", prefix, registers),
                                groups(count, lanes) + "};");
   for (std::size_t v = 0; v < registers; v += 2) {
     const std::string offset = v == 0 ? "" : fmt::format(" + {}", v);
@@ -206,10 +209,10 @@ constexpr const char* kLoop =
 /// A register of floats is two of doubles.
 constexpr const char* kFloatLoop = R"(  for (i = 0; i < n; ++i) {{
     {0}_half half[2];
-    {0}_doubles angle[2], sine[2], cosine[2];
+    {0}_pack angle[2], sine[2], cosine[2];
     memcpy(half, x + i, sizeof half);
-    angle[0] = __builtin_convertvector(half[0], {0}_doubles);
-    angle[1] = __builtin_convertvector(half[1], {0}_doubles);
+    angle[0] = __builtin_convertvector(half[0], {0}_pack);
+    angle[1] = __builtin_convertvector(half[1], {0}_pack);
     {0}_sincos_kernel2(angle, sine, cosine);
     half[0] = __builtin_convertvector(sine[0], {0}_half);
     half[1] = __builtin_convertvector(sine[1], {0}_half);
@@ -230,26 +233,33 @@ std::string squares(std::size_t first, std::size_t count) {
 
 /// The function for so many angles: arguments in registers, no array that a wider load must wait
 /// for.
-std::string sincos_function(const std::string& prefix, std::size_t count) {
+std::string sincos_function(const EmitOptions& options, std::size_t count) {
+  const bool single = options.scalar == Scalar::kFloat;
+  const std::string& prefix = options.prefix;
+  const std::string type = single ? prefix + "_angle" : "double";
   const std::string upper = upper_case(prefix);
   std::string parameters, values;
   for (std::size_t i = 0; i < count; ++i) {
-    parameters += fmt::format("double x{}, ", i);
+    parameters += fmt::format("{} x{}, ", type, i);
     values += (i > 0 ? ", " : "") + fmt::format("x{}", i);
   }
   std::string text = wrap_arguments(
-      fmt::format("static {0}_NOINLINE void {1}_sincos{2}({3}{1}_doubles *s, {1}_doubles *c) {{\n",
-                  upper, prefix, count, parameters));
-  text += fmt::format("  const double x[{}] = {{{}}};\n  int i;\n", count, values);
+      fmt::format("static {0}_NOINLINE void {1}_sincos{2}({3}{1}_pack *s, {1}_pack *c) {{\n", upper,
+                  prefix, count, parameters));
+  text += fmt::format("  const {} x[{}] = {{{}}};\n  int i;\n", type, count, values);
   text += fmt::format("#ifdef {}_INLINE_TRIG\n  if ({} < 1e10) {{\n", upper, squares(0, count));
-  text += fmt::format("#if {}_DOUBLES == 8\n{}", upper, kernel_calls(prefix, count, 8));
-  text += fmt::format("#elif {}_DOUBLES == 4\n{}", upper, kernel_calls(prefix, count, 4));
+  text += fmt::format("#if {}_PACK == 8\n{}", upper, kernel_calls(prefix, count, 8));
+  text += fmt::format("#elif {}_PACK == 4\n{}", upper, kernel_calls(prefix, count, 4));
   text +=
       fmt::format("#else\n{}#endif\n    return;\n  }}\n#endif\n", kernel_calls(prefix, count, 2));
+  const auto call = [&](const char* function) {
+    return single ? fmt::format("({})", type) + function + "f((float)x[i])"
+                  : function + std::string("(x[i])");
+  };
   return text + fmt::format(
-                    "  for (i = 0; i < {0}; ++i) {{\n    {1}_AT(s, i) = sin(x[i]);\n"
-                    "    {1}_AT(c, i) = cos(x[i]);\n  }}\n}}\n",
-                    count, upper);
+                    "  for (i = 0; i < {0}; ++i) {{\n    {1}_AT(s, i) = {2};\n"
+                    "    {1}_AT(c, i) = {3};\n  }}\n}}\n",
+                    count, upper, call("sin"), call("cos"));
 }
 
 }  // namespace
@@ -286,14 +296,14 @@ std::vector<std::size_t> sincos_sizes(std::size_t angles) {
 
 std::string sincos_calls(const std::vector<std::string>& angles, const EmitOptions& options) {
   const std::string& prefix = options.prefix;
-  const std::string cast = options.scalar == Scalar::kFloat ? "(double)" : "";
+  const std::string cast = options.scalar == Scalar::kFloat ? "(" + prefix + "_angle)" : "";
   std::string declarations, calls;
   std::size_t first = 0;
   int call = 1;
   for (const std::size_t size : sincos_sizes(angles.size())) {
     declarations +=
-        fmt::format("  {0}_doubles sine{1}[{2}], cosine{1}[{2}];\n", prefix, call,
-                    fmt::format("({0} + {1}_DOUBLES - 1) / {1}_DOUBLES", size, upper_case(prefix)));
+        fmt::format("  {0}_pack sine{1}[{2}], cosine{1}[{2}];\n", prefix, call,
+                    fmt::format("({0} + {1}_PACK - 1) / {1}_PACK", size, upper_case(prefix)));
     std::string list;
     for (std::size_t i = first; i < first + size; ++i) list += cast + angles[i] + ", ";
     calls += wrap_arguments(
@@ -338,7 +348,7 @@ std::string sincos_helper(const EmitOptions& options, const std::set<std::size_t
   std::string text;
   if (options.trig == Trig::kInline) {
     text += kernels(prefix, single);
-    for (const std::size_t size : sizes) text += "\n" + sincos_function(prefix, size);
+    for (const std::size_t size : sizes) text += "\n" + sincos_function(options, size);
   }
   if (!lanes) return text;
   const std::string kernel = fmt::format(fmt::runtime(single ? kFloatLoop : kLoop), prefix);

@@ -44,7 +44,7 @@ std::string sine_in_lanes(const SineOf& sine);
 
 /// The static functions <prefix>_sincos<n>: sines and cosines of n angles at once, several in one
 /// register, without a branch that depends on one of them; <prefix>_sincos_lanes: of n angles of
-/// several samples. Needs doubles_helper(), the second lanes_helper() too.
+/// several samples. Needs pack_helper(), the second lanes_helper() too.
 ///
 /// Accurate to 1 ulp for |x| < 1e5; what is larger or not finite, compilers without GNU C vectors,
 /// other processors than x86-64 and AArch64, and -ffast-math (which would undo the reduction) go to

@@ -8,43 +8,43 @@
 namespace dyngen {
 namespace {
 
-// {0} is the prefix, {1} the prefix in capitals.
-constexpr const char* kDoubles =
-    R"(/* As many doubles as one register holds, where the compiler has GNU C vectors; else one. */
+// {0} is the prefix, {1} the prefix in capitals, {2} the scalar.
+constexpr const char* kPack =
+    R"(/* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
 #if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
 #define {1}_VECTORS
 #if defined(__AVX512F__)
-#define {1}_DOUBLES 8
+#define {1}_PACK 8
 #elif defined(__AVX2__)
-#define {1}_DOUBLES 4
+#define {1}_PACK 4
 #else
-#define {1}_DOUBLES 2
+#define {1}_PACK 2
 #endif
 #define {1}_NOINLINE __attribute__((noinline))
 #define {1}_INLINE inline __attribute__((always_inline))
-#define {1}_AT(x, i) x[(i) / {1}_DOUBLES][(i) % {1}_DOUBLES]
-typedef double {0}_doubles __attribute__((vector_size(8 * {1}_DOUBLES)));
-typedef unsigned long long {0}_bits __attribute__((vector_size(8 * {1}_DOUBLES)));
+#define {1}_AT(x, i) x[(i) / {1}_PACK][(i) % {1}_PACK]
+typedef double {0}_pack __attribute__((vector_size(8 * {1}_PACK)));
+typedef unsigned long long {0}_bits __attribute__((vector_size(8 * {1}_PACK)));
 #else
-#define {1}_DOUBLES 1
+#define {1}_PACK 1
 #define {1}_NOINLINE
 #define {1}_INLINE inline
 #define {1}_AT(x, i) x[i]
-typedef double {0}_doubles;
+typedef {2} {0}_pack;
 #endif
 )";
 
 // {0} is the prefix, {1} the prefix in capitals, {2} the scalar.
 constexpr const char* kDoubleLanes = R"(/* A number of each of several samples. */
-#define {1}_LANES {1}_DOUBLES
-typedef {0}_doubles {0}_lanes;
+#define {1}_LANES {1}_PACK
+typedef {0}_pack {0}_lanes;
 )";
 
 constexpr const char* kFloatLanes = R"(/* A number of each of several samples. */
 #ifdef {1}_VECTORS
-#define {1}_LANES (2 * {1}_DOUBLES)
+#define {1}_LANES (2 * {1}_PACK)
 typedef float {0}_lanes __attribute__((vector_size(4 * {1}_LANES)));
-typedef float {0}_half __attribute__((vector_size(4 * {1}_DOUBLES)));
+typedef float {0}_half __attribute__((vector_size(4 * {1}_PACK)));
 #else
 #define {1}_LANES 1
 typedef float {0}_lanes;
@@ -106,8 +106,17 @@ static {1}_INLINE {0}_lanes {0}_spread({2} x) {{
 
 }  // namespace
 
-std::string doubles_helper(const std::string& prefix) {
-  return fmt::format(fmt::runtime(kDoubles), prefix, upper_case(prefix));
+std::string pack_helper(const EmitOptions& options) {
+  const std::string upper = upper_case(options.prefix);
+  const bool single = options.scalar == Scalar::kFloat;
+  std::string text =
+      fmt::format(fmt::runtime(kPack), options.prefix, upper, single ? "float" : "double");
+  if (single) {
+    text += fmt::format(
+        "#ifdef {1}_VECTORS\ntypedef double {0}_angle;\n#else\ntypedef float {0}_angle;\n#endif\n",
+        options.prefix, upper);
+  }
+  return text;
 }
 
 std::string lanes_helper(const EmitOptions& options, bool sign, bool spread) {

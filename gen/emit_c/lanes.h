@@ -7,13 +7,13 @@
 
 namespace dyngen {
 
-/// The type <prefix>_doubles, as many doubles as one register holds (GNU C vectors: 2, 4 or 8; one
-/// double with other compilers and on other processors), and how one of them is reached.
-std::string doubles_helper(const std::string& prefix);
+/// The type <prefix>_pack, as many doubles as one register holds (GNU C vectors: 2, 4 or 8; one
+/// number with other compilers and on other processors), and how one of them is reached.
+std::string pack_helper(const EmitOptions& options);
 
 /// The type <prefix>_lanes, one number of each of <PREFIX>_LANES samples, and what the batch
 /// functions do with it: load, store, and the copies that fill up the last samples. Needs
-/// doubles_helper().
+/// pack_helper().
 /// @param sign    the sign of lanes too
 /// @param spread  what makes lanes of one number too
 std::string lanes_helper(const EmitOptions& options, bool sign, bool spread);

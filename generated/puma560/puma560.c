@@ -138,83 +138,142 @@ static double puma560_sign(double x) {
   return (double)((x > 0) - (x < 0));
 }
 
-/* As many doubles as one register holds, where the compiler has GNU C vectors; else one. */
+/* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
 #if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
 #define PUMA560_VECTORS
 #if defined(__AVX512F__)
-#define PUMA560_DOUBLES 8
+#define PUMA560_PACK 8
 #elif defined(__AVX2__)
-#define PUMA560_DOUBLES 4
+#define PUMA560_PACK 4
 #else
-#define PUMA560_DOUBLES 2
+#define PUMA560_PACK 2
 #endif
 #define PUMA560_NOINLINE __attribute__((noinline))
 #define PUMA560_INLINE inline __attribute__((always_inline))
-#define PUMA560_AT(x, i) x[(i) / PUMA560_DOUBLES][(i) % PUMA560_DOUBLES]
-typedef double puma560_doubles __attribute__((vector_size(8 * PUMA560_DOUBLES)));
-typedef unsigned long long puma560_bits __attribute__((vector_size(8 * PUMA560_DOUBLES)));
+#define PUMA560_AT(x, i) x[(i) / PUMA560_PACK][(i) % PUMA560_PACK]
+typedef double puma560_pack __attribute__((vector_size(8 * PUMA560_PACK)));
+typedef unsigned long long puma560_bits __attribute__((vector_size(8 * PUMA560_PACK)));
 #else
-#define PUMA560_DOUBLES 1
+#define PUMA560_PACK 1
 #define PUMA560_NOINLINE
 #define PUMA560_INLINE inline
 #define PUMA560_AT(x, i) x[i]
-typedef double puma560_doubles;
+typedef double puma560_pack;
 #endif
 
-/* Sines and cosines of a register of angles, without a branch: within 1 ulp for |x| < 1e5, rounding
- * to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980), coefficients of fdlibm (Sun
- * Microsystems 1993).  -ffast-math would undo the reduction: the C library is called then. */
+/* Sines and cosines of a register of angles, or of two at once, without a branch: within 1 ulp for
+ * |x| < 1e5, rounding to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980),
+ * coefficients of fdlibm (Sun Microsystems 1993).  -ffast-math would undo the reduction: the C
+ * library is called then. */
 #if defined(PUMA560_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
 #define PUMA560_INLINE_TRIG
-static PUMA560_INLINE void puma560_sincos_kernel(const puma560_doubles *angle, puma560_doubles *sine,
-    puma560_doubles *cosine) {
+static PUMA560_INLINE void puma560_sincos_kernel1(const puma560_pack *angle, puma560_pack *sine,
+                                                  puma560_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
   const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
-  const puma560_doubles x = *angle;
-  const puma560_doubles sum = x * 0.6366197723675814 + whole;
-  const puma560_doubles k = sum - whole;                 /* right angles in x */
-  const puma560_doubles r0 = x - k * 1.5707963267341256; /* exact */
-  const puma560_doubles p = k * 6.077100506303966e-11;   /* exact */
-  const puma560_doubles r = r0 - p;
-  const puma560_doubles t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
-  const puma560_doubles z = r * r;
-  const puma560_doubles w = z * z;
-  const puma560_doubles h = 0.5 * z;
-  const puma560_doubles u = 1.0 - h;
-  const puma560_doubles s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
-  const puma560_doubles s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
-  const puma560_doubles s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
-  const puma560_doubles s = r + (t * u + z * r * (s1 + w * (s2 + w * s3)));
-  const puma560_doubles c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
-  const puma560_doubles c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
-  const puma560_doubles c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
-  const puma560_doubles c = u + (((1.0 - u) - h) - r * t + w * (c1 + w * (c2 + w * c3)));
-  const puma560_bits i = (puma560_bits)sum; /* its last bits are those of k */
+  const puma560_pack x = angle[0];
+  const puma560_pack sum = x * 0.6366197723675814 + whole;
+  const puma560_pack k = sum - whole; /* right angles in x */
+  const puma560_pack r0 = x - k * 1.5707963267341256; /* exact */
+  const puma560_pack p = k * 6.077100506303966e-11; /* exact */
+  const puma560_pack r = r0 - p;
+  const puma560_pack z = r * r;
+  const puma560_pack w = z * z;
+  const puma560_pack s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const puma560_pack s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const puma560_pack c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
+  const puma560_pack c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
+  const puma560_pack s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const puma560_pack c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
+  const puma560_pack t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const puma560_pack h = 0.5 * z;
+  const puma560_pack u = 1.0 - h;
+  const puma560_pack sp = s1 + w * (s2 + w * s3);
+  const puma560_pack cp = c1 + w * (c2 + w * c3);
+  const puma560_pack s = r + (t * u + z * r * sp);
+  const puma560_pack c = u + (((1.0 - u) - h) - r * t + w * cp);
+  const puma560_bits i = (puma560_bits)sum;
   const puma560_bits swap = ((puma560_bits)s ^ (puma560_bits)c) & -(i & 1);
-  *sine = (puma560_doubles)((puma560_bits)s ^ swap ^ ((i & 2) << 62));
-  *cosine = (puma560_doubles)((puma560_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+  sine[0] = (puma560_pack)((puma560_bits)s ^ swap ^ ((i & 2) << 62));
+  cosine[0] = (puma560_pack)((puma560_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+}
+
+static PUMA560_INLINE void puma560_sincos_kernel2(const puma560_pack *angle, puma560_pack *sine,
+                                                  puma560_pack *cosine) {
+#ifdef __clang__
+#pragma clang fp reassociate(off)
+#endif
+  const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
+  const puma560_pack xa = angle[0];
+  const puma560_pack xb = angle[1];
+  const puma560_pack suma = xa * 0.6366197723675814 + whole;
+  const puma560_pack sumb = xb * 0.6366197723675814 + whole;
+  const puma560_pack ka = suma - whole; /* right angles in x */
+  const puma560_pack kb = sumb - whole;
+  const puma560_pack r0a = xa - ka * 1.5707963267341256; /* exact */
+  const puma560_pack r0b = xb - kb * 1.5707963267341256;
+  const puma560_pack pa = ka * 6.077100506303966e-11; /* exact */
+  const puma560_pack pb = kb * 6.077100506303966e-11;
+  const puma560_pack ra = r0a - pa;
+  const puma560_pack rb = r0b - pb;
+  const puma560_pack za = ra * ra;
+  const puma560_pack zb = rb * rb;
+  const puma560_pack wa = za * za;
+  const puma560_pack wb = zb * zb;
+  const puma560_pack s3a = za * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const puma560_pack s3b = zb * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const puma560_pack s2a = za * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const puma560_pack s2b = zb * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const puma560_pack c3a = 2.08757232129817482790e-09 - za * 1.13596475577881948265e-11;
+  const puma560_pack c3b = 2.08757232129817482790e-09 - zb * 1.13596475577881948265e-11;
+  const puma560_pack c2a = 2.48015872894767294178e-05 - za * 2.75573143513906633035e-07;
+  const puma560_pack c2b = 2.48015872894767294178e-05 - zb * 2.75573143513906633035e-07;
+  const puma560_pack s1a = za * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const puma560_pack s1b = zb * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const puma560_pack c1a = 4.16666666666666019037e-02 - za * 1.38888888888741095749e-03;
+  const puma560_pack c1b = 4.16666666666666019037e-02 - zb * 1.38888888888741095749e-03;
+  const puma560_pack ta = ((r0a - ra) - pa) - ka * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const puma560_pack tb = ((r0b - rb) - pb) - kb * 2.0222662487959506e-21;
+  const puma560_pack ha = 0.5 * za;
+  const puma560_pack hb = 0.5 * zb;
+  const puma560_pack ua = 1.0 - ha;
+  const puma560_pack ub = 1.0 - hb;
+  const puma560_pack spa = s1a + wa * (s2a + wa * s3a);
+  const puma560_pack spb = s1b + wb * (s2b + wb * s3b);
+  const puma560_pack cpa = c1a + wa * (c2a + wa * c3a);
+  const puma560_pack cpb = c1b + wb * (c2b + wb * c3b);
+  const puma560_pack sa = ra + (ta * ua + za * ra * spa);
+  const puma560_pack sb = rb + (tb * ub + zb * rb * spb);
+  const puma560_pack ca = ua + (((1.0 - ua) - ha) - ra * ta + wa * cpa);
+  const puma560_pack cb = ub + (((1.0 - ub) - hb) - rb * tb + wb * cpb);
+  const puma560_bits ia = (puma560_bits)suma;
+  const puma560_bits ib = (puma560_bits)sumb;
+  const puma560_bits swapa = ((puma560_bits)sa ^ (puma560_bits)ca) & -(ia & 1);
+  const puma560_bits swapb = ((puma560_bits)sb ^ (puma560_bits)cb) & -(ib & 1);
+  sine[0] = (puma560_pack)((puma560_bits)sa ^ swapa ^ ((ia & 2) << 62));
+  sine[1] = (puma560_pack)((puma560_bits)sb ^ swapb ^ ((ib & 2) << 62));
+  cosine[0] = (puma560_pack)((puma560_bits)ca ^ swapa ^ (((ia + 1) & 2) << 62));
+  cosine[1] = (puma560_pack)((puma560_bits)cb ^ swapb ^ (((ib + 1) & 2) << 62));
 }
 #endif
 
 static PUMA560_NOINLINE void puma560_sincos4(double x0, double x1, double x2, double x3,
-                                             puma560_doubles *s, puma560_doubles *c) {
+                                             puma560_pack *s, puma560_pack *c) {
   const double x[4] = {x0, x1, x2, x3};
   int i;
 #ifdef PUMA560_INLINE_TRIG
   if ((x0 * x0 + x1 * x1) + (x2 * x2 + x3 * x3) < 1e10) {
-#if PUMA560_DOUBLES == 8
-    const puma560_doubles v0 = {x0, x1, x2, x3, 0.0, 0.0, 0.0, 0.0};
-    puma560_sincos_kernel(&v0, s, c);
-#elif PUMA560_DOUBLES == 4
-    const puma560_doubles v0 = {x0, x1, x2, x3};
-    puma560_sincos_kernel(&v0, s, c);
+#if PUMA560_PACK == 8
+    const puma560_pack v[1] = {{x0, x1, x2, x3, 0.0, 0.0, 0.0, 0.0}};
+    puma560_sincos_kernel1(v, s, c);
+#elif PUMA560_PACK == 4
+    const puma560_pack v[1] = {{x0, x1, x2, x3}};
+    puma560_sincos_kernel1(v, s, c);
 #else
-    const puma560_doubles v0 = {x0, x1};
-    const puma560_doubles v1 = {x2, x3};
-    puma560_sincos_kernel(&v0, s, c);
-    puma560_sincos_kernel(&v1, s + 1, c + 1);
+    const puma560_pack v[2] = {{x0, x1}, {x2, x3}};
+    puma560_sincos_kernel2(v, s, c);
 #endif
     return;
   }
@@ -226,26 +285,21 @@ static PUMA560_NOINLINE void puma560_sincos4(double x0, double x1, double x2, do
 }
 
 static PUMA560_NOINLINE void puma560_sincos6(double x0, double x1, double x2, double x3, double x4,
-                                             double x5, puma560_doubles *s, puma560_doubles *c) {
+                                             double x5, puma560_pack *s, puma560_pack *c) {
   const double x[6] = {x0, x1, x2, x3, x4, x5};
   int i;
 #ifdef PUMA560_INLINE_TRIG
   if (((x0 * x0 + x1 * x1) + x2 * x2) + ((x3 * x3 + x4 * x4) + x5 * x5) < 1e10) {
-#if PUMA560_DOUBLES == 8
-    const puma560_doubles v0 = {x0, x1, x2, x3, x4, x5, 0.0, 0.0};
-    puma560_sincos_kernel(&v0, s, c);
-#elif PUMA560_DOUBLES == 4
-    const puma560_doubles v0 = {x0, x1, x2, x3};
-    const puma560_doubles v1 = {x4, x5, 0.0, 0.0};
-    puma560_sincos_kernel(&v0, s, c);
-    puma560_sincos_kernel(&v1, s + 1, c + 1);
+#if PUMA560_PACK == 8
+    const puma560_pack v[1] = {{x0, x1, x2, x3, x4, x5, 0.0, 0.0}};
+    puma560_sincos_kernel1(v, s, c);
+#elif PUMA560_PACK == 4
+    const puma560_pack v[2] = {{x0, x1, x2, x3}, {x4, x5, 0.0, 0.0}};
+    puma560_sincos_kernel2(v, s, c);
 #else
-    const puma560_doubles v0 = {x0, x1};
-    const puma560_doubles v1 = {x2, x3};
-    const puma560_doubles v2 = {x4, x5};
-    puma560_sincos_kernel(&v0, s, c);
-    puma560_sincos_kernel(&v1, s + 1, c + 1);
-    puma560_sincos_kernel(&v2, s + 2, c + 2);
+    const puma560_pack v[3] = {{x0, x1}, {x2, x3}, {x4, x5}};
+    puma560_sincos_kernel2(v, s, c);
+    puma560_sincos_kernel1(v + 2, s + 2, c + 2);
 #endif
     return;
   }
@@ -310,7 +364,7 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
-  puma560_doubles sine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES], cosine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES];
+  puma560_pack sine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK], cosine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK];
   puma560_sincos6(q[1], q[2], Q2_3, q[3], q[4], q[5], sine1, cosine1);
   const double S2 = PUMA560_AT(sine1, 0);
   const double C2 = PUMA560_AT(cosine1, 0);
@@ -545,7 +599,7 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
-  puma560_doubles sine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES], cosine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES];
+  puma560_pack sine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK], cosine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK];
   puma560_sincos6(q[1], q[2], Q2_3, q[3], q[4], q[5], sine1, cosine1);
   const double S2 = PUMA560_AT(sine1, 0);
   const double C2 = PUMA560_AT(cosine1, 0);
@@ -750,7 +804,7 @@ void puma560_gravity(const double *q, double *tau) {
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
-  puma560_doubles sine1[(4 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES], cosine1[(4 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES];
+  puma560_pack sine1[(4 + PUMA560_PACK - 1) / PUMA560_PACK], cosine1[(4 + PUMA560_PACK - 1) / PUMA560_PACK];
   puma560_sincos4(q[1], Q2_3, q[3], q[4], sine1, cosine1);
   const double S2 = PUMA560_AT(sine1, 0);
   const double C2 = PUMA560_AT(cosine1, 0);
@@ -827,7 +881,7 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
-  puma560_doubles sine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES], cosine1[(6 + PUMA560_DOUBLES - 1) / PUMA560_DOUBLES];
+  puma560_pack sine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK], cosine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK];
   puma560_sincos6(q[1], q[2], Q2_3, q[3], q[4], q[5], sine1, cosine1);
   const double S2 = PUMA560_AT(sine1, 0);
   const double C2 = PUMA560_AT(cosine1, 0);

@@ -65,88 +65,146 @@ const double sarcos_grla_chi_values[] = {
     0.3668, /* MY7 */
 };
 
-/* As many doubles as one register holds, where the compiler has GNU C vectors; else one. */
+/* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
 #if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
 #define SARCOS_GRLA_VECTORS
 #if defined(__AVX512F__)
-#define SARCOS_GRLA_DOUBLES 8
+#define SARCOS_GRLA_PACK 8
 #elif defined(__AVX2__)
-#define SARCOS_GRLA_DOUBLES 4
+#define SARCOS_GRLA_PACK 4
 #else
-#define SARCOS_GRLA_DOUBLES 2
+#define SARCOS_GRLA_PACK 2
 #endif
 #define SARCOS_GRLA_NOINLINE __attribute__((noinline))
 #define SARCOS_GRLA_INLINE inline __attribute__((always_inline))
-#define SARCOS_GRLA_AT(x, i) x[(i) / SARCOS_GRLA_DOUBLES][(i) % SARCOS_GRLA_DOUBLES]
-typedef double sarcos_grla_doubles __attribute__((vector_size(8 * SARCOS_GRLA_DOUBLES)));
-typedef unsigned long long sarcos_grla_bits __attribute__((vector_size(8 * SARCOS_GRLA_DOUBLES)));
+#define SARCOS_GRLA_AT(x, i) x[(i) / SARCOS_GRLA_PACK][(i) % SARCOS_GRLA_PACK]
+typedef double sarcos_grla_pack __attribute__((vector_size(8 * SARCOS_GRLA_PACK)));
+typedef unsigned long long sarcos_grla_bits __attribute__((vector_size(8 * SARCOS_GRLA_PACK)));
 #else
-#define SARCOS_GRLA_DOUBLES 1
+#define SARCOS_GRLA_PACK 1
 #define SARCOS_GRLA_NOINLINE
 #define SARCOS_GRLA_INLINE inline
 #define SARCOS_GRLA_AT(x, i) x[i]
-typedef double sarcos_grla_doubles;
+typedef double sarcos_grla_pack;
 #endif
 
-/* Sines and cosines of a register of angles, without a branch: within 1 ulp for |x| < 1e5, rounding
- * to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980), coefficients of fdlibm (Sun
- * Microsystems 1993).  -ffast-math would undo the reduction: the C library is called then. */
+/* Sines and cosines of a register of angles, or of two at once, without a branch: within 1 ulp for
+ * |x| < 1e5, rounding to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980),
+ * coefficients of fdlibm (Sun Microsystems 1993).  -ffast-math would undo the reduction: the C
+ * library is called then. */
 #if defined(SARCOS_GRLA_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
 #define SARCOS_GRLA_INLINE_TRIG
-static SARCOS_GRLA_INLINE void sarcos_grla_sincos_kernel(const sarcos_grla_doubles *angle, sarcos_grla_doubles *sine,
-    sarcos_grla_doubles *cosine) {
+static SARCOS_GRLA_INLINE void sarcos_grla_sincos_kernel1(const sarcos_grla_pack *angle,
+                                                          sarcos_grla_pack *sine,
+                                                          sarcos_grla_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
   const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
-  const sarcos_grla_doubles x = *angle;
-  const sarcos_grla_doubles sum = x * 0.6366197723675814 + whole;
-  const sarcos_grla_doubles k = sum - whole;                 /* right angles in x */
-  const sarcos_grla_doubles r0 = x - k * 1.5707963267341256; /* exact */
-  const sarcos_grla_doubles p = k * 6.077100506303966e-11;   /* exact */
-  const sarcos_grla_doubles r = r0 - p;
-  const sarcos_grla_doubles t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
-  const sarcos_grla_doubles z = r * r;
-  const sarcos_grla_doubles w = z * z;
-  const sarcos_grla_doubles h = 0.5 * z;
-  const sarcos_grla_doubles u = 1.0 - h;
-  const sarcos_grla_doubles s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
-  const sarcos_grla_doubles s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
-  const sarcos_grla_doubles s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
-  const sarcos_grla_doubles s = r + (t * u + z * r * (s1 + w * (s2 + w * s3)));
-  const sarcos_grla_doubles c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
-  const sarcos_grla_doubles c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
-  const sarcos_grla_doubles c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
-  const sarcos_grla_doubles c = u + (((1.0 - u) - h) - r * t + w * (c1 + w * (c2 + w * c3)));
-  const sarcos_grla_bits i = (sarcos_grla_bits)sum; /* its last bits are those of k */
+  const sarcos_grla_pack x = angle[0];
+  const sarcos_grla_pack sum = x * 0.6366197723675814 + whole;
+  const sarcos_grla_pack k = sum - whole; /* right angles in x */
+  const sarcos_grla_pack r0 = x - k * 1.5707963267341256; /* exact */
+  const sarcos_grla_pack p = k * 6.077100506303966e-11; /* exact */
+  const sarcos_grla_pack r = r0 - p;
+  const sarcos_grla_pack z = r * r;
+  const sarcos_grla_pack w = z * z;
+  const sarcos_grla_pack s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const sarcos_grla_pack s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const sarcos_grla_pack c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
+  const sarcos_grla_pack c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
+  const sarcos_grla_pack s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const sarcos_grla_pack c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
+  const sarcos_grla_pack t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const sarcos_grla_pack h = 0.5 * z;
+  const sarcos_grla_pack u = 1.0 - h;
+  const sarcos_grla_pack sp = s1 + w * (s2 + w * s3);
+  const sarcos_grla_pack cp = c1 + w * (c2 + w * c3);
+  const sarcos_grla_pack s = r + (t * u + z * r * sp);
+  const sarcos_grla_pack c = u + (((1.0 - u) - h) - r * t + w * cp);
+  const sarcos_grla_bits i = (sarcos_grla_bits)sum;
   const sarcos_grla_bits swap = ((sarcos_grla_bits)s ^ (sarcos_grla_bits)c) & -(i & 1);
-  *sine = (sarcos_grla_doubles)((sarcos_grla_bits)s ^ swap ^ ((i & 2) << 62));
-  *cosine = (sarcos_grla_doubles)((sarcos_grla_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+  sine[0] = (sarcos_grla_pack)((sarcos_grla_bits)s ^ swap ^ ((i & 2) << 62));
+  cosine[0] = (sarcos_grla_pack)((sarcos_grla_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+}
+
+static SARCOS_GRLA_INLINE void sarcos_grla_sincos_kernel2(const sarcos_grla_pack *angle,
+                                                          sarcos_grla_pack *sine,
+                                                          sarcos_grla_pack *cosine) {
+#ifdef __clang__
+#pragma clang fp reassociate(off)
+#endif
+  const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
+  const sarcos_grla_pack xa = angle[0];
+  const sarcos_grla_pack xb = angle[1];
+  const sarcos_grla_pack suma = xa * 0.6366197723675814 + whole;
+  const sarcos_grla_pack sumb = xb * 0.6366197723675814 + whole;
+  const sarcos_grla_pack ka = suma - whole; /* right angles in x */
+  const sarcos_grla_pack kb = sumb - whole;
+  const sarcos_grla_pack r0a = xa - ka * 1.5707963267341256; /* exact */
+  const sarcos_grla_pack r0b = xb - kb * 1.5707963267341256;
+  const sarcos_grla_pack pa = ka * 6.077100506303966e-11; /* exact */
+  const sarcos_grla_pack pb = kb * 6.077100506303966e-11;
+  const sarcos_grla_pack ra = r0a - pa;
+  const sarcos_grla_pack rb = r0b - pb;
+  const sarcos_grla_pack za = ra * ra;
+  const sarcos_grla_pack zb = rb * rb;
+  const sarcos_grla_pack wa = za * za;
+  const sarcos_grla_pack wb = zb * zb;
+  const sarcos_grla_pack s3a = za * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const sarcos_grla_pack s3b = zb * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const sarcos_grla_pack s2a = za * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const sarcos_grla_pack s2b = zb * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const sarcos_grla_pack c3a = 2.08757232129817482790e-09 - za * 1.13596475577881948265e-11;
+  const sarcos_grla_pack c3b = 2.08757232129817482790e-09 - zb * 1.13596475577881948265e-11;
+  const sarcos_grla_pack c2a = 2.48015872894767294178e-05 - za * 2.75573143513906633035e-07;
+  const sarcos_grla_pack c2b = 2.48015872894767294178e-05 - zb * 2.75573143513906633035e-07;
+  const sarcos_grla_pack s1a = za * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const sarcos_grla_pack s1b = zb * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const sarcos_grla_pack c1a = 4.16666666666666019037e-02 - za * 1.38888888888741095749e-03;
+  const sarcos_grla_pack c1b = 4.16666666666666019037e-02 - zb * 1.38888888888741095749e-03;
+  const sarcos_grla_pack ta = ((r0a - ra) - pa) - ka * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const sarcos_grla_pack tb = ((r0b - rb) - pb) - kb * 2.0222662487959506e-21;
+  const sarcos_grla_pack ha = 0.5 * za;
+  const sarcos_grla_pack hb = 0.5 * zb;
+  const sarcos_grla_pack ua = 1.0 - ha;
+  const sarcos_grla_pack ub = 1.0 - hb;
+  const sarcos_grla_pack spa = s1a + wa * (s2a + wa * s3a);
+  const sarcos_grla_pack spb = s1b + wb * (s2b + wb * s3b);
+  const sarcos_grla_pack cpa = c1a + wa * (c2a + wa * c3a);
+  const sarcos_grla_pack cpb = c1b + wb * (c2b + wb * c3b);
+  const sarcos_grla_pack sa = ra + (ta * ua + za * ra * spa);
+  const sarcos_grla_pack sb = rb + (tb * ub + zb * rb * spb);
+  const sarcos_grla_pack ca = ua + (((1.0 - ua) - ha) - ra * ta + wa * cpa);
+  const sarcos_grla_pack cb = ub + (((1.0 - ub) - hb) - rb * tb + wb * cpb);
+  const sarcos_grla_bits ia = (sarcos_grla_bits)suma;
+  const sarcos_grla_bits ib = (sarcos_grla_bits)sumb;
+  const sarcos_grla_bits swapa = ((sarcos_grla_bits)sa ^ (sarcos_grla_bits)ca) & -(ia & 1);
+  const sarcos_grla_bits swapb = ((sarcos_grla_bits)sb ^ (sarcos_grla_bits)cb) & -(ib & 1);
+  sine[0] = (sarcos_grla_pack)((sarcos_grla_bits)sa ^ swapa ^ ((ia & 2) << 62));
+  sine[1] = (sarcos_grla_pack)((sarcos_grla_bits)sb ^ swapb ^ ((ib & 2) << 62));
+  cosine[0] = (sarcos_grla_pack)((sarcos_grla_bits)ca ^ swapa ^ (((ia + 1) & 2) << 62));
+  cosine[1] = (sarcos_grla_pack)((sarcos_grla_bits)cb ^ swapb ^ (((ib + 1) & 2) << 62));
 }
 #endif
 
 static SARCOS_GRLA_NOINLINE void sarcos_grla_sincos6(double x0, double x1, double x2, double x3,
-                                                     double x4, double x5, sarcos_grla_doubles *s,
-                                                     sarcos_grla_doubles *c) {
+                                                     double x4, double x5, sarcos_grla_pack *s,
+                                                     sarcos_grla_pack *c) {
   const double x[6] = {x0, x1, x2, x3, x4, x5};
   int i;
 #ifdef SARCOS_GRLA_INLINE_TRIG
   if (((x0 * x0 + x1 * x1) + x2 * x2) + ((x3 * x3 + x4 * x4) + x5 * x5) < 1e10) {
-#if SARCOS_GRLA_DOUBLES == 8
-    const sarcos_grla_doubles v0 = {x0, x1, x2, x3, x4, x5, 0.0, 0.0};
-    sarcos_grla_sincos_kernel(&v0, s, c);
-#elif SARCOS_GRLA_DOUBLES == 4
-    const sarcos_grla_doubles v0 = {x0, x1, x2, x3};
-    const sarcos_grla_doubles v1 = {x4, x5, 0.0, 0.0};
-    sarcos_grla_sincos_kernel(&v0, s, c);
-    sarcos_grla_sincos_kernel(&v1, s + 1, c + 1);
+#if SARCOS_GRLA_PACK == 8
+    const sarcos_grla_pack v[1] = {{x0, x1, x2, x3, x4, x5, 0.0, 0.0}};
+    sarcos_grla_sincos_kernel1(v, s, c);
+#elif SARCOS_GRLA_PACK == 4
+    const sarcos_grla_pack v[2] = {{x0, x1, x2, x3}, {x4, x5, 0.0, 0.0}};
+    sarcos_grla_sincos_kernel2(v, s, c);
 #else
-    const sarcos_grla_doubles v0 = {x0, x1};
-    const sarcos_grla_doubles v1 = {x2, x3};
-    const sarcos_grla_doubles v2 = {x4, x5};
-    sarcos_grla_sincos_kernel(&v0, s, c);
-    sarcos_grla_sincos_kernel(&v1, s + 1, c + 1);
-    sarcos_grla_sincos_kernel(&v2, s + 2, c + 2);
+    const sarcos_grla_pack v[3] = {{x0, x1}, {x2, x3}, {x4, x5}};
+    sarcos_grla_sincos_kernel2(v, s, c);
+    sarcos_grla_sincos_kernel1(v + 2, s + 2, c + 2);
 #endif
     return;
   }
@@ -159,29 +217,21 @@ static SARCOS_GRLA_NOINLINE void sarcos_grla_sincos6(double x0, double x1, doubl
 
 static SARCOS_GRLA_NOINLINE void sarcos_grla_sincos7(double x0, double x1, double x2, double x3,
                                                      double x4, double x5, double x6,
-                                                     sarcos_grla_doubles *s,
-                                                     sarcos_grla_doubles *c) {
+                                                     sarcos_grla_pack *s, sarcos_grla_pack *c) {
   const double x[7] = {x0, x1, x2, x3, x4, x5, x6};
   int i;
 #ifdef SARCOS_GRLA_INLINE_TRIG
   if (((x0 * x0 + x1 * x1) + (x2 * x2 + x3 * x3)) + ((x4 * x4 + x5 * x5) + x6 * x6) < 1e10) {
-#if SARCOS_GRLA_DOUBLES == 8
-    const sarcos_grla_doubles v0 = {x0, x1, x2, x3, x4, x5, x6, 0.0};
-    sarcos_grla_sincos_kernel(&v0, s, c);
-#elif SARCOS_GRLA_DOUBLES == 4
-    const sarcos_grla_doubles v0 = {x0, x1, x2, x3};
-    const sarcos_grla_doubles v1 = {x4, x5, x6, 0.0};
-    sarcos_grla_sincos_kernel(&v0, s, c);
-    sarcos_grla_sincos_kernel(&v1, s + 1, c + 1);
+#if SARCOS_GRLA_PACK == 8
+    const sarcos_grla_pack v[1] = {{x0, x1, x2, x3, x4, x5, x6, 0.0}};
+    sarcos_grla_sincos_kernel1(v, s, c);
+#elif SARCOS_GRLA_PACK == 4
+    const sarcos_grla_pack v[2] = {{x0, x1, x2, x3}, {x4, x5, x6, 0.0}};
+    sarcos_grla_sincos_kernel2(v, s, c);
 #else
-    const sarcos_grla_doubles v0 = {x0, x1};
-    const sarcos_grla_doubles v1 = {x2, x3};
-    const sarcos_grla_doubles v2 = {x4, x5};
-    const sarcos_grla_doubles v3 = {x6, 0.0};
-    sarcos_grla_sincos_kernel(&v0, s, c);
-    sarcos_grla_sincos_kernel(&v1, s + 1, c + 1);
-    sarcos_grla_sincos_kernel(&v2, s + 2, c + 2);
-    sarcos_grla_sincos_kernel(&v3, s + 3, c + 3);
+    const sarcos_grla_pack v[4] = {{x0, x1}, {x2, x3}, {x4, x5}, {x6, 0.0}};
+    sarcos_grla_sincos_kernel2(v, s, c);
+    sarcos_grla_sincos_kernel2(v + 2, s + 2, c + 2);
 #endif
     return;
   }
@@ -217,7 +267,7 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double GZ = 6.93567; /* m/s^2, sarcos_grla.robot:45 */
 
   /* sines and cosines of the joint angles */
-  sarcos_grla_doubles sine1[(7 + SARCOS_GRLA_DOUBLES - 1) / SARCOS_GRLA_DOUBLES], cosine1[(7 + SARCOS_GRLA_DOUBLES - 1) / SARCOS_GRLA_DOUBLES];
+  sarcos_grla_pack sine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
   sarcos_grla_sincos7(q[0], q[1], q[2], q[3], q[4], q[5], q[6], sine1, cosine1);
   const double S1 = SARCOS_GRLA_AT(sine1, 0);
   const double C1 = SARCOS_GRLA_AT(cosine1, 0);
@@ -468,7 +518,7 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double GZ = 6.93567; /* m/s^2, sarcos_grla.robot:45 */
 
   /* sines and cosines of the joint angles */
-  sarcos_grla_doubles sine1[(7 + SARCOS_GRLA_DOUBLES - 1) / SARCOS_GRLA_DOUBLES], cosine1[(7 + SARCOS_GRLA_DOUBLES - 1) / SARCOS_GRLA_DOUBLES];
+  sarcos_grla_pack sine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
   sarcos_grla_sincos7(q[0], q[1], q[2], q[3], q[4], q[5], q[6], sine1, cosine1);
   const double S1 = SARCOS_GRLA_AT(sine1, 0);
   const double C1 = SARCOS_GRLA_AT(cosine1, 0);
@@ -717,7 +767,7 @@ void sarcos_grla_gravity(const double *q, double *tau) {
   const double GZ = 6.93567; /* m/s^2, sarcos_grla.robot:45 */
 
   /* sines and cosines of the joint angles */
-  sarcos_grla_doubles sine1[(7 + SARCOS_GRLA_DOUBLES - 1) / SARCOS_GRLA_DOUBLES], cosine1[(7 + SARCOS_GRLA_DOUBLES - 1) / SARCOS_GRLA_DOUBLES];
+  sarcos_grla_pack sine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
   sarcos_grla_sincos7(q[0], q[1], q[2], q[3], q[4], q[5], q[6], sine1, cosine1);
   const double S1 = SARCOS_GRLA_AT(sine1, 0);
   const double C1 = SARCOS_GRLA_AT(cosine1, 0);
@@ -838,7 +888,7 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double r5 = 0.762; /* m, sarcos_grla.robot:22 */
 
   /* sines and cosines of the joint angles */
-  sarcos_grla_doubles sine1[(6 + SARCOS_GRLA_DOUBLES - 1) / SARCOS_GRLA_DOUBLES], cosine1[(6 + SARCOS_GRLA_DOUBLES - 1) / SARCOS_GRLA_DOUBLES];
+  sarcos_grla_pack sine1[(6 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(6 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
   sarcos_grla_sincos6(q[1], q[2], q[3], q[4], q[5], q[6], sine1, cosine1);
   const double S2 = SARCOS_GRLA_AT(sine1, 0);
   const double C2 = SARCOS_GRLA_AT(cosine1, 0);

@@ -21,7 +21,7 @@ refuse("a folder as robot" "dyngen_add_robot(arm ROBOT .)" "ROBOT: there is no f
 refuse("unknown keyword" "dyngen_add_robot(arm SPEED fast ${good})"
   "dyngen_add_robot(arm): unknown argument 'SPEED'; expected ROBOT, PREFIX" "FUNCTIONS")
 refuse("unknown function" "dyngen_add_robot(arm ${good} FUNCTIONS id inverse)"
-  "FUNCTIONS: unknown value 'inverse'; expected all, id, gravity")
+  "FUNCTIONS: unknown value 'inverse'; expected all, id, id_rigid")
 refuse("PARAMETERS" "dyngen_add_robot(arm ${good} PARAMETERS hot)"
   "PARAMETERS: unknown value 'hot'; expected baked, runtime")
 refuse("SCALAR" "dyngen_add_robot(arm ${good} SCALAR half)"

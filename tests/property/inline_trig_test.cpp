@@ -70,6 +70,35 @@ TEST_P(InlineTrig, ErrorIsBelowOneUlpNextToEveryMultipleOfARightAngle) {
   EXPECT_LE(worst, 1.0);
 }
 
+double float_error(double value, long double exact) {
+  const float size = std::fabs(static_cast<float>(exact));
+  const float ulp = std::nextafter(size, std::numeric_limits<float>::infinity()) - size;
+  const auto rounded = static_cast<long double>(static_cast<float>(value));
+  return static_cast<double>(std::fabs(rounded - exact) / static_cast<long double>(ulp));
+}
+
+TEST_P(InlineTrig, SinglePrecisionIsBelowOneUlp) {
+  if (!has_judge()) GTEST_SKIP() << kNoJudge;
+  const InlineTrigLibrary single(GetParam(), Scalar::kFloat);
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  double worst = 0;
+  for (int i = 0; i < kPoints; i += 4) {
+    const std::array<double, 4> wanted = {
+        4.0 * unit(random), 4.9e4 * unit(random),
+        std::round(3e4 * unit(random)) * 1.5707963267948966,
+        std::ldexp(unit(random), -static_cast<int>(random() % 60))};
+    Angles x{}, s{}, c{};
+    for (std::size_t k = 0; k < 4; ++k) x[k] = static_cast<double>(static_cast<float>(wanted[k]));
+    single(std::span(x).first(4), s, c);
+    for (std::size_t k = 0; k < 4; ++k) {
+      worst = std::max({worst, float_error(s[k], sinl(x[k])), float_error(c[k], cosl(x[k]))});
+    }
+  }
+  EXPECT_LE(worst, 1.0) << "seed " << kSeed;
+  RecordProperty("worst", std::to_string(worst));
+}
+
 TEST_P(InlineTrig, AnyNumberOfAnglesGivesTheSame) {
   const Angles x = {0.1, -0.7, 2.5, -3.0, 40.0, 1e-9, 700.0, -1.6};
   Angles one_s{}, one_c{};

@@ -10,7 +10,7 @@ namespace dyngen::test {
 namespace {
 
 /// One function that calls those for one to eight angles.
-std::string source() {
+std::string source(Scalar scalar) {
   std::set<std::size_t> sizes;
   std::string cases;
   std::string arguments;
@@ -21,10 +21,11 @@ std::string source() {
   }
   EmitOptions options;
   options.prefix = "t";
-  return "#include <math.h>\n" + doubles_helper("t") + sincos_helper(options, sizes, false) +
+  options.scalar = scalar;
+  return "#include <math.h>\n" + pack_helper(options) + sincos_helper(options, sizes, false) +
          "void sincos_of(int n, const double *x, double *s, double *c);\n"
          "void sincos_of(int n, const double *x, double *s, double *c) {\n"
-         "  t_doubles sine[8], cosine[8];\n  int i;\n  switch (n) {\n" +
+         "  t_pack sine[8], cosine[8];\n  int i;\n  switch (n) {\n" +
          cases +
          "  }\n  for (i = 0; i < n; ++i) {\n"
          "    s[i] = T_AT(sine, i);\n    c[i] = T_AT(cosine, i);\n  }\n}\n";
@@ -32,8 +33,8 @@ std::string source() {
 
 }  // namespace
 
-InlineTrigLibrary::InlineTrigLibrary(const std::string& flags)
-    : object_({{"trig.c", source()}}, flags),
+InlineTrigLibrary::InlineTrigLibrary(const std::string& flags, Scalar scalar)
+    : object_({{"trig.c", source(scalar)}}, flags),
       sincos_(reinterpret_cast<decltype(sincos_)>(object_.symbol("sincos_of"))) {}
 
 void InlineTrigLibrary::operator()(std::span<const double> angles, std::span<double> sines,

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "gen/emit_c/emit_c.h"
 #include "tests/support/shared_object.h"
 
 namespace dyngen::test {
@@ -15,8 +16,9 @@ class InlineTrigLibrary {
  public:
   static constexpr std::size_t kMostAngles = 8;  ///< of one call
 
-  /// @param flags  of the compiler
-  explicit InlineTrigLibrary(const std::string& flags);
+  /// @param flags   of the compiler
+  /// @param scalar  kFloat: those of single precision, which are computed as doubles too
+  explicit InlineTrigLibrary(const std::string& flags, Scalar scalar = Scalar::kDouble);
 
   /// One call for all angles. @param angles  one to eight; sines and cosines are as long
   void operator()(std::span<const double> angles, std::span<double> sines,

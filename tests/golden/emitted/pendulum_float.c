@@ -26,6 +26,130 @@ const float pendulum_chi_values[] = {
     0.1f, /* FV1 */
 };
 
+/* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#define PENDULUM_VECTORS
+#if defined(__AVX512F__)
+#define PENDULUM_PACK 8
+#elif defined(__AVX2__)
+#define PENDULUM_PACK 4
+#else
+#define PENDULUM_PACK 2
+#endif
+#define PENDULUM_NOINLINE __attribute__((noinline))
+#define PENDULUM_INLINE inline __attribute__((always_inline))
+#define PENDULUM_AT(x, i) x[(i) / PENDULUM_PACK][(i) % PENDULUM_PACK]
+typedef double pendulum_pack __attribute__((vector_size(8 * PENDULUM_PACK)));
+typedef unsigned long long pendulum_bits __attribute__((vector_size(8 * PENDULUM_PACK)));
+#else
+#define PENDULUM_PACK 1
+#define PENDULUM_NOINLINE
+#define PENDULUM_INLINE inline
+#define PENDULUM_AT(x, i) x[i]
+typedef float pendulum_pack;
+#endif
+#ifdef PENDULUM_VECTORS
+typedef double pendulum_angle;
+#else
+typedef float pendulum_angle;
+#endif
+
+/* Sines and cosines of a register of angles, or of two at once, without a branch, for single
+ * precision: to 1e-8 for |x| < 1e5, rounding to nearest.  Reduction by pi/2 in two parts (Cody and
+ * Waite 1980), coefficients of FreeBSD's k_sinf.c and k_cosf.c.  -ffast-math would undo the
+ * reduction: the C library is called then. */
+#if defined(PENDULUM_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
+#define PENDULUM_INLINE_TRIG
+static PENDULUM_INLINE void pendulum_sincos_kernel1(const pendulum_pack *angle, pendulum_pack *sine,
+                                                    pendulum_pack *cosine) {
+#ifdef __clang__
+#pragma clang fp reassociate(off)
+#endif
+  const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
+  const pendulum_pack x = angle[0];
+  const pendulum_pack sum = x * 0.6366197723675814 + whole;
+  const pendulum_pack k = sum - whole; /* right angles in x */
+  const pendulum_pack r = (x - k * 1.5707963267341256) - k * 6.077100506506192e-11;
+  const pendulum_pack z = r * r;
+  const pendulum_pack w = z * z;
+  const pendulum_pack s1 = z * 0.0083333293858894632 - 0.16666666641626524;
+  const pendulum_pack s2 = z * 0.0000027183114939898219 - 0.00019839334836096632;
+  const pendulum_pack c1 = 1.0 - z * 0.499999997251031003120;
+  const pendulum_pack c2 = 0.0416666233237390631894 - z * 0.00138867637746099294692;
+  const pendulum_pack s = r + z * r * (s1 + w * s2);
+  const pendulum_pack c = c1 + w * (c2 + w * 0.0000243904487962774090654);
+  const pendulum_bits i = (pendulum_bits)sum;
+  const pendulum_bits swap = ((pendulum_bits)s ^ (pendulum_bits)c) & -(i & 1);
+  sine[0] = (pendulum_pack)((pendulum_bits)s ^ swap ^ ((i & 2) << 62));
+  cosine[0] = (pendulum_pack)((pendulum_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+}
+
+static PENDULUM_INLINE void pendulum_sincos_kernel2(const pendulum_pack *angle, pendulum_pack *sine,
+                                                    pendulum_pack *cosine) {
+#ifdef __clang__
+#pragma clang fp reassociate(off)
+#endif
+  const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
+  const pendulum_pack xa = angle[0];
+  const pendulum_pack xb = angle[1];
+  const pendulum_pack suma = xa * 0.6366197723675814 + whole;
+  const pendulum_pack sumb = xb * 0.6366197723675814 + whole;
+  const pendulum_pack ka = suma - whole; /* right angles in x */
+  const pendulum_pack kb = sumb - whole;
+  const pendulum_pack ra = (xa - ka * 1.5707963267341256) - ka * 6.077100506506192e-11;
+  const pendulum_pack rb = (xb - kb * 1.5707963267341256) - kb * 6.077100506506192e-11;
+  const pendulum_pack za = ra * ra;
+  const pendulum_pack zb = rb * rb;
+  const pendulum_pack wa = za * za;
+  const pendulum_pack wb = zb * zb;
+  const pendulum_pack s1a = za * 0.0083333293858894632 - 0.16666666641626524;
+  const pendulum_pack s1b = zb * 0.0083333293858894632 - 0.16666666641626524;
+  const pendulum_pack s2a = za * 0.0000027183114939898219 - 0.00019839334836096632;
+  const pendulum_pack s2b = zb * 0.0000027183114939898219 - 0.00019839334836096632;
+  const pendulum_pack c1a = 1.0 - za * 0.499999997251031003120;
+  const pendulum_pack c1b = 1.0 - zb * 0.499999997251031003120;
+  const pendulum_pack c2a = 0.0416666233237390631894 - za * 0.00138867637746099294692;
+  const pendulum_pack c2b = 0.0416666233237390631894 - zb * 0.00138867637746099294692;
+  const pendulum_pack sa = ra + za * ra * (s1a + wa * s2a);
+  const pendulum_pack sb = rb + zb * rb * (s1b + wb * s2b);
+  const pendulum_pack ca = c1a + wa * (c2a + wa * 0.0000243904487962774090654);
+  const pendulum_pack cb = c1b + wb * (c2b + wb * 0.0000243904487962774090654);
+  const pendulum_bits ia = (pendulum_bits)suma;
+  const pendulum_bits ib = (pendulum_bits)sumb;
+  const pendulum_bits swapa = ((pendulum_bits)sa ^ (pendulum_bits)ca) & -(ia & 1);
+  const pendulum_bits swapb = ((pendulum_bits)sb ^ (pendulum_bits)cb) & -(ib & 1);
+  sine[0] = (pendulum_pack)((pendulum_bits)sa ^ swapa ^ ((ia & 2) << 62));
+  sine[1] = (pendulum_pack)((pendulum_bits)sb ^ swapb ^ ((ib & 2) << 62));
+  cosine[0] = (pendulum_pack)((pendulum_bits)ca ^ swapa ^ (((ia + 1) & 2) << 62));
+  cosine[1] = (pendulum_pack)((pendulum_bits)cb ^ swapb ^ (((ib + 1) & 2) << 62));
+}
+#endif
+
+static PENDULUM_NOINLINE void pendulum_sincos1(pendulum_angle x0, pendulum_pack *s,
+                                               pendulum_pack *c) {
+  const pendulum_angle x[1] = {x0};
+  int i;
+#ifdef PENDULUM_INLINE_TRIG
+  if (x0 * x0 < 1e10) {
+#if PENDULUM_PACK == 8
+    const pendulum_pack v[1] = {{x0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
+    pendulum_sincos_kernel1(v, s, c);
+#elif PENDULUM_PACK == 4
+    const pendulum_pack v[1] = {{x0, 0.0, 0.0, 0.0}};
+    pendulum_sincos_kernel1(v, s, c);
+#else
+    const pendulum_pack v[1] = {{x0, 0.0}};
+    pendulum_sincos_kernel1(v, s, c);
+#endif
+    return;
+  }
+#endif
+  for (i = 0; i < 1; ++i) {
+    PENDULUM_AT(s, i) = (pendulum_angle)sinf((float)x[i]);
+    PENDULUM_AT(c, i) = (pendulum_angle)cosf((float)x[i]);
+  }
+}
+
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[1] rad   dq[1] rad/s   ddq[1] rad/s^2   tau[1] N m, out
@@ -36,7 +160,9 @@ void pendulum_id(const float *q, const float *dq, const float *ddq, float *tau) 
   const float GX = 9.81f; /* m/s^2, pendulum.robot:14 */
 
   /* sines and cosines of the joint angles */
-  const float S1 = sinf(q[0]);
+  pendulum_pack sine1[(1 + PENDULUM_PACK - 1) / PENDULUM_PACK], cosine1[(1 + PENDULUM_PACK - 1) / PENDULUM_PACK];
+  pendulum_sincos1((pendulum_angle)q[0], sine1, cosine1);
+  const float S1 = (float)PENDULUM_AT(sine1, 0);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const float mVP2_1 = GX * S1;
@@ -57,7 +183,9 @@ void pendulum_gravity(const float *q, float *tau) {
   const float GX = 9.81f; /* m/s^2, pendulum.robot:14 */
 
   /* sines and cosines of the joint angles */
-  const float S1 = sinf(q[0]);
+  pendulum_pack sine1[(1 + PENDULUM_PACK - 1) / PENDULUM_PACK], cosine1[(1 + PENDULUM_PACK - 1) / PENDULUM_PACK];
+  pendulum_sincos1((pendulum_angle)q[0], sine1, cosine1);
+  const float S1 = (float)PENDULUM_AT(sine1, 0);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const float mVP2_1 = GX * S1;

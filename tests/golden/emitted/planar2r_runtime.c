@@ -56,81 +56,141 @@ static double planar2r_sign(double x) {
   return (double)((x > 0) - (x < 0));
 }
 
-/* As many doubles as one register holds, where the compiler has GNU C vectors; else one. */
+/* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
 #if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
 #define PLANAR2R_VECTORS
 #if defined(__AVX512F__)
-#define PLANAR2R_DOUBLES 8
+#define PLANAR2R_PACK 8
 #elif defined(__AVX2__)
-#define PLANAR2R_DOUBLES 4
+#define PLANAR2R_PACK 4
 #else
-#define PLANAR2R_DOUBLES 2
+#define PLANAR2R_PACK 2
 #endif
 #define PLANAR2R_NOINLINE __attribute__((noinline))
 #define PLANAR2R_INLINE inline __attribute__((always_inline))
-#define PLANAR2R_AT(x, i) x[(i) / PLANAR2R_DOUBLES][(i) % PLANAR2R_DOUBLES]
-typedef double planar2r_doubles __attribute__((vector_size(8 * PLANAR2R_DOUBLES)));
-typedef unsigned long long planar2r_bits __attribute__((vector_size(8 * PLANAR2R_DOUBLES)));
+#define PLANAR2R_AT(x, i) x[(i) / PLANAR2R_PACK][(i) % PLANAR2R_PACK]
+typedef double planar2r_pack __attribute__((vector_size(8 * PLANAR2R_PACK)));
+typedef unsigned long long planar2r_bits __attribute__((vector_size(8 * PLANAR2R_PACK)));
 #else
-#define PLANAR2R_DOUBLES 1
+#define PLANAR2R_PACK 1
 #define PLANAR2R_NOINLINE
 #define PLANAR2R_INLINE inline
 #define PLANAR2R_AT(x, i) x[i]
-typedef double planar2r_doubles;
+typedef double planar2r_pack;
 #endif
 
-/* Sines and cosines of a register of angles, without a branch: within 1 ulp for |x| < 1e5, rounding
- * to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980), coefficients of fdlibm (Sun
- * Microsystems 1993).  -ffast-math would undo the reduction: the C library is called then. */
+/* Sines and cosines of a register of angles, or of two at once, without a branch: within 1 ulp for
+ * |x| < 1e5, rounding to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980),
+ * coefficients of fdlibm (Sun Microsystems 1993).  -ffast-math would undo the reduction: the C
+ * library is called then. */
 #if defined(PLANAR2R_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
 #define PLANAR2R_INLINE_TRIG
-static PLANAR2R_INLINE void planar2r_sincos_kernel(const planar2r_doubles *angle, planar2r_doubles *sine,
-    planar2r_doubles *cosine) {
+static PLANAR2R_INLINE void planar2r_sincos_kernel1(const planar2r_pack *angle, planar2r_pack *sine,
+                                                    planar2r_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
   const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
-  const planar2r_doubles x = *angle;
-  const planar2r_doubles sum = x * 0.6366197723675814 + whole;
-  const planar2r_doubles k = sum - whole;                 /* right angles in x */
-  const planar2r_doubles r0 = x - k * 1.5707963267341256; /* exact */
-  const planar2r_doubles p = k * 6.077100506303966e-11;   /* exact */
-  const planar2r_doubles r = r0 - p;
-  const planar2r_doubles t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
-  const planar2r_doubles z = r * r;
-  const planar2r_doubles w = z * z;
-  const planar2r_doubles h = 0.5 * z;
-  const planar2r_doubles u = 1.0 - h;
-  const planar2r_doubles s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
-  const planar2r_doubles s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
-  const planar2r_doubles s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
-  const planar2r_doubles s = r + (t * u + z * r * (s1 + w * (s2 + w * s3)));
-  const planar2r_doubles c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
-  const planar2r_doubles c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
-  const planar2r_doubles c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
-  const planar2r_doubles c = u + (((1.0 - u) - h) - r * t + w * (c1 + w * (c2 + w * c3)));
-  const planar2r_bits i = (planar2r_bits)sum; /* its last bits are those of k */
+  const planar2r_pack x = angle[0];
+  const planar2r_pack sum = x * 0.6366197723675814 + whole;
+  const planar2r_pack k = sum - whole; /* right angles in x */
+  const planar2r_pack r0 = x - k * 1.5707963267341256; /* exact */
+  const planar2r_pack p = k * 6.077100506303966e-11; /* exact */
+  const planar2r_pack r = r0 - p;
+  const planar2r_pack z = r * r;
+  const planar2r_pack w = z * z;
+  const planar2r_pack s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const planar2r_pack s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const planar2r_pack c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
+  const planar2r_pack c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
+  const planar2r_pack s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const planar2r_pack c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
+  const planar2r_pack t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const planar2r_pack h = 0.5 * z;
+  const planar2r_pack u = 1.0 - h;
+  const planar2r_pack sp = s1 + w * (s2 + w * s3);
+  const planar2r_pack cp = c1 + w * (c2 + w * c3);
+  const planar2r_pack s = r + (t * u + z * r * sp);
+  const planar2r_pack c = u + (((1.0 - u) - h) - r * t + w * cp);
+  const planar2r_bits i = (planar2r_bits)sum;
   const planar2r_bits swap = ((planar2r_bits)s ^ (planar2r_bits)c) & -(i & 1);
-  *sine = (planar2r_doubles)((planar2r_bits)s ^ swap ^ ((i & 2) << 62));
-  *cosine = (planar2r_doubles)((planar2r_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+  sine[0] = (planar2r_pack)((planar2r_bits)s ^ swap ^ ((i & 2) << 62));
+  cosine[0] = (planar2r_pack)((planar2r_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+}
+
+static PLANAR2R_INLINE void planar2r_sincos_kernel2(const planar2r_pack *angle, planar2r_pack *sine,
+                                                    planar2r_pack *cosine) {
+#ifdef __clang__
+#pragma clang fp reassociate(off)
+#endif
+  const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
+  const planar2r_pack xa = angle[0];
+  const planar2r_pack xb = angle[1];
+  const planar2r_pack suma = xa * 0.6366197723675814 + whole;
+  const planar2r_pack sumb = xb * 0.6366197723675814 + whole;
+  const planar2r_pack ka = suma - whole; /* right angles in x */
+  const planar2r_pack kb = sumb - whole;
+  const planar2r_pack r0a = xa - ka * 1.5707963267341256; /* exact */
+  const planar2r_pack r0b = xb - kb * 1.5707963267341256;
+  const planar2r_pack pa = ka * 6.077100506303966e-11; /* exact */
+  const planar2r_pack pb = kb * 6.077100506303966e-11;
+  const planar2r_pack ra = r0a - pa;
+  const planar2r_pack rb = r0b - pb;
+  const planar2r_pack za = ra * ra;
+  const planar2r_pack zb = rb * rb;
+  const planar2r_pack wa = za * za;
+  const planar2r_pack wb = zb * zb;
+  const planar2r_pack s3a = za * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const planar2r_pack s3b = zb * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const planar2r_pack s2a = za * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const planar2r_pack s2b = zb * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const planar2r_pack c3a = 2.08757232129817482790e-09 - za * 1.13596475577881948265e-11;
+  const planar2r_pack c3b = 2.08757232129817482790e-09 - zb * 1.13596475577881948265e-11;
+  const planar2r_pack c2a = 2.48015872894767294178e-05 - za * 2.75573143513906633035e-07;
+  const planar2r_pack c2b = 2.48015872894767294178e-05 - zb * 2.75573143513906633035e-07;
+  const planar2r_pack s1a = za * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const planar2r_pack s1b = zb * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const planar2r_pack c1a = 4.16666666666666019037e-02 - za * 1.38888888888741095749e-03;
+  const planar2r_pack c1b = 4.16666666666666019037e-02 - zb * 1.38888888888741095749e-03;
+  const planar2r_pack ta = ((r0a - ra) - pa) - ka * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const planar2r_pack tb = ((r0b - rb) - pb) - kb * 2.0222662487959506e-21;
+  const planar2r_pack ha = 0.5 * za;
+  const planar2r_pack hb = 0.5 * zb;
+  const planar2r_pack ua = 1.0 - ha;
+  const planar2r_pack ub = 1.0 - hb;
+  const planar2r_pack spa = s1a + wa * (s2a + wa * s3a);
+  const planar2r_pack spb = s1b + wb * (s2b + wb * s3b);
+  const planar2r_pack cpa = c1a + wa * (c2a + wa * c3a);
+  const planar2r_pack cpb = c1b + wb * (c2b + wb * c3b);
+  const planar2r_pack sa = ra + (ta * ua + za * ra * spa);
+  const planar2r_pack sb = rb + (tb * ub + zb * rb * spb);
+  const planar2r_pack ca = ua + (((1.0 - ua) - ha) - ra * ta + wa * cpa);
+  const planar2r_pack cb = ub + (((1.0 - ub) - hb) - rb * tb + wb * cpb);
+  const planar2r_bits ia = (planar2r_bits)suma;
+  const planar2r_bits ib = (planar2r_bits)sumb;
+  const planar2r_bits swapa = ((planar2r_bits)sa ^ (planar2r_bits)ca) & -(ia & 1);
+  const planar2r_bits swapb = ((planar2r_bits)sb ^ (planar2r_bits)cb) & -(ib & 1);
+  sine[0] = (planar2r_pack)((planar2r_bits)sa ^ swapa ^ ((ia & 2) << 62));
+  sine[1] = (planar2r_pack)((planar2r_bits)sb ^ swapb ^ ((ib & 2) << 62));
+  cosine[0] = (planar2r_pack)((planar2r_bits)ca ^ swapa ^ (((ia + 1) & 2) << 62));
+  cosine[1] = (planar2r_pack)((planar2r_bits)cb ^ swapb ^ (((ib + 1) & 2) << 62));
 }
 #endif
 
-static PLANAR2R_NOINLINE void planar2r_sincos1(double x0, planar2r_doubles *s,
-                                               planar2r_doubles *c) {
+static PLANAR2R_NOINLINE void planar2r_sincos1(double x0, planar2r_pack *s, planar2r_pack *c) {
   const double x[1] = {x0};
   int i;
 #ifdef PLANAR2R_INLINE_TRIG
   if (x0 * x0 < 1e10) {
-#if PLANAR2R_DOUBLES == 8
-    const planar2r_doubles v0 = {x0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    planar2r_sincos_kernel(&v0, s, c);
-#elif PLANAR2R_DOUBLES == 4
-    const planar2r_doubles v0 = {x0, 0.0, 0.0, 0.0};
-    planar2r_sincos_kernel(&v0, s, c);
+#if PLANAR2R_PACK == 8
+    const planar2r_pack v[1] = {{x0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
+    planar2r_sincos_kernel1(v, s, c);
+#elif PLANAR2R_PACK == 4
+    const planar2r_pack v[1] = {{x0, 0.0, 0.0, 0.0}};
+    planar2r_sincos_kernel1(v, s, c);
 #else
-    const planar2r_doubles v0 = {x0, 0.0};
-    planar2r_sincos_kernel(&v0, s, c);
+    const planar2r_pack v[1] = {{x0, 0.0}};
+    planar2r_sincos_kernel1(v, s, c);
 #endif
     return;
   }
@@ -141,21 +201,21 @@ static PLANAR2R_NOINLINE void planar2r_sincos1(double x0, planar2r_doubles *s,
   }
 }
 
-static PLANAR2R_NOINLINE void planar2r_sincos2(double x0, double x1, planar2r_doubles *s,
-                                               planar2r_doubles *c) {
+static PLANAR2R_NOINLINE void planar2r_sincos2(double x0, double x1, planar2r_pack *s,
+                                               planar2r_pack *c) {
   const double x[2] = {x0, x1};
   int i;
 #ifdef PLANAR2R_INLINE_TRIG
   if (x0 * x0 + x1 * x1 < 1e10) {
-#if PLANAR2R_DOUBLES == 8
-    const planar2r_doubles v0 = {x0, x1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    planar2r_sincos_kernel(&v0, s, c);
-#elif PLANAR2R_DOUBLES == 4
-    const planar2r_doubles v0 = {x0, x1, 0.0, 0.0};
-    planar2r_sincos_kernel(&v0, s, c);
+#if PLANAR2R_PACK == 8
+    const planar2r_pack v[1] = {{x0, x1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
+    planar2r_sincos_kernel1(v, s, c);
+#elif PLANAR2R_PACK == 4
+    const planar2r_pack v[1] = {{x0, x1, 0.0, 0.0}};
+    planar2r_sincos_kernel1(v, s, c);
 #else
-    const planar2r_doubles v0 = {x0, x1};
-    planar2r_sincos_kernel(&v0, s, c);
+    const planar2r_pack v[1] = {{x0, x1}};
+    planar2r_sincos_kernel1(v, s, c);
 #endif
     return;
   }
@@ -176,7 +236,7 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, const dou
   const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
 
   /* sines and cosines of the joint angles */
-  planar2r_doubles sine1[(2 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES], cosine1[(2 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES];
+  planar2r_pack sine1[(2 + PLANAR2R_PACK - 1) / PLANAR2R_PACK], cosine1[(2 + PLANAR2R_PACK - 1) / PLANAR2R_PACK];
   planar2r_sincos2(q[0], q[1], sine1, cosine1);
   const double S1 = PLANAR2R_AT(sine1, 0);
   const double C1 = PLANAR2R_AT(cosine1, 0);
@@ -226,7 +286,7 @@ void planar2r_gravity(const double *q, const double *chi, double *tau) {
 
   /* sines and cosines of the joint angles */
   const double Q1_2 = q[0] + q[1];
-  planar2r_doubles sine1[(2 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES], cosine1[(2 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES];
+  planar2r_pack sine1[(2 + PLANAR2R_PACK - 1) / PLANAR2R_PACK], cosine1[(2 + PLANAR2R_PACK - 1) / PLANAR2R_PACK];
   planar2r_sincos2(q[0], Q1_2, sine1, cosine1);
   const double S1 = PLANAR2R_AT(sine1, 0);
   const double C1 = PLANAR2R_AT(cosine1, 0);
@@ -252,7 +312,7 @@ void planar2r_coriolis(const double *q, const double *dq, const double *chi, dou
   const double d2 = 0.5; /* m, planar2r.robot:13 */
 
   /* sines and cosines of the joint angles */
-  planar2r_doubles sine1[(1 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES], cosine1[(1 + PLANAR2R_DOUBLES - 1) / PLANAR2R_DOUBLES];
+  planar2r_pack sine1[(1 + PLANAR2R_PACK - 1) / PLANAR2R_PACK], cosine1[(1 + PLANAR2R_PACK - 1) / PLANAR2R_PACK];
   planar2r_sincos1(q[1], sine1, cosine1);
   const double S2 = PLANAR2R_AT(sine1, 0);
   const double C2 = PLANAR2R_AT(cosine1, 0);

@@ -56,80 +56,139 @@ static double rp_sign(double x) {
   return (double)((x > 0) - (x < 0));
 }
 
-/* As many doubles as one register holds, where the compiler has GNU C vectors; else one. */
+/* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
 #if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
 #define RP_VECTORS
 #if defined(__AVX512F__)
-#define RP_DOUBLES 8
+#define RP_PACK 8
 #elif defined(__AVX2__)
-#define RP_DOUBLES 4
+#define RP_PACK 4
 #else
-#define RP_DOUBLES 2
+#define RP_PACK 2
 #endif
 #define RP_NOINLINE __attribute__((noinline))
 #define RP_INLINE inline __attribute__((always_inline))
-#define RP_AT(x, i) x[(i) / RP_DOUBLES][(i) % RP_DOUBLES]
-typedef double rp_doubles __attribute__((vector_size(8 * RP_DOUBLES)));
-typedef unsigned long long rp_bits __attribute__((vector_size(8 * RP_DOUBLES)));
+#define RP_AT(x, i) x[(i) / RP_PACK][(i) % RP_PACK]
+typedef double rp_pack __attribute__((vector_size(8 * RP_PACK)));
+typedef unsigned long long rp_bits __attribute__((vector_size(8 * RP_PACK)));
 #else
-#define RP_DOUBLES 1
+#define RP_PACK 1
 #define RP_NOINLINE
 #define RP_INLINE inline
 #define RP_AT(x, i) x[i]
-typedef double rp_doubles;
+typedef double rp_pack;
 #endif
 
-/* Sines and cosines of a register of angles, without a branch: within 1 ulp for |x| < 1e5, rounding
- * to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980), coefficients of fdlibm (Sun
- * Microsystems 1993).  -ffast-math would undo the reduction: the C library is called then. */
+/* Sines and cosines of a register of angles, or of two at once, without a branch: within 1 ulp for
+ * |x| < 1e5, rounding to nearest.  Reduction by pi/2 in three parts (Cody and Waite 1980),
+ * coefficients of fdlibm (Sun Microsystems 1993).  -ffast-math would undo the reduction: the C
+ * library is called then. */
 #if defined(RP_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
 #define RP_INLINE_TRIG
-static RP_INLINE void rp_sincos_kernel(const rp_doubles *angle, rp_doubles *sine,
-    rp_doubles *cosine) {
+static RP_INLINE void rp_sincos_kernel1(const rp_pack *angle, rp_pack *sine, rp_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
   const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
-  const rp_doubles x = *angle;
-  const rp_doubles sum = x * 0.6366197723675814 + whole;
-  const rp_doubles k = sum - whole;                 /* right angles in x */
-  const rp_doubles r0 = x - k * 1.5707963267341256; /* exact */
-  const rp_doubles p = k * 6.077100506303966e-11;   /* exact */
-  const rp_doubles r = r0 - p;
-  const rp_doubles t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
-  const rp_doubles z = r * r;
-  const rp_doubles w = z * z;
-  const rp_doubles h = 0.5 * z;
-  const rp_doubles u = 1.0 - h;
-  const rp_doubles s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
-  const rp_doubles s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
-  const rp_doubles s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
-  const rp_doubles s = r + (t * u + z * r * (s1 + w * (s2 + w * s3)));
-  const rp_doubles c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
-  const rp_doubles c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
-  const rp_doubles c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
-  const rp_doubles c = u + (((1.0 - u) - h) - r * t + w * (c1 + w * (c2 + w * c3)));
-  const rp_bits i = (rp_bits)sum; /* its last bits are those of k */
+  const rp_pack x = angle[0];
+  const rp_pack sum = x * 0.6366197723675814 + whole;
+  const rp_pack k = sum - whole; /* right angles in x */
+  const rp_pack r0 = x - k * 1.5707963267341256; /* exact */
+  const rp_pack p = k * 6.077100506303966e-11; /* exact */
+  const rp_pack r = r0 - p;
+  const rp_pack z = r * r;
+  const rp_pack w = z * z;
+  const rp_pack s3 = z * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const rp_pack s2 = z * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const rp_pack c3 = 2.08757232129817482790e-09 - z * 1.13596475577881948265e-11;
+  const rp_pack c2 = 2.48015872894767294178e-05 - z * 2.75573143513906633035e-07;
+  const rp_pack s1 = z * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const rp_pack c1 = 4.16666666666666019037e-02 - z * 1.38888888888741095749e-03;
+  const rp_pack t = ((r0 - r) - p) - k * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const rp_pack h = 0.5 * z;
+  const rp_pack u = 1.0 - h;
+  const rp_pack sp = s1 + w * (s2 + w * s3);
+  const rp_pack cp = c1 + w * (c2 + w * c3);
+  const rp_pack s = r + (t * u + z * r * sp);
+  const rp_pack c = u + (((1.0 - u) - h) - r * t + w * cp);
+  const rp_bits i = (rp_bits)sum;
   const rp_bits swap = ((rp_bits)s ^ (rp_bits)c) & -(i & 1);
-  *sine = (rp_doubles)((rp_bits)s ^ swap ^ ((i & 2) << 62));
-  *cosine = (rp_doubles)((rp_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+  sine[0] = (rp_pack)((rp_bits)s ^ swap ^ ((i & 2) << 62));
+  cosine[0] = (rp_pack)((rp_bits)c ^ swap ^ (((i + 1) & 2) << 62));
+}
+
+static RP_INLINE void rp_sincos_kernel2(const rp_pack *angle, rp_pack *sine, rp_pack *cosine) {
+#ifdef __clang__
+#pragma clang fp reassociate(off)
+#endif
+  const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds to an integer */
+  const rp_pack xa = angle[0];
+  const rp_pack xb = angle[1];
+  const rp_pack suma = xa * 0.6366197723675814 + whole;
+  const rp_pack sumb = xb * 0.6366197723675814 + whole;
+  const rp_pack ka = suma - whole; /* right angles in x */
+  const rp_pack kb = sumb - whole;
+  const rp_pack r0a = xa - ka * 1.5707963267341256; /* exact */
+  const rp_pack r0b = xb - kb * 1.5707963267341256;
+  const rp_pack pa = ka * 6.077100506303966e-11; /* exact */
+  const rp_pack pb = kb * 6.077100506303966e-11;
+  const rp_pack ra = r0a - pa;
+  const rp_pack rb = r0b - pb;
+  const rp_pack za = ra * ra;
+  const rp_pack zb = rb * rb;
+  const rp_pack wa = za * za;
+  const rp_pack wb = zb * zb;
+  const rp_pack s3a = za * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const rp_pack s3b = zb * 1.58969099521155010221e-10 - 2.50507602534068634195e-08;
+  const rp_pack s2a = za * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const rp_pack s2b = zb * 2.75573137070700676789e-06 - 1.98412698298579493134e-04;
+  const rp_pack c3a = 2.08757232129817482790e-09 - za * 1.13596475577881948265e-11;
+  const rp_pack c3b = 2.08757232129817482790e-09 - zb * 1.13596475577881948265e-11;
+  const rp_pack c2a = 2.48015872894767294178e-05 - za * 2.75573143513906633035e-07;
+  const rp_pack c2b = 2.48015872894767294178e-05 - zb * 2.75573143513906633035e-07;
+  const rp_pack s1a = za * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const rp_pack s1b = zb * 8.33333333332248946124e-03 - 1.66666666666666324348e-01;
+  const rp_pack c1a = 4.16666666666666019037e-02 - za * 1.38888888888741095749e-03;
+  const rp_pack c1b = 4.16666666666666019037e-02 - zb * 1.38888888888741095749e-03;
+  const rp_pack ta = ((r0a - ra) - pa) - ka * 2.0222662487959506e-21; /* x - k pi/2 = r + t */
+  const rp_pack tb = ((r0b - rb) - pb) - kb * 2.0222662487959506e-21;
+  const rp_pack ha = 0.5 * za;
+  const rp_pack hb = 0.5 * zb;
+  const rp_pack ua = 1.0 - ha;
+  const rp_pack ub = 1.0 - hb;
+  const rp_pack spa = s1a + wa * (s2a + wa * s3a);
+  const rp_pack spb = s1b + wb * (s2b + wb * s3b);
+  const rp_pack cpa = c1a + wa * (c2a + wa * c3a);
+  const rp_pack cpb = c1b + wb * (c2b + wb * c3b);
+  const rp_pack sa = ra + (ta * ua + za * ra * spa);
+  const rp_pack sb = rb + (tb * ub + zb * rb * spb);
+  const rp_pack ca = ua + (((1.0 - ua) - ha) - ra * ta + wa * cpa);
+  const rp_pack cb = ub + (((1.0 - ub) - hb) - rb * tb + wb * cpb);
+  const rp_bits ia = (rp_bits)suma;
+  const rp_bits ib = (rp_bits)sumb;
+  const rp_bits swapa = ((rp_bits)sa ^ (rp_bits)ca) & -(ia & 1);
+  const rp_bits swapb = ((rp_bits)sb ^ (rp_bits)cb) & -(ib & 1);
+  sine[0] = (rp_pack)((rp_bits)sa ^ swapa ^ ((ia & 2) << 62));
+  sine[1] = (rp_pack)((rp_bits)sb ^ swapb ^ ((ib & 2) << 62));
+  cosine[0] = (rp_pack)((rp_bits)ca ^ swapa ^ (((ia + 1) & 2) << 62));
+  cosine[1] = (rp_pack)((rp_bits)cb ^ swapb ^ (((ib + 1) & 2) << 62));
 }
 #endif
 
-static RP_NOINLINE void rp_sincos1(double x0, rp_doubles *s, rp_doubles *c) {
+static RP_NOINLINE void rp_sincos1(double x0, rp_pack *s, rp_pack *c) {
   const double x[1] = {x0};
   int i;
 #ifdef RP_INLINE_TRIG
   if (x0 * x0 < 1e10) {
-#if RP_DOUBLES == 8
-    const rp_doubles v0 = {x0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    rp_sincos_kernel(&v0, s, c);
-#elif RP_DOUBLES == 4
-    const rp_doubles v0 = {x0, 0.0, 0.0, 0.0};
-    rp_sincos_kernel(&v0, s, c);
+#if RP_PACK == 8
+    const rp_pack v[1] = {{x0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
+    rp_sincos_kernel1(v, s, c);
+#elif RP_PACK == 4
+    const rp_pack v[1] = {{x0, 0.0, 0.0, 0.0}};
+    rp_sincos_kernel1(v, s, c);
 #else
-    const rp_doubles v0 = {x0, 0.0};
-    rp_sincos_kernel(&v0, s, c);
+    const rp_pack v[1] = {{x0, 0.0}};
+    rp_sincos_kernel1(v, s, c);
 #endif
     return;
   }
@@ -160,7 +219,7 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double GY = 9.81; /* m/s^2, rp.robot:36 */
 
   /* sines and cosines of the joint angles */
-  rp_doubles sine1[(1 + RP_DOUBLES - 1) / RP_DOUBLES], cosine1[(1 + RP_DOUBLES - 1) / RP_DOUBLES];
+  rp_pack sine1[(1 + RP_PACK - 1) / RP_PACK], cosine1[(1 + RP_PACK - 1) / RP_PACK];
   rp_sincos1(q[0], sine1, cosine1);
   const double S1 = RP_AT(sine1, 0);
   const double C1 = RP_AT(cosine1, 0);
@@ -204,7 +263,7 @@ void rp_gravity(const double *q, double *tau) {
   const double MX2_plus_MX1 = 1.280386974;
 
   /* sines and cosines of the joint angles */
-  rp_doubles sine1[(1 + RP_DOUBLES - 1) / RP_DOUBLES], cosine1[(1 + RP_DOUBLES - 1) / RP_DOUBLES];
+  rp_pack sine1[(1 + RP_PACK - 1) / RP_PACK], cosine1[(1 + RP_PACK - 1) / RP_PACK];
   rp_sincos1(q[0], sine1, cosine1);
   const double S1 = RP_AT(sine1, 0);
   const double C1 = RP_AT(cosine1, 0);
