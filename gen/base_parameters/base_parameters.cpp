@@ -84,7 +84,10 @@ std::vector<Chi> remaining_kinds(JointType type) {
 }
 
 /// Removes what the limited motion near the base leaves zero or dependent.
-void group_dependent(SymbolicRobot& robot, Motions motions, std::set<Column>& grouped) {
+///
+/// @return columns that depend on others, but by no known function of the lengths
+std::vector<Column> group_dependent(SymbolicRobot& robot, Motions motions,
+                                    std::set<Column>& grouped) {
   std::vector<Column> columns;
   for (int j = 1; j <= robot.size(); ++j) {
     for (const Chi kind : remaining_kinds(robot.link(j).type)) columns.push_back({j, kind});
@@ -92,7 +95,8 @@ void group_dependent(SymbolicRobot& robot, Motions motions, std::set<Column>& gr
   for (int j = 1; j <= robot.size(); ++j) {
     if (!robot.link(j).chi[index(Chi::kIA)].is_zero()) columns.push_back({j, Chi::kIA});
   }
-  for (const Dependency& dependency : find_dependencies(robot, columns, motions)) {
+  Dependencies dependencies = find_dependencies(robot, columns, motions);
+  for (const Dependency& dependency : dependencies.found) {
     ex& value = robot.link(dependency.column.link).chi[index(dependency.column.kind)];
     if (!value.is_zero()) {
       for (const auto& [column, coefficient] : dependency.others) {
@@ -103,6 +107,7 @@ void group_dependent(SymbolicRobot& robot, Motions motions, std::set<Column>& gr
     }
     value = 0;
   }
+  return std::move(dependencies.unsolved);
 }
 
 std::vector<GroupedParameter> list_parameters(const SymbolicRobot& robot,
@@ -126,11 +131,13 @@ Regrouping regroup(const SymbolicRobot& robot, Motions motions) {
   result.robot = robot;
   std::set<Column> grouped;
   group_in_closed_form(result.robot, grouped);
-  group_dependent(result.robot, motions, grouped);
+  result.unsolved = group_dependent(result.robot, motions, grouped);
   result.parameters = list_parameters(result.robot, grouped);
   return result;
 }
 
-Regrouping keep_standard(const SymbolicRobot& robot) { return {robot, list_parameters(robot, {})}; }
+Regrouping keep_standard(const SymbolicRobot& robot) {
+  return {robot, list_parameters(robot, {}), {}};
+}
 
 }  // namespace dyngen

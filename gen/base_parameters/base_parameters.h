@@ -26,6 +26,7 @@ struct GroupedParameter {
 struct Regrouping {
   SymbolicRobot robot;  ///< inertial parameters and IA replaced by the grouped ones
   std::vector<GroupedParameter> parameters;  ///< those that are not 0, in link order, chi order
+  std::vector<Column> unsolved;  ///< might be grouped too: see Dependencies; empty as a rule
 };
 
 /// Regroups inertial parameters and rotor inertias to a minimal set.

@@ -3,7 +3,6 @@
 
 #include <cln/float.h>
 #include <cln/integer.h>
-#include <cln/rational.h>
 #include <cln/real.h>
 
 #include <algorithm>
@@ -11,6 +10,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "gen/base_parameters/echelon.h"
+#include "gen/base_parameters/interpolation.h"
 #include "gen/base_parameters/numeric_regressor.h"
 #include "gen/symbols/exact.h"
 
@@ -102,8 +103,6 @@ std::vector<Candidate> find_candidates(const std::vector<std::vector<long double
   return candidates;
 }
 
-cl_R tiny() { return cln::cl_float(cln::cl_RA("1/1000000000000000000000000000000000000000000")); }
-
 /// Solves rows * (x, -1) = 0 exactly enough; nothing if the rows contradict each other.
 std::optional<std::vector<cl_R>> solve(std::vector<std::vector<cl_R>> rows, std::size_t unknowns) {
   for (std::size_t k = 0; k < unknowns; ++k) {
@@ -111,7 +110,7 @@ std::optional<std::vector<cl_R>> solve(std::vector<std::vector<cl_R>> rows, std:
     for (std::size_t i = k; i < rows.size(); ++i) {
       if (cln::abs(rows[i][k]) > cln::abs(rows[pivot][k])) pivot = i;
     }
-    if (cln::abs(rows[pivot][k]) < tiny()) return std::nullopt;
+    if (cln::abs(rows[pivot][k]) < rounding_limit()) return std::nullopt;
     std::swap(rows[k], rows[pivot]);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (i == k) continue;
@@ -120,7 +119,7 @@ std::optional<std::vector<cl_R>> solve(std::vector<std::vector<cl_R>> rows, std:
     }
   }
   for (std::size_t i = unknowns; i < rows.size(); ++i) {
-    if (cln::abs(rows[i][unknowns]) > tiny()) return std::nullopt;
+    if (cln::abs(rows[i][unknowns]) > rounding_limit()) return std::nullopt;
   }
   std::vector<cl_R> x;
   for (std::size_t k = 0; k < unknowns; ++k) x.push_back(rows[k][unknowns] / rows[k][k]);
@@ -144,34 +143,40 @@ std::optional<std::vector<cl_R>> refine(const SymbolicRobot& robot, const GiNaC:
   return solve(std::move(rows), candidate.support.size());
 }
 
+/// The coefficients of one candidate: numbers, or functions of the unknown lengths.
+std::optional<std::vector<GiNaC::ex>> find_coefficients(const SymbolicRobot& robot,
+                                                        const std::vector<Column>& columns,
+                                                        const Candidate& candidate, Motions motions,
+                                                        RandomStream& random) {
+  std::vector<GiNaC::symbol> unknowns;
+  for (const FileSymbol& entry : robot.geometry) unknowns.push_back(entry.symbol);
+  const Sampler sampler = [&](const GiNaC::exmap& lengths) {
+    return refine(robot, lengths, columns, candidate, motions, random);
+  };
+  return interpolate(sampler, unknowns, random);
+}
+
 }  // namespace
 
-std::vector<Dependency> find_dependencies(const SymbolicRobot& robot,
-                                          const std::vector<Column>& columns, Motions motions) {
+Dependencies find_dependencies(const SymbolicRobot& robot, const std::vector<Column>& columns,
+                               Motions motions) {
   const PrecisionScope precision;
   RandomStream random(kSeed);
   const GiNaC::exmap lengths = draw_lengths(robot, random);
-  const GiNaC::exmap other_lengths = draw_lengths(robot, random);
   const auto samples = sample_columns(robot, lengths, columns, motions, random);
-  std::vector<Dependency> result;
+  Dependencies result;
   for (const Candidate& candidate : find_candidates(samples)) {
-    const auto x = refine(robot, lengths, columns, candidate, motions, random);
-    if (!x) continue;
-    if (!robot.geometry.empty()) {
-      const auto again = refine(robot, other_lengths, columns, candidate, motions, random);
-      if (!again) continue;
-      bool same = true;
-      for (std::size_t i = 0; i < x->size(); ++i) {
-        same = same && cln::abs((*x)[i] - (*again)[i]) < tiny();
-      }
-      if (!same) continue;
+    if (!refine(robot, lengths, columns, candidate, motions, random)) continue;
+    const auto x = find_coefficients(robot, columns, candidate, motions, random);
+    if (!x) {
+      result.unsolved.push_back(columns[candidate.column]);
+      continue;
     }
     Dependency dependency{columns[candidate.column], {}};
     for (std::size_t i = 0; i < x->size(); ++i) {
-      dependency.others.emplace_back(columns[candidate.support[i]],
-                                     settle_number(GiNaC::numeric((*x)[i])));
+      dependency.others.emplace_back(columns[candidate.support[i]], (*x)[i]);
     }
-    result.push_back(std::move(dependency));
+    result.found.push_back(std::move(dependency));
   }
   return result;
 }

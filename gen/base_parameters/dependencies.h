@@ -23,16 +23,23 @@ enum class Motions {
   kStanding  ///< gravity only
 };
 
+/// What find_dependencies() has found.
+struct Dependencies {
+  std::vector<Dependency> found;
+  /// Columns that depend on others by coefficients that are no simple function of the unknown
+  /// lengths: their parameters stay apart, and the set is larger than it need be.
+  std::vector<Column> unsolved;
+};
+
 /// Finds the columns that depend on columns before them, scanning from left to right
 /// (thesis 3.3.2).
 ///
 /// Ranks are decided in extended precision on random motions; each dependency is then solved again
-/// with 60 digits and kept only if it holds to 40 on motions that were not used to find it. A
-/// dependency whose coefficients change with an unknown length is not reported: its parameters stay
-/// apart.
+/// with 60 digits and kept only if it holds to 42 on motions that were not used to find it. Where
+/// lengths are unknown, its coefficients are found as functions of them, see interpolate().
 ///
 /// @param columns  in the order of preference: what comes first stays
-std::vector<Dependency> find_dependencies(const SymbolicRobot& robot,
-                                          const std::vector<Column>& columns, Motions motions);
+Dependencies find_dependencies(const SymbolicRobot& robot, const std::vector<Column>& columns,
+                               Motions motions);
 
 }  // namespace dyngen
