@@ -259,9 +259,9 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, double *t
   const double VP2_1 = GY * C1;
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double W3_2 = dq[0] + dq[1];
+  const double DQ_2 = dq[0] + dq[1];
   const double WP3_2 = ddq[0] + ddq[1];
-  const double DV33_2 = W3_2 * W3_2;
+  const double DV33_2 = DQ_2 * DQ_2;
   const double VA1_2 = VP1_1 - d2 * DV33_1;
   const double VA2_2 = d2 * ddq[0] + VP2_1;
   const double VP1_2 = C2 * VA1_2 + S2 * VA2_2;
@@ -313,9 +313,9 @@ void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, dou
   const double VP2_1 = GY * C1;
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double W3_2 = dq[0] + dq[1];
+  const double DQ_2 = dq[0] + dq[1];
   const double WP3_2 = ddq[0] + ddq[1];
-  const double DV33_2 = W3_2 * W3_2;
+  const double DV33_2 = DQ_2 * DQ_2;
   const double VA1_2 = VP1_1 - d2 * DV33_1;
   const double VA2_2 = d2 * ddq[0] + VP2_1;
   const double VP1_2 = C2 * VA1_2 + S2 * VA2_2;
@@ -340,12 +340,13 @@ void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, dou
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   tau[2] N m, out
- * 4 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 6 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_gravity(const double *q, double *tau) {
-  const double GY_MY2 = 0.28632656934;
-  const double GY_MX2 = 1.5350587938;
-  const double GY_MY1 = 13.2201192384;
-  const double GY_MXR1 = 2.63738361564;
+  const double MXR1 = -0.268846444; /* kg m, grouped */
+  const double MY1 = 1.34761664; /* kg m, planar2r.robot:19 */
+  const double MX2 = 0.15647898; /* kg m, planar2r.robot:18 */
+  const double MY2 = 0.029187214; /* kg m, planar2r.robot:19 */
+  const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
 
   /* sines and cosines of the joint angles */
   const double Q1_2 = q[0] + q[1];
@@ -356,15 +357,16 @@ void planar2r_gravity(const double *q, double *tau) {
   const double S1_2 = PLANAR2R_AT(sine1, 1);
   const double C1_2 = PLANAR2R_AT(cosine1, 1);
 
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double N3_2 = C1_2 * GY_MX2 - S1_2 * GY_MY2;
+  /* link 2: MS first moments with the links it carries */
+  const double AMS1_2 = MX2 * C1_2 - MY2 * S1_2;
+  const double T3_2 = GY * AMS1_2;
 
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = -S1 * GY_MY1 - C1 * GY_MXR1;
-  const double T3_1 = N3_2 + N3_1;
+  /* link 1: MS first moments with the links it carries */
+  const double AMS1_1 = MXR1 * C1 - MY1 * S1;
+  const double T3_1 = T3_2 + GY * AMS1_1;
 
   tau[0] = T3_1;
-  tau[1] = N3_2;
+  tau[1] = T3_2;
 }
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
@@ -382,7 +384,7 @@ void planar2r_coriolis(const double *q, const double *dq, double *tau) {
   const double C2 = PLANAR2R_AT(cosine1, 0);
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double W3_2 = dq[0] + dq[1];
+  const double DQ_2 = dq[0] + dq[1];
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
   const double S2_MX2_plus_C2_MY2 = MX2 * S2 + MY2 * C2;
@@ -390,7 +392,7 @@ void planar2r_coriolis(const double *q, const double *dq, double *tau) {
   const double N3_2 = dq[0] * dq[0] * N3_2_part;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = N3_2 - W3_2 * W3_2 * N3_2_part;
+  const double T3_1 = N3_2 - DQ_2 * DQ_2 * N3_2_part;
 
   tau[0] = T3_1;
   tau[1] = N3_2;

@@ -47,7 +47,7 @@ void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, dou
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   tau[2] N m, out
- * 4 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 6 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.

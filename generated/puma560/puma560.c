@@ -284,53 +284,22 @@ static PUMA560_NOINLINE void puma560_sincos4(double x0, double x1, double x2, do
   }
 }
 
-static PUMA560_NOINLINE void puma560_sincos6(double x0, double x1, double x2, double x3, double x4,
-                                             double x5, puma560_pack *s, puma560_pack *c) {
-  const double x[6] = {x0, x1, x2, x3, x4, x5};
-  int i;
-#ifdef PUMA560_INLINE_TRIG
-  if (((x0 * x0 + x1 * x1) + x2 * x2) + ((x3 * x3 + x4 * x4) + x5 * x5) < 1e10) {
-#if PUMA560_PACK == 8
-    const puma560_pack v[1] = {{x0, x1, x2, x3, x4, x5, 0.0, 0.0}};
-    puma560_sincos_kernel1(v, s, c);
-#elif PUMA560_PACK == 4
-    const puma560_pack v[2] = {{x0, x1, x2, x3}, {x4, x5, 0.0, 0.0}};
-    puma560_sincos_kernel2(v, s, c);
-#else
-    const puma560_pack v[3] = {{x0, x1}, {x2, x3}, {x4, x5}};
-    puma560_sincos_kernel2(v, s, c);
-    puma560_sincos_kernel1(v + 2, s + 2, c + 2);
-#endif
-    return;
-  }
-#endif
-  for (i = 0; i < 6; ++i) {
-    PUMA560_AT(s, i) = sin(x[i]);
-    PUMA560_AT(c, i) = cos(x[i]);
-  }
-}
-
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
- * 198 mul, 167 add, 6 sin/cos, 6 sgn.  Reads every input before writing tau. */
+ * 169 mul, 137 add, 4 sin/cos, 6 sgn.  Reads every input before writing tau. */
 void puma560_id(const double *q, const double *dq, const double *ddq, double *tau) {
-  const double ZZR1 = 4.293482265; /* kg m^2, grouped */
   const double FV1 = 5.8018217679508; /* N m s/rad, puma560.robot:42 */
   const double FS1 = 25.9836065; /* N m, puma560.robot:41 */
   const double XXR2 = -1.601861202; /* kg m^2, grouped */
   const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
-  const double XZR2 = 0.233911466; /* kg m^2, grouped */
-  const double YZ2 = 0.0016704; /* kg m^2, puma560.robot:35 */
   const double ZZR2 = 6.458114002; /* kg m^2, grouped */
   const double MXR2 = 3.79559; /* kg m, grouped */
   const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
   const double FV2 = 9.496868641825; /* N m s/rad, puma560.robot:42 */
   const double FS2 = 10.6197775; /* N m, puma560.robot:41 */
-  const double XXR3 = 0.299575024; /* kg m^2, grouped */
   const double XYR3 = -0.0106736385; /* kg m^2, grouped */
   const double YZ3 = 0.004704; /* kg m^2, puma560.robot:35 */
-  const double ZZR3 = 0.333105249; /* kg m^2, grouped */
   const double MXR3 = -0.025375; /* kg m, grouped */
   const double MYR3 = -0.861795; /* kg m, grouped */
   const double IA3 = 0.827; /* kg m^2, puma560.robot:40 */
@@ -351,456 +320,19 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double IA6 = 0.193; /* kg m^2, puma560.robot:40 */
   const double FV6 = 0.2158232532732; /* N m s/rad, puma560.robot:42 */
   const double FS6 = 0.55443978; /* N m, puma560.robot:41 */
-  const double r2 = 0.2435; /* m, puma560.robot:23 */
   const double d3 = 0.4318; /* m, puma560.robot:21 */
-  const double r3 = -0.0934; /* m, puma560.robot:23 */
   const double d4 = -0.0203; /* m, puma560.robot:21 */
   const double r4 = 0.4331; /* m, puma560.robot:23 */
   const double GZ = 9.81; /* m/s^2, puma560.robot:48 */
+  const double KXX_3 = 0.0167651125;
+  const double KYY_3 = 0.3163401365;
+  const double JXZ_2 = -0.690314699;
+  const double JYZ_2 = -0.023751;
+  const double JZZ_1 = 4.2767171525;
+  const double P3_3 = 0.1501;
   const double XmZ_5 = -0.0004;
   const double XmZ_4 = -0.0013;
-  const double XmZ_3 = -0.033530225;
-  const double XmZ_2 = -8.059975204;
-
-  /* sines and cosines of the joint angles */
-  const double Q2_3 = q[1] + q[2];
-  puma560_pack sine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK], cosine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK];
-  puma560_sincos6(q[1], q[2], Q2_3, q[3], q[4], q[5], sine1, cosine1);
-  const double S2 = PUMA560_AT(sine1, 0);
-  const double C2 = PUMA560_AT(cosine1, 0);
-  const double S3 = PUMA560_AT(sine1, 1);
-  const double C3 = PUMA560_AT(cosine1, 1);
-  const double S2_3 = PUMA560_AT(sine1, 2);
-  const double C2_3 = PUMA560_AT(cosine1, 2);
-  const double S4 = PUMA560_AT(sine1, 3);
-  const double C4 = PUMA560_AT(cosine1, 3);
-  const double S5 = PUMA560_AT(sine1, 4);
-  const double C5 = PUMA560_AT(cosine1, 4);
-  const double S6 = PUMA560_AT(sine1, 5);
-  const double C6 = PUMA560_AT(cosine1, 5);
-
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double mW1_2 = dq[0] * S2;
-  const double mW2_2 = dq[0] * C2;
-  const double mDV23_2 = dq[1] * mW2_2;
-  const double mDV13_2 = dq[1] * mW1_2;
-  const double DV12_2 = mW1_2 * mW2_2;
-  const double mU13_2 = ddq[0] * C2;
-  const double U23_2 = ddq[0] * S2;
-  const double mWP1_2 = mDV23_2 + U23_2;
-  const double DV22_2 = mW2_2 * mW2_2;
-  const double DV33_2 = dq[1] * dq[1];
-  const double D23_2 = DV22_2 - DV33_2;
-  const double mU11_2 = DV22_2 + DV33_2;
-  const double U22_2 = D23_2 - DV33_1;
-  const double D31_2 = mU11_2 - DV33_1;
-  const double mD12_2 = mU11_2 + U22_2;
-  const double U12_2 = DV12_2 - ddq[1];
-  const double U21_2 = ddq[1] + DV12_2;
-  const double mU31_2 = 2.0 * mDV13_2 - mU13_2;
-  const double mU32_2 = mDV23_2 + mWP1_2;
-  const double mVA1_2 = r2 * ddq[0];
-  const double mVA2_2 = r2 * DV33_1;
-  const double mVP1_2 = GZ * S2 + C2 * mVA1_2;
-  const double VP2_2 = S2 * mVA1_2 - GZ * C2;
-
-  /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
-  const double mW1_3 = dq[0] * S2_3;
-  const double mW2_3 = dq[0] * C2_3;
-  const double W3_3 = dq[1] + dq[2];
-  const double mDV23_3 = mW2_3 * W3_3;
-  const double mDV13_3 = mW1_3 * W3_3;
-  const double DV12_3 = mW1_3 * mW2_3;
-  const double WP3_3 = ddq[1] + ddq[2];
-  const double mU13_3 = ddq[0] * C2_3;
-  const double mWP1_3 = ddq[0] * S2_3 + mDV23_3;
-  const double WP2_3 = mDV13_3 - mU13_3;
-  const double DV22_3 = mW2_3 * mW2_3;
-  const double DV33_3 = W3_3 * W3_3;
-  const double D23_3 = DV22_3 - DV33_3;
-  const double mU11_3 = DV22_3 + DV33_3;
-  const double U22_3 = D23_3 - DV33_1;
-  const double mD12_3 = mU11_3 + U22_3;
-  const double U12_3 = DV12_3 - WP3_3;
-  const double U21_3 = DV12_3 + WP3_3;
-  const double mU31_3 = mDV13_3 + WP2_3;
-  const double mU32_3 = mDV23_3 + mWP1_3;
-  const double mVA1_3 = r3 * mU13_2 + d3 * mU11_2 + mVP1_2;
-  const double VA2_3 = r3 * U23_2 + d3 * U21_2 + VP2_2;
-  const double mVA3_3 = r3 * DV33_1 + d3 * mU31_2 + mVA2_2;
-  const double VP1_3 = S3 * VA2_3 - C3 * mVA1_3;
-  const double VP2_3 = S3 * mVA1_3 + C3 * VA2_3;
-
-  /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W1_4 = S4 * W3_3 - C4 * mW1_3;
-  const double W2_4 = S4 * mW1_3 + C4 * W3_3;
-  const double W3_4 = dq[3] + mW2_3;
-  const double DV23_4 = W2_4 * W3_4;
-  const double DV13_4 = W1_4 * W3_4;
-  const double DV12_4 = W1_4 * W2_4;
-  const double WP3_4 = ddq[3] - WP2_3;
-  const double U13_4 = S4 * mU32_3 - C4 * U12_3;
-  const double U23_4 = S4 * U12_3 + C4 * mU32_3;
-  const double WP1_4 = DV23_4 - U23_4;
-  const double WP2_4 = U13_4 - DV13_4;
-  const double D23_4 = W2_4 * W2_4 - W3_4 * W3_4;
-  const double U22_4 = U22_3 + D23_4;
-  const double U12_4 = DV12_4 - WP3_4;
-  const double U32_4 = DV23_4 + WP1_4;
-  const double mVA1_4 = d4 * mU11_3 + r4 * U12_3 - VP1_3;
-  const double VA2_4 = d4 * U21_3 - r4 * U22_3 + VP2_3;
-  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mVA3_3;
-  const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
-  const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
-
-  /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double W1_5 = C5 * W1_4 - S5 * W3_4;
-  const double mW2_5 = S5 * W1_4 + C5 * W3_4;
-  const double W3_5 = dq[4] + W2_4;
-  const double mDV23_5 = mW2_5 * W3_5;
-  const double DV13_5 = W1_5 * W3_5;
-  const double mDV12_5 = W1_5 * mW2_5;
-  const double WP3_5 = ddq[4] + WP2_4;
-  const double U13_5 = C5 * U12_4 - S5 * U32_4;
-  const double mU23_5 = S5 * U12_4 + C5 * U32_4;
-  const double WP1_5 = mU23_5 - mDV23_5;
-  const double WP2_5 = U13_5 - DV13_5;
-  const double D23_5 = mW2_5 * mW2_5 - W3_5 * W3_5;
-  const double U22_5 = U22_4 + D23_5;
-  const double mU12_5 = mDV12_5 + WP3_5;
-  const double U32_5 = WP1_5 - mDV23_5;
-  const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
-
-  /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
-  const double W1_6 = C6 * W1_5 + S6 * W3_5;
-  const double W2_6 = C6 * W3_5 - S6 * W1_5;
-  const double W3_6 = dq[5] + mW2_5;
-  const double WP3_6 = ddq[5] - WP2_5;
-
-  /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double W3_6_ZZ6 = ZZ6 * W3_6;
-  const double N1_6 = W2_6 * W3_6_ZZ6;
-  const double mN2_6 = W1_6 * W3_6_ZZ6;
-  const double N3_6 = ZZ6 * WP3_6;
-
-  /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double mF1_5 = MYR5 * mU12_5;
-  const double F2_5 = MYR5 * U22_5;
-  const double F3_5 = MYR5 * U32_5;
-  const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
-  const double N3_5 = XXR5 * mDV12_5 + ZZR5 * WP3_5 - MYR5 * VP1_5;
-  const double T1_5 = C6 * N1_6 + S6 * mN2_6 + N1_5;
-  const double T2_5 = XmZ_5 * DV13_5 - N3_6;
-  const double T3_5 = S6 * N1_6 - C6 * mN2_6 + N3_5;
-  const double mFA1_5 = C5 * mF1_5 + S5 * F2_5;
-  const double FA3_5 = S5 * mF1_5 - C5 * F2_5;
-
-  /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
-  const double N3_4 = ZZR4 * WP3_4 - XXR4 * DV12_4;
-  const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
-  const double T2_4 = XmZ_4 * DV13_4 + T3_5;
-  const double mT3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
-  const double mFA1_4 = S4 * F3_5 + C4 * mFA1_5;
-  const double FA3_4 = C4 * F3_5 - S4 * mFA1_5;
-
-  /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double F1_3 = MYR3 * U12_3 - MXR3 * mU11_3;
-  const double F2_3 = MYR3 * U22_3 + MXR3 * U21_3;
-  const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
-  const double mN1_3 = ZZR3 * mDV23_3 + XXR3 * mWP1_3 - YZ3 * D23_3 - XYR3 * mU31_3 + MYR3 * mVA3_3;
-  const double mN2_3 = XmZ_3 * mDV13_3 + YZ3 * U12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3;
-  const double mN3_3 = XXR3 * DV12_3 - ZZR3 * WP3_3 + YZ3 * mU13_3 + XYR3 * mD12_3 + MYR3 * VP1_3
-      - MXR3 * VP2_3;
-  const double E1_3 = F1_3 - mFA1_4;
-  const double E2_3 = F2_3 - FA3_5;
-  const double E3_3 = FA3_4 - mF3_3;
-  const double mT1_3 = S4 * T2_4 - C4 * T1_4 + r4 * FA3_4 + mN1_3;
-  const double mT2_3 = d4 * FA3_4 - mT3_4 + mN2_3;
-  const double mT3_3 = d4 * FA3_5 - S4 * T1_4 - C4 * T2_4 + r4 * mFA1_4 + mN3_3;
-  const double FA1_3 = C3 * E1_3 - S3 * E2_3;
-  const double FA2_3 = S3 * E1_3 + C3 * E2_3;
-
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = MY2 * U12_2 - MXR2 * mU11_2;
-  const double F2_2 = MY2 * U22_2 + MXR2 * U21_2;
-  const double N1_2 = YZ2 * D23_2 - ZZR2 * mDV23_2 - XXR2 * mWP1_2 + XZR2 * U21_2 + XY2 * mU31_2
-      - MY2 * mVA2_2;
-  const double mN2_2 = XmZ_2 * mDV13_2 - XZR2 * D31_2 + YZ2 * U12_2 + XY2 * mU32_2 - MXR2 * mVA2_2;
-  const double mN3_2 = XXR2 * DV12_2 - ZZR2 * ddq[1] + YZ2 * mU13_2 + XZR2 * U23_2 + XY2 * mD12_2
-      - MY2 * mVP1_2 - MXR2 * VP2_2;
-  const double E1_2 = FA1_3 + F1_2;
-  const double E2_2 = FA2_3 + F2_2;
-  const double T1_2 = S3 * mT2_3 - C3 * mT1_3 - r3 * FA2_3 + N1_2;
-  const double mT2_2 = d3 * E3_3 + S3 * mT1_3 + C3 * mT2_3 - r3 * FA1_3 + mN2_2;
-  const double mT3_2 = mT3_3 - d3 * FA2_3 + mN3_2;
-  const double FA1_2 = C2 * E1_2 - S2 * E2_2;
-
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = ZZR1 * ddq[0] - S2 * T1_2 + C2 * mT2_2 - r2 * FA1_2;
-
-  /* joint torques */
-  const double tau_1 = FV1 * dq[0] + FS1 * puma560_sign(dq[0]) + T3_1;
-  const double tau_2 = FV2 * dq[1] + FS2 * puma560_sign(dq[1]) - mT3_2;
-  const double tau_3 = FV3 * dq[2] + FS3 * puma560_sign(dq[2]) + IA3 * ddq[2] - mT3_3;
-  const double tau_4 = FV4 * dq[3] + FS4 * puma560_sign(dq[3]) + IA4 * ddq[3] - mT3_4;
-  const double tau_5 = FV5 * dq[4] + FS5 * puma560_sign(dq[4]) + IA5 * ddq[4] + T3_5;
-  const double tau_6 = FV6 * dq[5] + FS6 * puma560_sign(dq[5]) + IA6 * ddq[5] + N3_6;
-
-  tau[0] = tau_1;
-  tau[1] = tau_2;
-  tau[2] = tau_3;
-  tau[3] = tau_4;
-  tau[4] = tau_5;
-  tau[5] = tau_6;
-}
-
-/* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
- *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
- * 186 mul, 155 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void puma560_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
-  const double ZZR1 = 4.293482265; /* kg m^2, grouped */
-  const double XXR2 = -1.601861202; /* kg m^2, grouped */
-  const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
-  const double XZR2 = 0.233911466; /* kg m^2, grouped */
-  const double YZ2 = 0.0016704; /* kg m^2, puma560.robot:35 */
-  const double ZZR2 = 6.458114002; /* kg m^2, grouped */
-  const double MXR2 = 3.79559; /* kg m, grouped */
-  const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
-  const double XXR3 = 0.299575024; /* kg m^2, grouped */
-  const double XYR3 = -0.0106736385; /* kg m^2, grouped */
-  const double YZ3 = 0.004704; /* kg m^2, puma560.robot:35 */
-  const double ZZR3 = 0.333105249; /* kg m^2, grouped */
-  const double MXR3 = -0.025375; /* kg m, grouped */
-  const double MYR3 = -0.861795; /* kg m, grouped */
-  const double IA3 = 0.827; /* kg m^2, puma560.robot:40 */
-  const double XXR4 = 0.0003; /* kg m^2, grouped */
-  const double ZZR4 = 0.0016; /* kg m^2, grouped */
-  const double IA4 = 0.2; /* kg m^2, puma560.robot:40 */
-  const double XXR5 = 0.00024216; /* kg m^2, grouped */
-  const double ZZR5 = 0.00064216; /* kg m^2, grouped */
-  const double MYR5 = -0.00288; /* kg m, grouped */
-  const double IA5 = 0.179; /* kg m^2, puma560.robot:40 */
-  const double ZZ6 = 4e-05; /* kg m^2, puma560.robot:36 */
-  const double IA6 = 0.193; /* kg m^2, puma560.robot:40 */
-  const double r2 = 0.2435; /* m, puma560.robot:23 */
-  const double d3 = 0.4318; /* m, puma560.robot:21 */
-  const double r3 = -0.0934; /* m, puma560.robot:23 */
-  const double d4 = -0.0203; /* m, puma560.robot:21 */
-  const double r4 = 0.4331; /* m, puma560.robot:23 */
-  const double GZ = 9.81; /* m/s^2, puma560.robot:48 */
-  const double XmZ_5 = -0.0004;
-  const double XmZ_4 = -0.0013;
-  const double XmZ_3 = -0.033530225;
-  const double XmZ_2 = -8.059975204;
-
-  /* sines and cosines of the joint angles */
-  const double Q2_3 = q[1] + q[2];
-  puma560_pack sine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK], cosine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK];
-  puma560_sincos6(q[1], q[2], Q2_3, q[3], q[4], q[5], sine1, cosine1);
-  const double S2 = PUMA560_AT(sine1, 0);
-  const double C2 = PUMA560_AT(cosine1, 0);
-  const double S3 = PUMA560_AT(sine1, 1);
-  const double C3 = PUMA560_AT(cosine1, 1);
-  const double S2_3 = PUMA560_AT(sine1, 2);
-  const double C2_3 = PUMA560_AT(cosine1, 2);
-  const double S4 = PUMA560_AT(sine1, 3);
-  const double C4 = PUMA560_AT(cosine1, 3);
-  const double S5 = PUMA560_AT(sine1, 4);
-  const double C5 = PUMA560_AT(cosine1, 4);
-  const double S6 = PUMA560_AT(sine1, 5);
-  const double C6 = PUMA560_AT(cosine1, 5);
-
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double mW1_2 = dq[0] * S2;
-  const double mW2_2 = dq[0] * C2;
-  const double mDV23_2 = dq[1] * mW2_2;
-  const double mDV13_2 = dq[1] * mW1_2;
-  const double DV12_2 = mW1_2 * mW2_2;
-  const double mU13_2 = ddq[0] * C2;
-  const double U23_2 = ddq[0] * S2;
-  const double mWP1_2 = mDV23_2 + U23_2;
-  const double DV22_2 = mW2_2 * mW2_2;
-  const double DV33_2 = dq[1] * dq[1];
-  const double D23_2 = DV22_2 - DV33_2;
-  const double mU11_2 = DV22_2 + DV33_2;
-  const double U22_2 = D23_2 - DV33_1;
-  const double D31_2 = mU11_2 - DV33_1;
-  const double mD12_2 = mU11_2 + U22_2;
-  const double U12_2 = DV12_2 - ddq[1];
-  const double U21_2 = ddq[1] + DV12_2;
-  const double mU31_2 = 2.0 * mDV13_2 - mU13_2;
-  const double mU32_2 = mDV23_2 + mWP1_2;
-  const double mVA1_2 = r2 * ddq[0];
-  const double mVA2_2 = r2 * DV33_1;
-  const double mVP1_2 = GZ * S2 + C2 * mVA1_2;
-  const double VP2_2 = S2 * mVA1_2 - GZ * C2;
-
-  /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
-  const double mW1_3 = dq[0] * S2_3;
-  const double mW2_3 = dq[0] * C2_3;
-  const double W3_3 = dq[1] + dq[2];
-  const double mDV23_3 = mW2_3 * W3_3;
-  const double mDV13_3 = mW1_3 * W3_3;
-  const double DV12_3 = mW1_3 * mW2_3;
-  const double WP3_3 = ddq[1] + ddq[2];
-  const double mU13_3 = ddq[0] * C2_3;
-  const double mWP1_3 = ddq[0] * S2_3 + mDV23_3;
-  const double WP2_3 = mDV13_3 - mU13_3;
-  const double DV22_3 = mW2_3 * mW2_3;
-  const double DV33_3 = W3_3 * W3_3;
-  const double D23_3 = DV22_3 - DV33_3;
-  const double mU11_3 = DV22_3 + DV33_3;
-  const double U22_3 = D23_3 - DV33_1;
-  const double mD12_3 = mU11_3 + U22_3;
-  const double U12_3 = DV12_3 - WP3_3;
-  const double U21_3 = DV12_3 + WP3_3;
-  const double mU31_3 = mDV13_3 + WP2_3;
-  const double mU32_3 = mDV23_3 + mWP1_3;
-  const double mVA1_3 = r3 * mU13_2 + d3 * mU11_2 + mVP1_2;
-  const double VA2_3 = r3 * U23_2 + d3 * U21_2 + VP2_2;
-  const double mVA3_3 = r3 * DV33_1 + d3 * mU31_2 + mVA2_2;
-  const double VP1_3 = S3 * VA2_3 - C3 * mVA1_3;
-  const double VP2_3 = S3 * mVA1_3 + C3 * VA2_3;
-
-  /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W1_4 = S4 * W3_3 - C4 * mW1_3;
-  const double W2_4 = S4 * mW1_3 + C4 * W3_3;
-  const double W3_4 = dq[3] + mW2_3;
-  const double DV23_4 = W2_4 * W3_4;
-  const double DV13_4 = W1_4 * W3_4;
-  const double DV12_4 = W1_4 * W2_4;
-  const double WP3_4 = ddq[3] - WP2_3;
-  const double U13_4 = S4 * mU32_3 - C4 * U12_3;
-  const double U23_4 = S4 * U12_3 + C4 * mU32_3;
-  const double WP1_4 = DV23_4 - U23_4;
-  const double WP2_4 = U13_4 - DV13_4;
-  const double D23_4 = W2_4 * W2_4 - W3_4 * W3_4;
-  const double U22_4 = U22_3 + D23_4;
-  const double U12_4 = DV12_4 - WP3_4;
-  const double U32_4 = DV23_4 + WP1_4;
-  const double mVA1_4 = d4 * mU11_3 + r4 * U12_3 - VP1_3;
-  const double VA2_4 = d4 * U21_3 - r4 * U22_3 + VP2_3;
-  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mVA3_3;
-  const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
-  const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
-
-  /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double W1_5 = C5 * W1_4 - S5 * W3_4;
-  const double mW2_5 = S5 * W1_4 + C5 * W3_4;
-  const double W3_5 = dq[4] + W2_4;
-  const double mDV23_5 = mW2_5 * W3_5;
-  const double DV13_5 = W1_5 * W3_5;
-  const double mDV12_5 = W1_5 * mW2_5;
-  const double WP3_5 = ddq[4] + WP2_4;
-  const double U13_5 = C5 * U12_4 - S5 * U32_4;
-  const double mU23_5 = S5 * U12_4 + C5 * U32_4;
-  const double WP1_5 = mU23_5 - mDV23_5;
-  const double WP2_5 = U13_5 - DV13_5;
-  const double D23_5 = mW2_5 * mW2_5 - W3_5 * W3_5;
-  const double U22_5 = U22_4 + D23_5;
-  const double mU12_5 = mDV12_5 + WP3_5;
-  const double U32_5 = WP1_5 - mDV23_5;
-  const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
-
-  /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
-  const double W1_6 = C6 * W1_5 + S6 * W3_5;
-  const double W2_6 = C6 * W3_5 - S6 * W1_5;
-  const double W3_6 = dq[5] + mW2_5;
-  const double WP3_6 = ddq[5] - WP2_5;
-
-  /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double W3_6_ZZ6 = ZZ6 * W3_6;
-  const double N1_6 = W2_6 * W3_6_ZZ6;
-  const double mN2_6 = W1_6 * W3_6_ZZ6;
-  const double N3_6 = ZZ6 * WP3_6;
-
-  /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double mF1_5 = MYR5 * mU12_5;
-  const double F2_5 = MYR5 * U22_5;
-  const double F3_5 = MYR5 * U32_5;
-  const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
-  const double N3_5 = XXR5 * mDV12_5 + ZZR5 * WP3_5 - MYR5 * VP1_5;
-  const double T1_5 = C6 * N1_6 + S6 * mN2_6 + N1_5;
-  const double T2_5 = XmZ_5 * DV13_5 - N3_6;
-  const double T3_5 = S6 * N1_6 - C6 * mN2_6 + N3_5;
-  const double mFA1_5 = C5 * mF1_5 + S5 * F2_5;
-  const double FA3_5 = S5 * mF1_5 - C5 * F2_5;
-
-  /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
-  const double N3_4 = ZZR4 * WP3_4 - XXR4 * DV12_4;
-  const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
-  const double T2_4 = XmZ_4 * DV13_4 + T3_5;
-  const double mT3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
-  const double mFA1_4 = S4 * F3_5 + C4 * mFA1_5;
-  const double FA3_4 = C4 * F3_5 - S4 * mFA1_5;
-
-  /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double F1_3 = MYR3 * U12_3 - MXR3 * mU11_3;
-  const double F2_3 = MYR3 * U22_3 + MXR3 * U21_3;
-  const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
-  const double mN1_3 = ZZR3 * mDV23_3 + XXR3 * mWP1_3 - YZ3 * D23_3 - XYR3 * mU31_3 + MYR3 * mVA3_3;
-  const double mN2_3 = XmZ_3 * mDV13_3 + YZ3 * U12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3;
-  const double mN3_3 = XXR3 * DV12_3 - ZZR3 * WP3_3 + YZ3 * mU13_3 + XYR3 * mD12_3 + MYR3 * VP1_3
-      - MXR3 * VP2_3;
-  const double E1_3 = F1_3 - mFA1_4;
-  const double E2_3 = F2_3 - FA3_5;
-  const double E3_3 = FA3_4 - mF3_3;
-  const double mT1_3 = S4 * T2_4 - C4 * T1_4 + r4 * FA3_4 + mN1_3;
-  const double mT2_3 = d4 * FA3_4 - mT3_4 + mN2_3;
-  const double mT3_3 = d4 * FA3_5 - S4 * T1_4 - C4 * T2_4 + r4 * mFA1_4 + mN3_3;
-  const double FA1_3 = C3 * E1_3 - S3 * E2_3;
-  const double FA2_3 = S3 * E1_3 + C3 * E2_3;
-
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = MY2 * U12_2 - MXR2 * mU11_2;
-  const double F2_2 = MY2 * U22_2 + MXR2 * U21_2;
-  const double N1_2 = YZ2 * D23_2 - ZZR2 * mDV23_2 - XXR2 * mWP1_2 + XZR2 * U21_2 + XY2 * mU31_2
-      - MY2 * mVA2_2;
-  const double mN2_2 = XmZ_2 * mDV13_2 - XZR2 * D31_2 + YZ2 * U12_2 + XY2 * mU32_2 - MXR2 * mVA2_2;
-  const double mN3_2 = XXR2 * DV12_2 - ZZR2 * ddq[1] + YZ2 * mU13_2 + XZR2 * U23_2 + XY2 * mD12_2
-      - MY2 * mVP1_2 - MXR2 * VP2_2;
-  const double E1_2 = FA1_3 + F1_2;
-  const double E2_2 = FA2_3 + F2_2;
-  const double T1_2 = S3 * mT2_3 - C3 * mT1_3 - r3 * FA2_3 + N1_2;
-  const double mT2_2 = d3 * E3_3 + S3 * mT1_3 + C3 * mT2_3 - r3 * FA1_3 + mN2_2;
-  const double mT3_2 = mT3_3 - d3 * FA2_3 + mN3_2;
-  const double FA1_2 = C2 * E1_2 - S2 * E2_2;
-
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = ZZR1 * ddq[0] - S2 * T1_2 + C2 * mT2_2 - r2 * FA1_2;
-
-  /* joint torques */
-  const double tau_3 = IA3 * ddq[2] - mT3_3;
-  const double tau_4 = IA4 * ddq[3] - mT3_4;
-  const double tau_5 = IA5 * ddq[4] + T3_5;
-  const double tau_6 = IA6 * ddq[5] + N3_6;
-
-  tau[0] = T3_1;
-  tau[1] = -mT3_2;
-  tau[2] = tau_3;
-  tau[3] = tau_4;
-  tau[4] = tau_5;
-  tau[5] = tau_6;
-}
-
-/* tau = g(q): the torque that holds the arm still.
- *   q[6] rad   tau[6] N m, out
- * 16 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void puma560_gravity(const double *q, double *tau) {
-  const double MXR3 = -0.025375; /* kg m, grouped */
-  const double MYR3 = -0.861795; /* kg m, grouped */
-  const double MYR5 = -0.00288; /* kg m, grouped */
-  const double GZ = 9.81; /* m/s^2, puma560.robot:48 */
-  const double GZ_MY2 = 1.024164;
-  const double GZ_MXR2 = 37.2347379;
+  const double AJ2XY_2 = -0.0141984;
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
@@ -815,47 +347,416 @@ void puma560_gravity(const double *q, double *tau) {
   const double S5 = PUMA560_AT(sine1, 3);
   const double C5 = PUMA560_AT(cosine1, 3);
 
+  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
+  const double DV33_1 = dq[0] * dq[0];
+
+  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
+  const double ADV33_2 = dq[1] * dq[1];
+  const double mAU11_2 = DV33_1 + ADV33_2;
+  const double mAU32_2 = 2.0 * dq[0] * dq[1];
+
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
-  const double mVP1_3 = GZ * S2_3;
-  const double mVP2_3 = GZ * C2_3;
+  const double DQ_3 = dq[1] + dq[2];
+  const double mW1_3 = dq[0] * S2_3;
+  const double mW2_3 = dq[0] * C2_3;
+  const double WP3_3 = ddq[1] + ddq[2];
+  const double mDV13_3 = DQ_3 * mW1_3;
+  const double DV12_3 = mW1_3 * mW2_3;
+  const double mU13_3 = ddq[0] * C2_3;
+  const double WP2_3 = mDV13_3 - mU13_3;
+  const double DV22_3 = mW2_3 * mW2_3;
+  const double DV33_3 = DQ_3 * DQ_3;
+  const double D23_3 = DV22_3 - DV33_3;
+  const double mU11_3 = DV22_3 + DV33_3;
+  const double U22_3 = D23_3 - DV33_1;
+  const double mD12_3 = mU11_3 + U22_3;
+  const double U12_3 = DV12_3 - WP3_3;
+  const double U21_3 = WP3_3 + DV12_3;
+  const double mU31_3 = mDV13_3 + WP2_3;
+  const double mU32_3 = ddq[0] * S2_3 + 2.0 * DQ_3 * mW2_3;
+  const double AP1_3 = d3 * C2;
+  const double AP2_3 = d3 * S2;
+  const double mAVA1_3 = ddq[0] * P3_3 + mAU11_2 * AP1_3 + ddq[1] * AP2_3;
+  const double mAVA2_3 = GZ - ddq[1] * AP1_3 + ADV33_2 * AP2_3;
+  const double mAVA3_3 = P3_3 * DV33_1 - ddq[0] * AP1_3 + mAU32_2 * AP2_3;
+  const double mVP1_3 = C2_3 * mAVA1_3 + S2_3 * mAVA2_3;
+  const double VP2_3 = S2_3 * mAVA1_3 - C2_3 * mAVA2_3;
+
+  /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
+  const double W3_4 = dq[3] + mW2_3;
+  const double W1_4 = S4 * DQ_3 - C4 * mW1_3;
+  const double W2_4 = C4 * DQ_3 + S4 * mW1_3;
+  const double WP3_4 = ddq[3] - WP2_3;
+  const double DV23_4 = W3_4 * W2_4;
+  const double DV13_4 = W3_4 * W1_4;
+  const double DV12_4 = W1_4 * W2_4;
+  const double U13_4 = S4 * mU32_3 - C4 * U12_3;
+  const double U23_4 = S4 * U12_3 + C4 * mU32_3;
+  const double WP1_4 = DV23_4 - U23_4;
+  const double WP2_4 = U13_4 - DV13_4;
+  const double D23_4 = W2_4 * W2_4 - W3_4 * W3_4;
+  const double U22_4 = U22_3 + D23_4;
+  const double U12_4 = DV12_4 - WP3_4;
+  const double U32_4 = DV23_4 + WP1_4;
+  const double mVA1_4 = d4 * mU11_3 + r4 * U12_3 + mVP1_3;
+  const double VA2_4 = d4 * U21_3 - r4 * U22_3 + VP2_3;
+  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mAVA3_3;
+  const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
+  const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double mVP1_5 = C4 * C5 * mVP1_3 + S5 * mVP2_3;
+  const double W3_5 = dq[4] + W2_4;
+  const double W1_5 = C5 * W1_4 - S5 * W3_4;
+  const double mW2_5 = C5 * W3_4 + S5 * W1_4;
+  const double WP3_5 = ddq[4] + WP2_4;
+  const double mDV23_5 = W3_5 * mW2_5;
+  const double DV13_5 = W3_5 * W1_5;
+  const double mDV12_5 = W1_5 * mW2_5;
+  const double U13_5 = C5 * U12_4 - S5 * U32_4;
+  const double mU23_5 = S5 * U12_4 + C5 * U32_4;
+  const double WP1_5 = mU23_5 - mDV23_5;
+  const double WP2_5 = U13_5 - DV13_5;
+  const double D23_5 = mW2_5 * mW2_5 - W3_5 * W3_5;
+  const double U22_5 = U22_4 + D23_5;
+  const double mU12_5 = WP3_5 + mDV12_5;
+  const double U32_5 = WP1_5 - mDV23_5;
+  const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
+
+  /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
+  const double W3_6 = dq[5] + mW2_5;
+  const double WP3_6 = ddq[5] - WP2_5;
+
+  /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
+  const double AN3_6 = ZZ6 * WP3_6;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double N1_5 = MYR5 * S4 * mVP1_3;
-  const double N3_5 = MYR5 * mVP1_5;
+  const double mF1_5 = MYR5 * mU12_5;
+  const double F2_5 = MYR5 * U22_5;
+  const double F3_5 = MYR5 * U32_5;
+  const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
+  const double N3_5 = ZZR5 * WP3_5 + XXR5 * mDV12_5 - MYR5 * VP1_5;
+  const double W3_6_ZZ6 = ZZ6 * W3_6;
+  const double T1_5 = N1_5 + W3_5 * W3_6_ZZ6;
+  const double T2_5 = XmZ_5 * DV13_5 - AN3_6;
+  const double T3_5 = N3_5 - W1_5 * W3_6_ZZ6;
+  const double mEB1_5 = C5 * mF1_5 + S5 * F2_5;
+  const double EB2_5 = C5 * F2_5 - S5 * mF1_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double mT3_4 = S5 * N1_5;
+  const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
+  const double N3_4 = ZZR4 * WP3_4 - XXR4 * DV12_4;
+  const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
+  const double T2_4 = XmZ_4 * DV13_4 + T3_5;
+  const double mT3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
+  const double mEB1_4 = S4 * F3_5 + C4 * mEB1_5;
+  const double EB2_4 = C4 * F3_5 - S4 * mEB1_5;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double N3_3 = MYR3 * mVP1_3 - MXR3 * mVP2_3;
-  const double T3_3 = S4 * C5 * N1_5 + C4 * N3_5 + N3_3;
+  const double F1_3 = MYR3 * U12_3 - MXR3 * mU11_3;
+  const double F2_3 = MYR3 * U22_3 + MXR3 * U21_3;
+  const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
+  const double N1_3 = YZ3 * D23_3 + XYR3 * mU31_3 - KYY_3 * mU32_3 - MYR3 * mAVA3_3;
+  const double N2_3 = KXX_3 * mU31_3 - YZ3 * U12_3 - XYR3 * mU32_3 + MXR3 * mAVA3_3;
+  const double N3_3 = KXX_3 * U21_3 - YZ3 * mU13_3 - XYR3 * mD12_3 - KYY_3 * U12_3 + MYR3 * mVP1_3
+      + MXR3 * VP2_3;
+  const double E1_3 = F1_3 - mEB1_4;
+  const double E2_3 = EB2_5 + F2_3;
+  const double E3_3 = EB2_4 - mF3_3;
+  const double T1_3 = C4 * T1_4 - S4 * T2_4 - r4 * EB2_4 + N1_3;
+  const double T2_3 = mT3_4 - d4 * EB2_4 + N2_3;
+  const double T3_3 = d4 * EB2_5 + S4 * T1_4 + C4 * T2_4 - r4 * mEB1_4 + N3_3;
+  const double EB1_3 = C2_3 * E1_3 - S2_3 * E2_3;
+  const double EB2_3 = S2_3 * E1_3 + C2_3 * E2_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double N3_2 = S2 * GZ_MY2 - C2 * GZ_MXR2;
-  const double T3_2 = T3_3 + N3_2;
+  const double AJ_2 = XXR2 * S2 + AJ2XY_2 * C2;
+  const double AJXY_2 = C2 * AJ_2 - XY2;
+  const double AJXZ_2 = JXZ_2 * C2 - JYZ_2 * S2;
+  const double AJYZ_2 = JXZ_2 * S2 + JYZ_2 * C2;
+  const double AMX_2 = MXR2 * C2 - MY2 * S2;
+  const double mAN3_2 = DV33_1 * AJXY_2 - ZZR2 * ddq[1] + ddq[0] * AJYZ_2 + GZ * AMX_2;
+  const double T3_2 = T3_3 - AP2_3 * EB1_3 + AP1_3 * EB2_3 - mAN3_2;
+
+  /* joint torques */
+  const double S2_AJ_2_plus_JZZ_1 = JZZ_1 + S2 * AJ_2;
+  const double tau_1 = FV1 * dq[0] + FS1 * puma560_sign(dq[0]) + AP1_3 * E3_3 - S2_3 * T1_3
+      - C2_3 * T2_3 - P3_3 * EB1_3 + mAU32_2 * AJXY_2 - ADV33_2 * AJXZ_2 - ddq[1] * AJYZ_2
+      + ddq[0] * S2_AJ_2_plus_JZZ_1;
+  const double tau_2 = FV2 * dq[1] + FS2 * puma560_sign(dq[1]) + T3_2;
+  const double tau_3 = FV3 * dq[2] + FS3 * puma560_sign(dq[2]) + IA3 * ddq[2] + T3_3;
+  const double tau_4 = FV4 * dq[3] + FS4 * puma560_sign(dq[3]) + IA4 * ddq[3] - mT3_4;
+  const double tau_5 = FV5 * dq[4] + FS5 * puma560_sign(dq[4]) + IA5 * ddq[4] + T3_5;
+  const double tau_6 = FV6 * dq[5] + FS6 * puma560_sign(dq[5]) + IA6 * ddq[5] + AN3_6;
+
+  tau[0] = tau_1;
+  tau[1] = tau_2;
+  tau[2] = tau_3;
+  tau[3] = tau_4;
+  tau[4] = tau_5;
+  tau[5] = tau_6;
+}
+
+/* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
+ *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
+ * 157 mul, 125 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
+void puma560_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
+  const double XXR2 = -1.601861202; /* kg m^2, grouped */
+  const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
+  const double ZZR2 = 6.458114002; /* kg m^2, grouped */
+  const double MXR2 = 3.79559; /* kg m, grouped */
+  const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
+  const double XYR3 = -0.0106736385; /* kg m^2, grouped */
+  const double YZ3 = 0.004704; /* kg m^2, puma560.robot:35 */
+  const double MXR3 = -0.025375; /* kg m, grouped */
+  const double MYR3 = -0.861795; /* kg m, grouped */
+  const double IA3 = 0.827; /* kg m^2, puma560.robot:40 */
+  const double XXR4 = 0.0003; /* kg m^2, grouped */
+  const double ZZR4 = 0.0016; /* kg m^2, grouped */
+  const double IA4 = 0.2; /* kg m^2, puma560.robot:40 */
+  const double XXR5 = 0.00024216; /* kg m^2, grouped */
+  const double ZZR5 = 0.00064216; /* kg m^2, grouped */
+  const double MYR5 = -0.00288; /* kg m, grouped */
+  const double IA5 = 0.179; /* kg m^2, puma560.robot:40 */
+  const double ZZ6 = 4e-05; /* kg m^2, puma560.robot:36 */
+  const double IA6 = 0.193; /* kg m^2, puma560.robot:40 */
+  const double d3 = 0.4318; /* m, puma560.robot:21 */
+  const double d4 = -0.0203; /* m, puma560.robot:21 */
+  const double r4 = 0.4331; /* m, puma560.robot:23 */
+  const double GZ = 9.81; /* m/s^2, puma560.robot:48 */
+  const double KXX_3 = 0.0167651125;
+  const double KYY_3 = 0.3163401365;
+  const double JXZ_2 = -0.690314699;
+  const double JYZ_2 = -0.023751;
+  const double JZZ_1 = 4.2767171525;
+  const double P3_3 = 0.1501;
+  const double XmZ_5 = -0.0004;
+  const double XmZ_4 = -0.0013;
+  const double AJ2XY_2 = -0.0141984;
+
+  /* sines and cosines of the joint angles */
+  const double Q2_3 = q[1] + q[2];
+  puma560_pack sine1[(4 + PUMA560_PACK - 1) / PUMA560_PACK], cosine1[(4 + PUMA560_PACK - 1) / PUMA560_PACK];
+  puma560_sincos4(q[1], Q2_3, q[3], q[4], sine1, cosine1);
+  const double S2 = PUMA560_AT(sine1, 0);
+  const double C2 = PUMA560_AT(cosine1, 0);
+  const double S2_3 = PUMA560_AT(sine1, 1);
+  const double C2_3 = PUMA560_AT(cosine1, 1);
+  const double S4 = PUMA560_AT(sine1, 2);
+  const double C4 = PUMA560_AT(cosine1, 2);
+  const double S5 = PUMA560_AT(sine1, 3);
+  const double C5 = PUMA560_AT(cosine1, 3);
+
+  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
+  const double DV33_1 = dq[0] * dq[0];
+
+  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
+  const double ADV33_2 = dq[1] * dq[1];
+  const double mAU11_2 = DV33_1 + ADV33_2;
+  const double mAU32_2 = 2.0 * dq[0] * dq[1];
+
+  /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
+  const double DQ_3 = dq[1] + dq[2];
+  const double mW1_3 = dq[0] * S2_3;
+  const double mW2_3 = dq[0] * C2_3;
+  const double WP3_3 = ddq[1] + ddq[2];
+  const double mDV13_3 = DQ_3 * mW1_3;
+  const double DV12_3 = mW1_3 * mW2_3;
+  const double mU13_3 = ddq[0] * C2_3;
+  const double WP2_3 = mDV13_3 - mU13_3;
+  const double DV22_3 = mW2_3 * mW2_3;
+  const double DV33_3 = DQ_3 * DQ_3;
+  const double D23_3 = DV22_3 - DV33_3;
+  const double mU11_3 = DV22_3 + DV33_3;
+  const double U22_3 = D23_3 - DV33_1;
+  const double mD12_3 = mU11_3 + U22_3;
+  const double U12_3 = DV12_3 - WP3_3;
+  const double U21_3 = WP3_3 + DV12_3;
+  const double mU31_3 = mDV13_3 + WP2_3;
+  const double mU32_3 = ddq[0] * S2_3 + 2.0 * DQ_3 * mW2_3;
+  const double AP1_3 = d3 * C2;
+  const double AP2_3 = d3 * S2;
+  const double mAVA1_3 = ddq[0] * P3_3 + mAU11_2 * AP1_3 + ddq[1] * AP2_3;
+  const double mAVA2_3 = GZ - ddq[1] * AP1_3 + ADV33_2 * AP2_3;
+  const double mAVA3_3 = P3_3 * DV33_1 - ddq[0] * AP1_3 + mAU32_2 * AP2_3;
+  const double mVP1_3 = C2_3 * mAVA1_3 + S2_3 * mAVA2_3;
+  const double VP2_3 = S2_3 * mAVA1_3 - C2_3 * mAVA2_3;
+
+  /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
+  const double W3_4 = dq[3] + mW2_3;
+  const double W1_4 = S4 * DQ_3 - C4 * mW1_3;
+  const double W2_4 = C4 * DQ_3 + S4 * mW1_3;
+  const double WP3_4 = ddq[3] - WP2_3;
+  const double DV23_4 = W3_4 * W2_4;
+  const double DV13_4 = W3_4 * W1_4;
+  const double DV12_4 = W1_4 * W2_4;
+  const double U13_4 = S4 * mU32_3 - C4 * U12_3;
+  const double U23_4 = S4 * U12_3 + C4 * mU32_3;
+  const double WP1_4 = DV23_4 - U23_4;
+  const double WP2_4 = U13_4 - DV13_4;
+  const double D23_4 = W2_4 * W2_4 - W3_4 * W3_4;
+  const double U22_4 = U22_3 + D23_4;
+  const double U12_4 = DV12_4 - WP3_4;
+  const double U32_4 = DV23_4 + WP1_4;
+  const double mVA1_4 = d4 * mU11_3 + r4 * U12_3 + mVP1_3;
+  const double VA2_4 = d4 * U21_3 - r4 * U22_3 + VP2_3;
+  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mAVA3_3;
+  const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
+  const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
+
+  /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
+  const double W3_5 = dq[4] + W2_4;
+  const double W1_5 = C5 * W1_4 - S5 * W3_4;
+  const double mW2_5 = C5 * W3_4 + S5 * W1_4;
+  const double WP3_5 = ddq[4] + WP2_4;
+  const double mDV23_5 = W3_5 * mW2_5;
+  const double DV13_5 = W3_5 * W1_5;
+  const double mDV12_5 = W1_5 * mW2_5;
+  const double U13_5 = C5 * U12_4 - S5 * U32_4;
+  const double mU23_5 = S5 * U12_4 + C5 * U32_4;
+  const double WP1_5 = mU23_5 - mDV23_5;
+  const double WP2_5 = U13_5 - DV13_5;
+  const double D23_5 = mW2_5 * mW2_5 - W3_5 * W3_5;
+  const double U22_5 = U22_4 + D23_5;
+  const double mU12_5 = WP3_5 + mDV12_5;
+  const double U32_5 = WP1_5 - mDV23_5;
+  const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
+
+  /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
+  const double W3_6 = dq[5] + mW2_5;
+  const double WP3_6 = ddq[5] - WP2_5;
+
+  /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
+  const double AN3_6 = ZZ6 * WP3_6;
+
+  /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
+  const double mF1_5 = MYR5 * mU12_5;
+  const double F2_5 = MYR5 * U22_5;
+  const double F3_5 = MYR5 * U32_5;
+  const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
+  const double N3_5 = ZZR5 * WP3_5 + XXR5 * mDV12_5 - MYR5 * VP1_5;
+  const double W3_6_ZZ6 = ZZ6 * W3_6;
+  const double T1_5 = N1_5 + W3_5 * W3_6_ZZ6;
+  const double T2_5 = XmZ_5 * DV13_5 - AN3_6;
+  const double T3_5 = N3_5 - W1_5 * W3_6_ZZ6;
+  const double mEB1_5 = C5 * mF1_5 + S5 * F2_5;
+  const double EB2_5 = C5 * F2_5 - S5 * mF1_5;
+
+  /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
+  const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
+  const double N3_4 = ZZR4 * WP3_4 - XXR4 * DV12_4;
+  const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
+  const double T2_4 = XmZ_4 * DV13_4 + T3_5;
+  const double mT3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
+  const double mEB1_4 = S4 * F3_5 + C4 * mEB1_5;
+  const double EB2_4 = C4 * F3_5 - S4 * mEB1_5;
+
+  /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
+  const double F1_3 = MYR3 * U12_3 - MXR3 * mU11_3;
+  const double F2_3 = MYR3 * U22_3 + MXR3 * U21_3;
+  const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
+  const double N1_3 = YZ3 * D23_3 + XYR3 * mU31_3 - KYY_3 * mU32_3 - MYR3 * mAVA3_3;
+  const double N2_3 = KXX_3 * mU31_3 - YZ3 * U12_3 - XYR3 * mU32_3 + MXR3 * mAVA3_3;
+  const double N3_3 = KXX_3 * U21_3 - YZ3 * mU13_3 - XYR3 * mD12_3 - KYY_3 * U12_3 + MYR3 * mVP1_3
+      + MXR3 * VP2_3;
+  const double E1_3 = F1_3 - mEB1_4;
+  const double E2_3 = EB2_5 + F2_3;
+  const double E3_3 = EB2_4 - mF3_3;
+  const double T1_3 = C4 * T1_4 - S4 * T2_4 - r4 * EB2_4 + N1_3;
+  const double T2_3 = mT3_4 - d4 * EB2_4 + N2_3;
+  const double T3_3 = d4 * EB2_5 + S4 * T1_4 + C4 * T2_4 - r4 * mEB1_4 + N3_3;
+  const double EB1_3 = C2_3 * E1_3 - S2_3 * E2_3;
+  const double EB2_3 = S2_3 * E1_3 + C2_3 * E2_3;
+
+  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
+  const double AJ_2 = XXR2 * S2 + AJ2XY_2 * C2;
+  const double AJXY_2 = C2 * AJ_2 - XY2;
+  const double AJXZ_2 = JXZ_2 * C2 - JYZ_2 * S2;
+  const double AJYZ_2 = JXZ_2 * S2 + JYZ_2 * C2;
+  const double AMX_2 = MXR2 * C2 - MY2 * S2;
+  const double mAN3_2 = DV33_1 * AJXY_2 - ZZR2 * ddq[1] + ddq[0] * AJYZ_2 + GZ * AMX_2;
+  const double T3_2 = T3_3 - AP2_3 * EB1_3 + AP1_3 * EB2_3 - mAN3_2;
+
+  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
+  const double S2_AJ_2_plus_JZZ_1 = JZZ_1 + S2 * AJ_2;
+  const double T3_1 = AP1_3 * E3_3 - S2_3 * T1_3 - C2_3 * T2_3 - P3_3 * EB1_3 + mAU32_2 * AJXY_2
+      - ADV33_2 * AJXZ_2 - ddq[1] * AJYZ_2 + ddq[0] * S2_AJ_2_plus_JZZ_1;
+
+  /* joint torques */
+  const double tau_3 = IA3 * ddq[2] + T3_3;
+  const double tau_4 = IA4 * ddq[3] - mT3_4;
+  const double tau_5 = IA5 * ddq[4] + T3_5;
+  const double tau_6 = IA6 * ddq[5] + AN3_6;
+
+  tau[0] = T3_1;
+  tau[1] = T3_2;
+  tau[2] = tau_3;
+  tau[3] = tau_4;
+  tau[4] = tau_5;
+  tau[5] = tau_6;
+}
+
+/* tau = g(q): the torque that holds the arm still.
+ *   q[6] rad   tau[6] N m, out
+ * 15 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
+void puma560_gravity(const double *q, double *tau) {
+  const double MXR2 = 3.79559; /* kg m, grouped */
+  const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
+  const double MXR3 = -0.025375; /* kg m, grouped */
+  const double MYR3 = -0.861795; /* kg m, grouped */
+  const double MYR5 = -0.00288; /* kg m, grouped */
+  const double GZ = 9.81; /* m/s^2, puma560.robot:48 */
+
+  /* sines and cosines of the joint angles */
+  const double Q2_3 = q[1] + q[2];
+  puma560_pack sine1[(4 + PUMA560_PACK - 1) / PUMA560_PACK], cosine1[(4 + PUMA560_PACK - 1) / PUMA560_PACK];
+  puma560_sincos4(q[1], Q2_3, q[3], q[4], sine1, cosine1);
+  const double S2 = PUMA560_AT(sine1, 0);
+  const double C2 = PUMA560_AT(cosine1, 0);
+  const double S2_3 = PUMA560_AT(sine1, 1);
+  const double C2_3 = PUMA560_AT(cosine1, 1);
+  const double S4 = PUMA560_AT(sine1, 2);
+  const double C4 = PUMA560_AT(cosine1, 2);
+  const double S5 = PUMA560_AT(sine1, 3);
+  const double C5 = PUMA560_AT(cosine1, 3);
+
+  /* VP acceleration of a standing link, -g, in its frame */
+  const double mVP1_3 = GZ * S2_3;
+  const double mVP2_3 = GZ * C2_3;
+  const double mVP1_4 = C4 * mVP1_3;
+
+  /* link 5: MS first moments with the links it carries */
+  const double mAMS1_5 = MYR5 * S5;
+  const double AMS2_5 = MYR5 * C5;
+  const double T3_5 = mVP2_3 * mAMS1_5 + mVP1_4 * AMS2_5;
+
+  /* link 4: MS first moments with the links it carries */
+  const double mAMS1_4 = C4 * mAMS1_5;
+  const double mAMS2_4 = S4 * mAMS1_5;
+  const double mT3_4 = mVP1_3 * mAMS2_4;
+
+  /* link 3: MS first moments with the links it carries */
+  const double MS1_3 = MXR3 - mAMS1_4;
+  const double MS2_3 = MYR3 + AMS2_5;
+  const double T3_3 = mVP1_3 * MS2_3 - mVP2_3 * MS1_3;
+
+  /* link 2: MS first moments with the links it carries */
+  const double AMS1_2 = MXR2 * C2 - MY2 * S2;
+  const double T3_2 = T3_3 - GZ * AMS1_2;
 
   tau[0] = 0.0;
   tau[1] = T3_2;
   tau[2] = T3_3;
   tau[3] = -mT3_4;
-  tau[4] = N3_5;
+  tau[4] = T3_5;
   tau[5] = 0.0;
 }
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[6] rad   dq[6] rad/s   tau[6] N m, out
- * 163 mul, 120 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 136 mul, 97 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double XXR2 = -1.601861202; /* kg m^2, grouped */
   const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
-  const double XZR2 = 0.233911466; /* kg m^2, grouped */
-  const double YZ2 = 0.0016704; /* kg m^2, puma560.robot:35 */
-  const double MXR2 = 3.79559; /* kg m, grouped */
-  const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
-  const double XXR3 = 0.299575024; /* kg m^2, grouped */
   const double XYR3 = -0.0106736385; /* kg m^2, grouped */
   const double YZ3 = 0.004704; /* kg m^2, puma560.robot:35 */
   const double MXR3 = -0.025375; /* kg m, grouped */
@@ -866,82 +767,68 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double ZZR5 = 0.00064216; /* kg m^2, grouped */
   const double MYR5 = -0.00288; /* kg m, grouped */
   const double ZZ6 = 4e-05; /* kg m^2, puma560.robot:36 */
-  const double r2 = 0.2435; /* m, puma560.robot:23 */
   const double d3 = 0.4318; /* m, puma560.robot:21 */
-  const double r3 = -0.0934; /* m, puma560.robot:23 */
   const double d4 = -0.0203; /* m, puma560.robot:21 */
   const double r4 = 0.4331; /* m, puma560.robot:23 */
+  const double KXX_3 = 0.0167651125;
+  const double KYY_3 = 0.3163401365;
+  const double JXZ_2 = -0.690314699;
+  const double JYZ_2 = -0.023751;
+  const double P3_3 = 0.1501;
   const double XmZ_5 = -0.0004;
   const double XmZ_4 = -0.0013;
-  const double XmZ_3 = -0.033530225;
-  const double XmZ_2 = -8.059975204;
-  const double XXR3_plus_ZZR3 = 0.632680273;
-  const double XXR2_minus_ZZR2 = 4.8562528;
-  const double K_XY2 = 0.0141984;
+  const double AJ2XY_2 = -0.0141984;
+  const double KYY_3_plus_KXX_3 = 0.299575024;
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
-  puma560_pack sine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK], cosine1[(6 + PUMA560_PACK - 1) / PUMA560_PACK];
-  puma560_sincos6(q[1], q[2], Q2_3, q[3], q[4], q[5], sine1, cosine1);
+  puma560_pack sine1[(4 + PUMA560_PACK - 1) / PUMA560_PACK], cosine1[(4 + PUMA560_PACK - 1) / PUMA560_PACK];
+  puma560_sincos4(q[1], Q2_3, q[3], q[4], sine1, cosine1);
   const double S2 = PUMA560_AT(sine1, 0);
   const double C2 = PUMA560_AT(cosine1, 0);
-  const double S3 = PUMA560_AT(sine1, 1);
-  const double C3 = PUMA560_AT(cosine1, 1);
-  const double S2_3 = PUMA560_AT(sine1, 2);
-  const double C2_3 = PUMA560_AT(cosine1, 2);
-  const double S4 = PUMA560_AT(sine1, 3);
-  const double C4 = PUMA560_AT(cosine1, 3);
-  const double S5 = PUMA560_AT(sine1, 4);
-  const double C5 = PUMA560_AT(cosine1, 4);
-  const double S6 = PUMA560_AT(sine1, 5);
-  const double C6 = PUMA560_AT(cosine1, 5);
+  const double S2_3 = PUMA560_AT(sine1, 1);
+  const double C2_3 = PUMA560_AT(cosine1, 1);
+  const double S4 = PUMA560_AT(sine1, 2);
+  const double C4 = PUMA560_AT(cosine1, 2);
+  const double S5 = PUMA560_AT(sine1, 3);
+  const double C5 = PUMA560_AT(cosine1, 3);
 
   /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
   const double DV33_1 = dq[0] * dq[0];
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double mW1_2 = dq[0] * S2;
-  const double mW2_2 = dq[0] * C2;
-  const double mDV23_2 = dq[1] * mW2_2;
-  const double mDV13_2 = dq[1] * mW1_2;
-  const double DV12_2 = mW1_2 * mW2_2;
-  const double DV22_2 = mW2_2 * mW2_2;
-  const double DV33_2 = dq[1] * dq[1];
-  const double D23_2 = DV22_2 - DV33_2;
-  const double mU11_2 = DV22_2 + DV33_2;
-  const double U22_2 = D23_2 - DV33_1;
-  const double D31_2 = mU11_2 - DV33_1;
-  const double mD12_2 = mU11_2 + U22_2;
-  const double mU31_2 = 2.0 * mDV13_2;
-  const double mVA2_2 = r2 * DV33_1;
+  const double ADV33_2 = dq[1] * dq[1];
+  const double mAU11_2 = DV33_1 + ADV33_2;
+  const double mAU32_2 = 2.0 * dq[0] * dq[1];
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
+  const double DQ_3 = dq[1] + dq[2];
   const double mW1_3 = dq[0] * S2_3;
   const double mW2_3 = dq[0] * C2_3;
-  const double W3_3 = dq[1] + dq[2];
-  const double mDV23_3 = mW2_3 * W3_3;
-  const double mDV13_3 = mW1_3 * W3_3;
+  const double mDV13_3 = DQ_3 * mW1_3;
   const double DV12_3 = mW1_3 * mW2_3;
   const double DV22_3 = mW2_3 * mW2_3;
-  const double DV33_3 = W3_3 * W3_3;
+  const double DV33_3 = DQ_3 * DQ_3;
   const double D23_3 = DV22_3 - DV33_3;
   const double mU11_3 = DV22_3 + DV33_3;
   const double U22_3 = D23_3 - DV33_1;
   const double mD12_3 = mU11_3 + U22_3;
   const double mU31_3 = 2.0 * mDV13_3;
-  const double mU32_3 = 2.0 * mDV23_3;
-  const double mVA1_3 = d3 * mU11_2;
-  const double VA2_3 = d3 * DV12_2;
-  const double mVA3_3 = r3 * DV33_1 + d3 * mU31_2 + mVA2_2;
-  const double VP1_3 = S3 * VA2_3 - C3 * mVA1_3;
-  const double VP2_3 = S3 * mVA1_3 + C3 * VA2_3;
+  const double mU32_3 = 2.0 * DQ_3 * mW2_3;
+  const double AP1_3 = d3 * C2;
+  const double AP2_3 = d3 * S2;
+  const double mAVA1_3 = mAU11_2 * AP1_3;
+  const double mAVA2_3 = ADV33_2 * AP2_3;
+  const double mAVA3_3 = P3_3 * DV33_1 + mAU32_2 * AP2_3;
+  const double mVP1_3 = C2_3 * mAVA1_3 + S2_3 * mAVA2_3;
+  const double VP2_3 = S2_3 * mAVA1_3 - C2_3 * mAVA2_3;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W1_4 = S4 * W3_3 - C4 * mW1_3;
-  const double W2_4 = S4 * mW1_3 + C4 * W3_3;
   const double W3_4 = dq[3] + mW2_3;
-  const double DV23_4 = W2_4 * W3_4;
-  const double DV13_4 = W1_4 * W3_4;
+  const double W1_4 = S4 * DQ_3 - C4 * mW1_3;
+  const double W2_4 = C4 * DQ_3 + S4 * mW1_3;
+  const double DV23_4 = W3_4 * W2_4;
+  const double DV13_4 = W3_4 * W1_4;
   const double DV12_4 = W1_4 * W2_4;
   const double U13_4 = S4 * mU32_3 - C4 * DV12_3;
   const double U23_4 = S4 * DV12_3 + C4 * mU32_3;
@@ -951,18 +838,18 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double U22_4 = U22_3 + D23_4;
   const double U12_4 = mDV13_3 + DV12_4;
   const double U32_4 = DV23_4 + WP1_4;
-  const double mVA1_4 = r4 * DV12_3 + d4 * mU11_3 - VP1_3;
+  const double mVA1_4 = r4 * DV12_3 + d4 * mU11_3 + mVP1_3;
   const double VA2_4 = d4 * DV12_3 - r4 * U22_3 + VP2_3;
-  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mVA3_3;
+  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mAVA3_3;
   const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
   const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double W1_5 = C5 * W1_4 - S5 * W3_4;
-  const double mW2_5 = S5 * W1_4 + C5 * W3_4;
   const double W3_5 = dq[4] + W2_4;
-  const double mDV23_5 = mW2_5 * W3_5;
-  const double DV13_5 = W1_5 * W3_5;
+  const double W1_5 = C5 * W1_4 - S5 * W3_4;
+  const double mW2_5 = C5 * W3_4 + S5 * W1_4;
+  const double mDV23_5 = W3_5 * mW2_5;
+  const double DV13_5 = W3_5 * W1_5;
   const double mDV12_5 = W1_5 * mW2_5;
   const double U13_5 = C5 * U12_4 - S5 * U32_4;
   const double mU23_5 = S5 * U12_4 + C5 * U32_4;
@@ -975,15 +862,10 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
 
   /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
-  const double W1_6 = C6 * W1_5 + S6 * W3_5;
-  const double W2_6 = C6 * W3_5 - S6 * W1_5;
   const double W3_6 = dq[5] + mW2_5;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double W3_6_ZZ6 = ZZ6 * W3_6;
-  const double N1_6 = W2_6 * W3_6_ZZ6;
-  const double mN2_6 = W1_6 * W3_6_ZZ6;
-  const double mN3_6 = ZZ6 * WP2_5;
+  const double mAN3_6 = ZZ6 * WP2_5;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
   const double mF1_5 = MYR5 * mU12_5;
@@ -991,11 +873,12 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double F3_5 = MYR5 * U32_5;
   const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
   const double N3_5 = ZZR5 * WP2_4 + XXR5 * mDV12_5 - MYR5 * VP1_5;
-  const double T1_5 = C6 * N1_6 + S6 * mN2_6 + N1_5;
-  const double T2_5 = XmZ_5 * DV13_5 + mN3_6;
-  const double T3_5 = S6 * N1_6 - C6 * mN2_6 + N3_5;
-  const double mFA1_5 = C5 * mF1_5 + S5 * F2_5;
-  const double FA3_5 = S5 * mF1_5 - C5 * F2_5;
+  const double W3_6_ZZ6 = ZZ6 * W3_6;
+  const double T1_5 = N1_5 + W3_5 * W3_6_ZZ6;
+  const double T2_5 = XmZ_5 * DV13_5 + mAN3_6;
+  const double T3_5 = N3_5 - W1_5 * W3_6_ZZ6;
+  const double mEB1_5 = C5 * mF1_5 + S5 * F2_5;
+  const double EB2_5 = C5 * F2_5 - S5 * mF1_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
   const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
@@ -1003,49 +886,39 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
   const double T2_4 = XmZ_4 * DV13_4 + T3_5;
   const double mT3_4 = S5 * T1_5 + C5 * T2_5 + mN3_4;
-  const double mFA1_4 = S4 * F3_5 + C4 * mFA1_5;
-  const double FA3_4 = C4 * F3_5 - S4 * mFA1_5;
+  const double mEB1_4 = S4 * F3_5 + C4 * mEB1_5;
+  const double EB2_4 = C4 * F3_5 - S4 * mEB1_5;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
   const double F1_3 = MYR3 * DV12_3 - MXR3 * mU11_3;
   const double F2_3 = MXR3 * DV12_3 + MYR3 * U22_3;
   const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
-  const double mN1_3 = MYR3 * mVA3_3 - YZ3 * D23_3 - XYR3 * mU31_3 + mDV23_3 * XXR3_plus_ZZR3;
-  const double mN2_3 = XmZ_3 * mDV13_3 + YZ3 * DV12_3 + XYR3 * mU32_3 - MXR3 * mVA3_3;
-  const double mN3_3 = XXR3 * DV12_3 + XYR3 * mD12_3 + MYR3 * VP1_3 - MXR3 * VP2_3;
-  const double E1_3 = F1_3 - mFA1_4;
-  const double E2_3 = F2_3 - FA3_5;
-  const double E3_3 = FA3_4 - mF3_3;
-  const double mT1_3 = S4 * T2_4 - C4 * T1_4 + r4 * FA3_4 + mN1_3;
-  const double mT2_3 = d4 * FA3_4 - mT3_4 + mN2_3;
-  const double mT3_3 = d4 * FA3_5 - S4 * T1_4 - C4 * T2_4 + r4 * mFA1_4 + mN3_3;
-  const double FA1_3 = C3 * E1_3 - S3 * E2_3;
-  const double FA2_3 = S3 * E1_3 + C3 * E2_3;
+  const double N1_3 = YZ3 * D23_3 + XYR3 * mU31_3 - KYY_3 * mU32_3 - MYR3 * mAVA3_3;
+  const double N2_3 = KXX_3 * mU31_3 - YZ3 * DV12_3 - XYR3 * mU32_3 + MXR3 * mAVA3_3;
+  const double N3_3 = MYR3 * mVP1_3 - XYR3 * mD12_3 + MXR3 * VP2_3 - DV12_3 * KYY_3_plus_KXX_3;
+  const double E1_3 = F1_3 - mEB1_4;
+  const double E2_3 = EB2_5 + F2_3;
+  const double E3_3 = EB2_4 - mF3_3;
+  const double T1_3 = C4 * T1_4 - S4 * T2_4 - r4 * EB2_4 + N1_3;
+  const double T2_3 = mT3_4 - d4 * EB2_4 + N2_3;
+  const double T3_3 = d4 * EB2_5 + S4 * T1_4 + C4 * T2_4 - r4 * mEB1_4 + N3_3;
+  const double EB1_3 = C2_3 * E1_3 - S2_3 * E2_3;
+  const double EB2_3 = S2_3 * E1_3 + C2_3 * E2_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = MY2 * DV12_2 - MXR2 * mU11_2;
-  const double F2_2 = MXR2 * DV12_2 + MY2 * U22_2;
-  const double N1_2 = XZR2 * DV12_2 + YZ2 * D23_2 + XY2 * mU31_2 - MY2 * mVA2_2
-      - mDV23_2 * XXR2_minus_ZZR2;
-  const double mN2_2 = XmZ_2 * mDV13_2 + YZ2 * DV12_2 - XZR2 * D31_2 - MXR2 * mVA2_2
-      - mDV23_2 * K_XY2;
-  const double mN3_2 = XXR2 * DV12_2 + XY2 * mD12_2;
-  const double E1_2 = FA1_3 + F1_2;
-  const double E2_2 = FA2_3 + F2_2;
-  const double T1_2 = S3 * mT2_3 - C3 * mT1_3 - r3 * FA2_3 + N1_2;
-  const double mT2_2 = d3 * E3_3 + S3 * mT1_3 + C3 * mT2_3 - r3 * FA1_3 + mN2_2;
-  const double mT3_2 = mT3_3 - d3 * FA2_3 + mN3_2;
-  const double FA1_2 = C2 * E1_2 - S2 * E2_2;
+  const double AJ_2 = XXR2 * S2 + AJ2XY_2 * C2;
+  const double AJXY_2 = C2 * AJ_2 - XY2;
+  const double AJXZ_2 = JXZ_2 * C2 - JYZ_2 * S2;
+  const double AN2_2 = ADV33_2 * AJXZ_2 - mAU32_2 * AJXY_2;
+  const double T3_2 = T3_3 - AP2_3 * EB1_3 + AP1_3 * EB2_3 - DV33_1 * AJXY_2;
+  const double AT2_2 = S2_3 * T1_3 - AP1_3 * E3_3 + C2_3 * T2_3 + P3_3 * EB1_3 + AN2_2;
 
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double mT3_1 = S2 * T1_2 - C2 * mT2_2 + r2 * FA1_2;
-
-  tau[0] = -mT3_1;
-  tau[1] = -mT3_2;
-  tau[2] = -mT3_3;
+  tau[0] = -AT2_2;
+  tau[1] = T3_2;
+  tau[2] = T3_3;
   tau[3] = -mT3_4;
   tau[4] = T3_5;
-  tau[5] = -mN3_6;
+  tau[5] = -mAN3_6;
 }
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.

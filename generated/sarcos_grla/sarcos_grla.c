@@ -245,7 +245,7 @@ static SARCOS_GRLA_NOINLINE void sarcos_grla_sincos7(double x0, double x1, doubl
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
- * 211 mul, 163 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 190 mul, 156 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double MX1 = 3.7467; /* kg m, sarcos_grla.robot:27 */
   const double MY1 = -3.7196; /* kg m, grouped */
@@ -265,6 +265,8 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double r5 = 0.762; /* m, sarcos_grla.robot:22 */
   const double GY = -6.93567; /* m/s^2, sarcos_grla.robot:44 */
   const double GZ = 6.93567; /* m/s^2, sarcos_grla.robot:45 */
+  const double JXZ_3 = 2.2378642;
+  const double JYZ_3 = -3.43162612;
 
   /* sines and cosines of the joint angles */
   sarcos_grla_pack sine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
@@ -300,35 +302,33 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double VP2_2 = GZ * C2 - S2 * VP1_1;
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
+  const double W3_3 = dq[2] - W2_2;
   const double W1_3 = dq[1] * S3 + C3 * W1_2;
   const double W2_3 = dq[1] * C3 - S3 * W1_2;
-  const double W3_3 = dq[2] - W2_2;
-  const double DV12_3 = W1_3 * W2_3;
   const double WP3_3 = ddq[2] - WP2_2;
+  const double DV12_3 = W1_3 * W2_3;
   const double mU13_3 = C3 * U12_2 + S3 * U32_2;
   const double U23_3 = S3 * U12_2 - C3 * U32_2;
-  const double mWP2_3 = W1_3 * W3_3 + mU13_3;
+  const double mWP2_3 = W3_3 * W1_3 + mU13_3;
   const double DV22_3 = W2_3 * W2_3;
   const double DV33_3 = W3_3 * W3_3;
   const double D23_3 = DV22_3 - DV33_3;
   const double mU11_3 = DV22_3 + DV33_3;
   const double U22_3 = U22_2 + D23_3;
+  const double D31_3 = U22_2 + mU11_3;
   const double U12_3 = DV12_3 - WP3_3;
-  const double U21_3 = DV12_3 + WP3_3;
-  const double U32_3 = 2.0 * W2_3 * W3_3 - U23_3;
-  const double VA1_3 = VP1_2 - r3 * U12_2;
-  const double VA2_3 = VP2_2 - r3 * U22_2;
-  const double mVA3_3 = VP2_1 + r3 * U32_2;
-  const double VP1_3 = C3 * VA1_3 - S3 * mVA3_3;
-  const double mVP2_3 = S3 * VA1_3 + C3 * mVA3_3;
+  const double U21_3 = WP3_3 + DV12_3;
+  const double U32_3 = 2.0 * W3_3 * W2_3 - U23_3;
+  const double VP1_3 = C3 * VP1_2 - S3 * VP2_1;
+  const double mVP2_3 = C3 * VP2_1 + S3 * VP1_2;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W1_4 = C4 * W1_3 - S4 * W3_3;
-  const double mW2_4 = S4 * W1_3 + C4 * W3_3;
   const double W3_4 = dq[3] + W2_3;
-  const double DV13_4 = W1_4 * W3_4;
-  const double mDV12_4 = W1_4 * mW2_4;
+  const double W1_4 = C4 * W1_3 - S4 * W3_3;
+  const double mW2_4 = C4 * W3_3 + S4 * W1_3;
   const double WP3_4 = ddq[3] - mWP2_3;
+  const double DV13_4 = W3_4 * W1_4;
+  const double mDV12_4 = W1_4 * mW2_4;
   const double U13_4 = C4 * U12_3 - S4 * U32_3;
   const double mU23_4 = S4 * U12_3 + C4 * U32_3;
   const double WP2_4 = U13_4 - DV13_4;
@@ -337,20 +337,23 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double D23_4 = DV22_4 - DV33_4;
   const double mU11_4 = DV22_4 + DV33_4;
   const double U22_4 = U22_3 + D23_4;
-  const double mU12_4 = mDV12_4 + WP3_4;
+  const double mU12_4 = WP3_4 + mDV12_4;
   const double U21_4 = WP3_4 - mDV12_4;
   const double U31_4 = DV13_4 - WP2_4;
-  const double U32_4 = mU23_4 - 2.0 * mW2_4 * W3_4;
-  const double VP1_4 = S4 * VA2_3 + C4 * VP1_3;
-  const double VP2_4 = C4 * VA2_3 - S4 * VP1_3;
+  const double U32_4 = mU23_4 - 2.0 * W3_4 * mW2_4;
+  const double VA1_4 = VP1_3 - r3 * mU13_3;
+  const double VA2_4 = r3 * U23_3 - mVP2_3;
+  const double VA3_4 = r3 * U22_2 - VP2_2;
+  const double VP1_4 = C4 * VA1_4 - S4 * VA3_4;
+  const double mVP2_4 = S4 * VA1_4 + C4 * VA3_4;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double W1_5 = C5 * W1_4 + S5 * W3_4;
-  const double W2_5 = C5 * W3_4 - S5 * W1_4;
   const double W3_5 = dq[4] + mW2_4;
-  const double DV13_5 = W1_5 * W3_5;
-  const double DV12_5 = W1_5 * W2_5;
+  const double W1_5 = S5 * W3_4 + C5 * W1_4;
+  const double W2_5 = C5 * W3_4 - S5 * W1_4;
   const double WP3_5 = ddq[4] - WP2_4;
+  const double DV13_5 = W3_5 * W1_5;
+  const double DV12_5 = W1_5 * W2_5;
   const double U13_5 = C5 * mU12_4 - S5 * U32_4;
   const double mU23_5 = S5 * mU12_4 + C5 * U32_4;
   const double WP2_5 = U13_5 - DV13_5;
@@ -360,22 +363,22 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double mU11_5 = DV22_5 + DV33_5;
   const double U22_5 = U22_4 + D23_5;
   const double U12_5 = DV12_5 - WP3_5;
-  const double U21_5 = DV12_5 + WP3_5;
+  const double U21_5 = WP3_5 + DV12_5;
   const double U31_5 = DV13_5 - WP2_5;
-  const double U32_5 = 2.0 * W2_5 * W3_5 + mU23_5;
+  const double U32_5 = 2.0 * W3_5 * W2_5 + mU23_5;
   const double VA1_5 = r5 * mU12_4 + VP1_4;
-  const double VA2_5 = VP2_4 - r5 * U22_4;
-  const double mVA3_5 = mVP2_3 + r5 * U32_4;
-  const double VP1_5 = C5 * VA1_5 - S5 * mVA3_5;
-  const double mVP2_5 = S5 * VA1_5 + C5 * mVA3_5;
+  const double mVA2_5 = r5 * U22_4 + mVP2_4;
+  const double VA3_5 = VA2_4 - r5 * U32_4;
+  const double VP1_5 = C5 * VA1_5 + S5 * VA3_5;
+  const double VP2_5 = C5 * VA3_5 - S5 * VA1_5;
 
   /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
-  const double W1_6 = C6 * W1_5 - S6 * W3_5;
-  const double mW2_6 = S6 * W1_5 + C6 * W3_5;
   const double W3_6 = dq[5] + W2_5;
-  const double DV13_6 = W1_6 * W3_6;
-  const double mDV12_6 = W1_6 * mW2_6;
+  const double W1_6 = C6 * W1_5 - S6 * W3_5;
+  const double mW2_6 = C6 * W3_5 + S6 * W1_5;
   const double WP3_6 = ddq[5] + WP2_5;
+  const double DV13_6 = W3_6 * W1_6;
+  const double mDV12_6 = W1_6 * mW2_6;
   const double U13_6 = C6 * U12_5 - S6 * U32_5;
   const double mU23_6 = S6 * U12_5 + C6 * U32_5;
   const double WP2_6 = U13_6 - DV13_6;
@@ -384,102 +387,88 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double D23_6 = DV22_6 - DV33_6;
   const double mU11_6 = DV22_6 + DV33_6;
   const double U22_6 = U22_5 + D23_6;
-  const double mU12_6 = mDV12_6 + WP3_6;
+  const double mU12_6 = WP3_6 + mDV12_6;
   const double U21_6 = WP3_6 - mDV12_6;
   const double U31_6 = DV13_6 - WP2_6;
-  const double U32_6 = mU23_6 - 2.0 * mW2_6 * W3_6;
-  const double VP1_6 = S6 * VA2_5 + C6 * VP1_5;
-  const double VP2_6 = C6 * VA2_5 - S6 * VP1_5;
+  const double U32_6 = mU23_6 - 2.0 * W3_6 * mW2_6;
+  const double VP1_6 = C6 * VP1_5 - S6 * mVA2_5;
+  const double mVP2_6 = C6 * mVA2_5 + S6 * VP1_5;
 
   /* forward, link 7: W angular velocity, WP its derivative, VP acceleration of O7, in frame 7 */
-  const double W1_7 = C7 * W1_6 + S7 * W3_6;
-  const double W2_7 = C7 * W3_6 - S7 * W1_6;
   const double W3_7 = dq[6] + mW2_6;
-  const double DV12_7 = W1_7 * W2_7;
   const double WP3_7 = ddq[6] - WP2_6;
-  const double U13_7 = C7 * mU12_6 - S7 * U32_6;
-  const double mU23_7 = S7 * mU12_6 + C7 * U32_6;
-  const double DV22_7 = W2_7 * W2_7;
-  const double DV33_7 = W3_7 * W3_7;
-  const double D23_7 = DV22_7 - DV33_7;
-  const double mU11_7 = DV22_7 + DV33_7;
-  const double U22_7 = U22_6 + D23_7;
-  const double U12_7 = DV12_7 - WP3_7;
-  const double U21_7 = DV12_7 + WP3_7;
-  const double U31_7_part = 2.0 * W3_7;
-  const double U31_7 = W1_7 * U31_7_part - U13_7;
-  const double U32_7 = mU23_7 + W2_7 * U31_7_part;
-  const double VP1_7 = C7 * VP1_6 - S7 * mVP2_5;
-  const double mVP2_7 = C7 * mVP2_5 + S7 * VP1_6;
+  const double ADV33_7 = W3_7 * W3_7;
+  const double AD23_7 = DV33_6 - ADV33_7;
+  const double mAU11_7 = DV33_6 + ADV33_7;
+  const double AU22_7 = U22_6 + AD23_7;
+  const double AU12_7 = DV13_6 - WP3_7;
+  const double AU21_7 = DV13_6 + WP3_7;
+  const double AW3T_7 = 2.0 * W3_7;
+  const double AU31_7 = W1_6 * AW3T_7 - mU12_6;
+  const double AU32_7 = U32_6 + W3_6 * AW3T_7;
 
   /* backward, link 7: F force, N moment of the link about O7; E, T with the links it carries */
-  const double F1_7 = MY7 * U12_7 - MX7 * mU11_7;
-  const double F2_7 = MY7 * U22_7 + MX7 * U21_7;
-  const double F3_7 = MX7 * U31_7 + MY7 * U32_7;
-  const double mN1_7 = MY7 * VP2_6;
-  const double N2_7 = MX7 * VP2_6;
-  const double mN3_7 = MY7 * VP1_7 + MX7 * mVP2_7;
-  const double FA1_7 = C7 * F1_7 - S7 * F2_7;
-  const double FA3_7 = S7 * F1_7 + C7 * F2_7;
+  const double AMX_7 = MX7 * C7 - MY7 * S7;
+  const double AMY_7 = MX7 * S7 + MY7 * C7;
+  const double AF1_7 = AU12_7 * AMY_7 - mAU11_7 * AMX_7;
+  const double AF2_7 = AU21_7 * AMX_7 + AU22_7 * AMY_7;
+  const double AF3_7 = AU31_7 * AMX_7 + AU32_7 * AMY_7;
+  const double AN3_7 = VP2_5 * AMX_7 - VP1_6 * AMY_7;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
   const double mF1_6 = MX6 * mU11_6 + MY6 * mU12_6;
   const double F2_6 = MY6 * U22_6 + MX6 * U21_6;
   const double F3_6 = MX6 * U31_6 + MY6 * U32_6;
-  const double N3_6 = MX6 * VP2_6 - MY6 * VP1_6;
-  const double E1_6 = FA1_7 - mF1_6;
-  const double E2_6 = F2_6 - F3_7;
-  const double E3_6 = FA3_7 + F3_6;
-  const double mT1_6 = MY6 * mVP2_5 + C7 * mN1_7 + S7 * N2_7;
-  const double T2_6 = MX6 * mVP2_5 + mN3_7;
-  const double T3_6 = C7 * N2_7 - S7 * mN1_7 + N3_6;
-  const double FA1_6 = C6 * E1_6 - S6 * E2_6;
-  const double mFA3_6 = S6 * E1_6 + C6 * E2_6;
+  const double E1_6 = AF1_7 - mF1_6;
+  const double E2_6 = F2_6 - AF3_7;
+  const double E3_6 = AF2_7 + F3_6;
+  const double T1_6 = MY6 * VP2_5 + mVP2_6 * AMY_7;
+  const double mT2_6 = MX6 * VP2_5 + AN3_7;
+  const double AMX_7_plus_MX6 = MX6 + AMX_7;
+  const double mT3_6 = MY6 * VP1_6 + mVP2_6 * AMX_7_plus_MX6;
+  const double EB1_6 = C6 * E1_6 - S6 * E2_6;
+  const double EB2_6 = S6 * E1_6 + C6 * E2_6;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
   const double F1_5 = MY5 * U12_5 - MX5 * mU11_5;
   const double F2_5 = MY5 * U22_5 + MX5 * U21_5;
   const double F3_5 = MX5 * U31_5 + MY5 * U32_5;
-  const double mN3_5 = MY5 * VP1_5 + MX5 * mVP2_5;
-  const double E1_5 = FA1_6 + F1_5;
+  const double N3_5 = MX5 * VP2_5 - MY5 * VP1_5;
+  const double E1_5 = EB1_6 + F1_5;
   const double E2_5 = E3_6 + F2_5;
-  const double E3_5 = F3_5 - mFA3_6;
-  const double mT1_5 = MY5 * VA2_5 + C6 * mT1_6 + S6 * T2_6;
-  const double T2_5 = MX5 * VA2_5 + T3_6;
-  const double mT3_5 = C6 * T2_6 - S6 * mT1_6 + mN3_5;
-  const double FA1_5 = C5 * E1_5 - S5 * E2_5;
-  const double FA3_5 = S5 * E1_5 + C5 * E2_5;
+  const double E3_5 = F3_5 - EB2_6;
+  const double T1_5 = MY5 * mVA2_5 + C6 * T1_6 + S6 * mT2_6;
+  const double mT2_5 = MX5 * mVA2_5 + mT3_6;
+  const double T3_5 = C6 * mT2_6 - S6 * T1_6 + N3_5;
+  const double EB1_5 = C5 * E1_5 - S5 * E2_5;
+  const double EB2_5 = S5 * E1_5 + C5 * E2_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
   const double mF1_4 = MX4 * mU11_4 + MY4 * mU12_4;
   const double F2_4 = MY4 * U22_4 + MX4 * U21_4;
   const double F3_4 = MX4 * U31_4 + MY4 * U32_4;
-  const double N3_4 = MX4 * VP2_4 - MY4 * VP1_4;
-  const double E1_4 = FA1_5 - mF1_4;
+  const double mN3_4 = MY4 * VP1_4 + MX4 * mVP2_4;
+  const double E1_4 = EB1_5 - mF1_4;
   const double E2_4 = F2_4 - E3_5;
-  const double E3_4 = FA3_5 + F3_4;
-  const double mT1_4 = MY4 * mVP2_3 + C5 * mT1_5 + S5 * T2_5 + r5 * FA3_5;
-  const double T2_4 = MX4 * mVP2_3 + mT3_5;
-  const double T3_4 = C5 * T2_5 - S5 * mT1_5 + r5 * FA1_5 + N3_4;
-  const double FA1_4 = C4 * E1_4 - S4 * E2_4;
+  const double E3_4 = EB2_5 + F3_4;
+  const double T1_4 = MY4 * VA2_4 + C5 * T1_5 + S5 * mT2_5 - r5 * EB2_5;
+  const double mT2_4 = MX4 * VA2_4 + T3_5;
+  const double T3_4 = S5 * T1_5 - C5 * mT2_5 + r5 * EB1_5 - mN3_4;
+  const double EB1_4 = C4 * E1_4 - S4 * E2_4;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double F1_3 = MY3 * U12_3 - MX3 * mU11_3;
-  const double F2_3 = MY3 * U22_3 + MX3 * U21_3;
-  const double mN3_3 = MY3 * VP1_3 + MX3 * mVP2_3;
-  const double E1_3 = FA1_4 + F1_3;
-  const double E2_3 = E3_4 + F2_3;
-  const double mT1_3 = MY3 * VA2_3 + C4 * mT1_4 + S4 * T2_4;
-  const double T2_3 = MX3 * VA2_3 + T3_4;
-  const double mT3_3 = C4 * T2_4 - S4 * mT1_4 + mN3_3;
-  const double FA1_3 = C3 * E1_3 - S3 * E2_3;
-  const double FA3_3 = S3 * E1_3 + C3 * E2_3;
+  const double N1_3 = JYZ_3 * D23_3 - MY3 * VP2_2 + JXZ_3 * U21_3;
+  const double N2_3 = MX3 * VP2_2 + JXZ_3 * D31_3 - JYZ_3 * U12_3;
+  const double mN3_3 = JYZ_3 * mU13_3 + JXZ_3 * U23_3 + MY3 * VP1_3 + MX3 * mVP2_3;
+  const double T1_3 = C4 * T1_4 - r3 * E3_4 + S4 * mT2_4 + N1_3;
+  const double T2_3 = T3_4 + r3 * EB1_4 + N2_3;
+  const double mT3_3 = S4 * T1_4 - C4 * mT2_4 + mN3_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
   const double N3_2 = MX2 * VP2_2 - MY2 * VP1_2;
-  const double mT1_2 = MY2 * VP2_1 + C3 * mT1_3 + S3 * T2_3 + r3 * FA3_3;
+  const double mT1_2 = MY2 * VP2_1 - C3 * T1_3 + S3 * T2_3;
   const double T2_2 = MX2 * VP2_1 + mT3_3;
-  const double T3_2 = C3 * T2_3 - S3 * mT1_3 + r3 * FA1_3 + N3_2;
+  const double T3_2 = S3 * T1_3 + C3 * T2_3 + N3_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
   const double N3_1 = MX1 * VP2_1 - MY1 * VP1_1;
@@ -489,14 +478,14 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   tau[1] = T3_2;
   tau[2] = -mT3_3;
   tau[3] = T3_4;
-  tau[4] = -mT3_5;
-  tau[5] = T3_6;
-  tau[6] = -mN3_7;
+  tau[4] = T3_5;
+  tau[5] = -mT3_6;
+  tau[6] = AN3_7;
 }
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
- * 211 mul, 163 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 190 mul, 156 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
   const double MX1 = 3.7467; /* kg m, sarcos_grla.robot:27 */
   const double MY1 = -3.7196; /* kg m, grouped */
@@ -516,6 +505,8 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double r5 = 0.762; /* m, sarcos_grla.robot:22 */
   const double GY = -6.93567; /* m/s^2, sarcos_grla.robot:44 */
   const double GZ = 6.93567; /* m/s^2, sarcos_grla.robot:45 */
+  const double JXZ_3 = 2.2378642;
+  const double JYZ_3 = -3.43162612;
 
   /* sines and cosines of the joint angles */
   sarcos_grla_pack sine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
@@ -551,35 +542,33 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double VP2_2 = GZ * C2 - S2 * VP1_1;
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
+  const double W3_3 = dq[2] - W2_2;
   const double W1_3 = dq[1] * S3 + C3 * W1_2;
   const double W2_3 = dq[1] * C3 - S3 * W1_2;
-  const double W3_3 = dq[2] - W2_2;
-  const double DV12_3 = W1_3 * W2_3;
   const double WP3_3 = ddq[2] - WP2_2;
+  const double DV12_3 = W1_3 * W2_3;
   const double mU13_3 = C3 * U12_2 + S3 * U32_2;
   const double U23_3 = S3 * U12_2 - C3 * U32_2;
-  const double mWP2_3 = W1_3 * W3_3 + mU13_3;
+  const double mWP2_3 = W3_3 * W1_3 + mU13_3;
   const double DV22_3 = W2_3 * W2_3;
   const double DV33_3 = W3_3 * W3_3;
   const double D23_3 = DV22_3 - DV33_3;
   const double mU11_3 = DV22_3 + DV33_3;
   const double U22_3 = U22_2 + D23_3;
+  const double D31_3 = U22_2 + mU11_3;
   const double U12_3 = DV12_3 - WP3_3;
-  const double U21_3 = DV12_3 + WP3_3;
-  const double U32_3 = 2.0 * W2_3 * W3_3 - U23_3;
-  const double VA1_3 = VP1_2 - r3 * U12_2;
-  const double VA2_3 = VP2_2 - r3 * U22_2;
-  const double mVA3_3 = VP2_1 + r3 * U32_2;
-  const double VP1_3 = C3 * VA1_3 - S3 * mVA3_3;
-  const double mVP2_3 = S3 * VA1_3 + C3 * mVA3_3;
+  const double U21_3 = WP3_3 + DV12_3;
+  const double U32_3 = 2.0 * W3_3 * W2_3 - U23_3;
+  const double VP1_3 = C3 * VP1_2 - S3 * VP2_1;
+  const double mVP2_3 = C3 * VP2_1 + S3 * VP1_2;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W1_4 = C4 * W1_3 - S4 * W3_3;
-  const double mW2_4 = S4 * W1_3 + C4 * W3_3;
   const double W3_4 = dq[3] + W2_3;
-  const double DV13_4 = W1_4 * W3_4;
-  const double mDV12_4 = W1_4 * mW2_4;
+  const double W1_4 = C4 * W1_3 - S4 * W3_3;
+  const double mW2_4 = C4 * W3_3 + S4 * W1_3;
   const double WP3_4 = ddq[3] - mWP2_3;
+  const double DV13_4 = W3_4 * W1_4;
+  const double mDV12_4 = W1_4 * mW2_4;
   const double U13_4 = C4 * U12_3 - S4 * U32_3;
   const double mU23_4 = S4 * U12_3 + C4 * U32_3;
   const double WP2_4 = U13_4 - DV13_4;
@@ -588,20 +577,23 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double D23_4 = DV22_4 - DV33_4;
   const double mU11_4 = DV22_4 + DV33_4;
   const double U22_4 = U22_3 + D23_4;
-  const double mU12_4 = mDV12_4 + WP3_4;
+  const double mU12_4 = WP3_4 + mDV12_4;
   const double U21_4 = WP3_4 - mDV12_4;
   const double U31_4 = DV13_4 - WP2_4;
-  const double U32_4 = mU23_4 - 2.0 * mW2_4 * W3_4;
-  const double VP1_4 = S4 * VA2_3 + C4 * VP1_3;
-  const double VP2_4 = C4 * VA2_3 - S4 * VP1_3;
+  const double U32_4 = mU23_4 - 2.0 * W3_4 * mW2_4;
+  const double VA1_4 = VP1_3 - r3 * mU13_3;
+  const double VA2_4 = r3 * U23_3 - mVP2_3;
+  const double VA3_4 = r3 * U22_2 - VP2_2;
+  const double VP1_4 = C4 * VA1_4 - S4 * VA3_4;
+  const double mVP2_4 = S4 * VA1_4 + C4 * VA3_4;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double W1_5 = C5 * W1_4 + S5 * W3_4;
-  const double W2_5 = C5 * W3_4 - S5 * W1_4;
   const double W3_5 = dq[4] + mW2_4;
-  const double DV13_5 = W1_5 * W3_5;
-  const double DV12_5 = W1_5 * W2_5;
+  const double W1_5 = S5 * W3_4 + C5 * W1_4;
+  const double W2_5 = C5 * W3_4 - S5 * W1_4;
   const double WP3_5 = ddq[4] - WP2_4;
+  const double DV13_5 = W3_5 * W1_5;
+  const double DV12_5 = W1_5 * W2_5;
   const double U13_5 = C5 * mU12_4 - S5 * U32_4;
   const double mU23_5 = S5 * mU12_4 + C5 * U32_4;
   const double WP2_5 = U13_5 - DV13_5;
@@ -611,22 +603,22 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double mU11_5 = DV22_5 + DV33_5;
   const double U22_5 = U22_4 + D23_5;
   const double U12_5 = DV12_5 - WP3_5;
-  const double U21_5 = DV12_5 + WP3_5;
+  const double U21_5 = WP3_5 + DV12_5;
   const double U31_5 = DV13_5 - WP2_5;
-  const double U32_5 = 2.0 * W2_5 * W3_5 + mU23_5;
+  const double U32_5 = 2.0 * W3_5 * W2_5 + mU23_5;
   const double VA1_5 = r5 * mU12_4 + VP1_4;
-  const double VA2_5 = VP2_4 - r5 * U22_4;
-  const double mVA3_5 = mVP2_3 + r5 * U32_4;
-  const double VP1_5 = C5 * VA1_5 - S5 * mVA3_5;
-  const double mVP2_5 = S5 * VA1_5 + C5 * mVA3_5;
+  const double mVA2_5 = r5 * U22_4 + mVP2_4;
+  const double VA3_5 = VA2_4 - r5 * U32_4;
+  const double VP1_5 = C5 * VA1_5 + S5 * VA3_5;
+  const double VP2_5 = C5 * VA3_5 - S5 * VA1_5;
 
   /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
-  const double W1_6 = C6 * W1_5 - S6 * W3_5;
-  const double mW2_6 = S6 * W1_5 + C6 * W3_5;
   const double W3_6 = dq[5] + W2_5;
-  const double DV13_6 = W1_6 * W3_6;
-  const double mDV12_6 = W1_6 * mW2_6;
+  const double W1_6 = C6 * W1_5 - S6 * W3_5;
+  const double mW2_6 = C6 * W3_5 + S6 * W1_5;
   const double WP3_6 = ddq[5] + WP2_5;
+  const double DV13_6 = W3_6 * W1_6;
+  const double mDV12_6 = W1_6 * mW2_6;
   const double U13_6 = C6 * U12_5 - S6 * U32_5;
   const double mU23_6 = S6 * U12_5 + C6 * U32_5;
   const double WP2_6 = U13_6 - DV13_6;
@@ -635,102 +627,88 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double D23_6 = DV22_6 - DV33_6;
   const double mU11_6 = DV22_6 + DV33_6;
   const double U22_6 = U22_5 + D23_6;
-  const double mU12_6 = mDV12_6 + WP3_6;
+  const double mU12_6 = WP3_6 + mDV12_6;
   const double U21_6 = WP3_6 - mDV12_6;
   const double U31_6 = DV13_6 - WP2_6;
-  const double U32_6 = mU23_6 - 2.0 * mW2_6 * W3_6;
-  const double VP1_6 = S6 * VA2_5 + C6 * VP1_5;
-  const double VP2_6 = C6 * VA2_5 - S6 * VP1_5;
+  const double U32_6 = mU23_6 - 2.0 * W3_6 * mW2_6;
+  const double VP1_6 = C6 * VP1_5 - S6 * mVA2_5;
+  const double mVP2_6 = C6 * mVA2_5 + S6 * VP1_5;
 
   /* forward, link 7: W angular velocity, WP its derivative, VP acceleration of O7, in frame 7 */
-  const double W1_7 = C7 * W1_6 + S7 * W3_6;
-  const double W2_7 = C7 * W3_6 - S7 * W1_6;
   const double W3_7 = dq[6] + mW2_6;
-  const double DV12_7 = W1_7 * W2_7;
   const double WP3_7 = ddq[6] - WP2_6;
-  const double U13_7 = C7 * mU12_6 - S7 * U32_6;
-  const double mU23_7 = S7 * mU12_6 + C7 * U32_6;
-  const double DV22_7 = W2_7 * W2_7;
-  const double DV33_7 = W3_7 * W3_7;
-  const double D23_7 = DV22_7 - DV33_7;
-  const double mU11_7 = DV22_7 + DV33_7;
-  const double U22_7 = U22_6 + D23_7;
-  const double U12_7 = DV12_7 - WP3_7;
-  const double U21_7 = DV12_7 + WP3_7;
-  const double U31_7_part = 2.0 * W3_7;
-  const double U31_7 = W1_7 * U31_7_part - U13_7;
-  const double U32_7 = mU23_7 + W2_7 * U31_7_part;
-  const double VP1_7 = C7 * VP1_6 - S7 * mVP2_5;
-  const double mVP2_7 = C7 * mVP2_5 + S7 * VP1_6;
+  const double ADV33_7 = W3_7 * W3_7;
+  const double AD23_7 = DV33_6 - ADV33_7;
+  const double mAU11_7 = DV33_6 + ADV33_7;
+  const double AU22_7 = U22_6 + AD23_7;
+  const double AU12_7 = DV13_6 - WP3_7;
+  const double AU21_7 = DV13_6 + WP3_7;
+  const double AW3T_7 = 2.0 * W3_7;
+  const double AU31_7 = W1_6 * AW3T_7 - mU12_6;
+  const double AU32_7 = U32_6 + W3_6 * AW3T_7;
 
   /* backward, link 7: F force, N moment of the link about O7; E, T with the links it carries */
-  const double F1_7 = MY7 * U12_7 - MX7 * mU11_7;
-  const double F2_7 = MY7 * U22_7 + MX7 * U21_7;
-  const double F3_7 = MX7 * U31_7 + MY7 * U32_7;
-  const double mN1_7 = MY7 * VP2_6;
-  const double N2_7 = MX7 * VP2_6;
-  const double mN3_7 = MY7 * VP1_7 + MX7 * mVP2_7;
-  const double FA1_7 = C7 * F1_7 - S7 * F2_7;
-  const double FA3_7 = S7 * F1_7 + C7 * F2_7;
+  const double AMX_7 = MX7 * C7 - MY7 * S7;
+  const double AMY_7 = MX7 * S7 + MY7 * C7;
+  const double AF1_7 = AU12_7 * AMY_7 - mAU11_7 * AMX_7;
+  const double AF2_7 = AU21_7 * AMX_7 + AU22_7 * AMY_7;
+  const double AF3_7 = AU31_7 * AMX_7 + AU32_7 * AMY_7;
+  const double AN3_7 = VP2_5 * AMX_7 - VP1_6 * AMY_7;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
   const double mF1_6 = MX6 * mU11_6 + MY6 * mU12_6;
   const double F2_6 = MY6 * U22_6 + MX6 * U21_6;
   const double F3_6 = MX6 * U31_6 + MY6 * U32_6;
-  const double N3_6 = MX6 * VP2_6 - MY6 * VP1_6;
-  const double E1_6 = FA1_7 - mF1_6;
-  const double E2_6 = F2_6 - F3_7;
-  const double E3_6 = FA3_7 + F3_6;
-  const double mT1_6 = MY6 * mVP2_5 + C7 * mN1_7 + S7 * N2_7;
-  const double T2_6 = MX6 * mVP2_5 + mN3_7;
-  const double T3_6 = C7 * N2_7 - S7 * mN1_7 + N3_6;
-  const double FA1_6 = C6 * E1_6 - S6 * E2_6;
-  const double mFA3_6 = S6 * E1_6 + C6 * E2_6;
+  const double E1_6 = AF1_7 - mF1_6;
+  const double E2_6 = F2_6 - AF3_7;
+  const double E3_6 = AF2_7 + F3_6;
+  const double T1_6 = MY6 * VP2_5 + mVP2_6 * AMY_7;
+  const double mT2_6 = MX6 * VP2_5 + AN3_7;
+  const double AMX_7_plus_MX6 = MX6 + AMX_7;
+  const double mT3_6 = MY6 * VP1_6 + mVP2_6 * AMX_7_plus_MX6;
+  const double EB1_6 = C6 * E1_6 - S6 * E2_6;
+  const double EB2_6 = S6 * E1_6 + C6 * E2_6;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
   const double F1_5 = MY5 * U12_5 - MX5 * mU11_5;
   const double F2_5 = MY5 * U22_5 + MX5 * U21_5;
   const double F3_5 = MX5 * U31_5 + MY5 * U32_5;
-  const double mN3_5 = MY5 * VP1_5 + MX5 * mVP2_5;
-  const double E1_5 = FA1_6 + F1_5;
+  const double N3_5 = MX5 * VP2_5 - MY5 * VP1_5;
+  const double E1_5 = EB1_6 + F1_5;
   const double E2_5 = E3_6 + F2_5;
-  const double E3_5 = F3_5 - mFA3_6;
-  const double mT1_5 = MY5 * VA2_5 + C6 * mT1_6 + S6 * T2_6;
-  const double T2_5 = MX5 * VA2_5 + T3_6;
-  const double mT3_5 = C6 * T2_6 - S6 * mT1_6 + mN3_5;
-  const double FA1_5 = C5 * E1_5 - S5 * E2_5;
-  const double FA3_5 = S5 * E1_5 + C5 * E2_5;
+  const double E3_5 = F3_5 - EB2_6;
+  const double T1_5 = MY5 * mVA2_5 + C6 * T1_6 + S6 * mT2_6;
+  const double mT2_5 = MX5 * mVA2_5 + mT3_6;
+  const double T3_5 = C6 * mT2_6 - S6 * T1_6 + N3_5;
+  const double EB1_5 = C5 * E1_5 - S5 * E2_5;
+  const double EB2_5 = S5 * E1_5 + C5 * E2_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
   const double mF1_4 = MX4 * mU11_4 + MY4 * mU12_4;
   const double F2_4 = MY4 * U22_4 + MX4 * U21_4;
   const double F3_4 = MX4 * U31_4 + MY4 * U32_4;
-  const double N3_4 = MX4 * VP2_4 - MY4 * VP1_4;
-  const double E1_4 = FA1_5 - mF1_4;
+  const double mN3_4 = MY4 * VP1_4 + MX4 * mVP2_4;
+  const double E1_4 = EB1_5 - mF1_4;
   const double E2_4 = F2_4 - E3_5;
-  const double E3_4 = FA3_5 + F3_4;
-  const double mT1_4 = MY4 * mVP2_3 + C5 * mT1_5 + S5 * T2_5 + r5 * FA3_5;
-  const double T2_4 = MX4 * mVP2_3 + mT3_5;
-  const double T3_4 = C5 * T2_5 - S5 * mT1_5 + r5 * FA1_5 + N3_4;
-  const double FA1_4 = C4 * E1_4 - S4 * E2_4;
+  const double E3_4 = EB2_5 + F3_4;
+  const double T1_4 = MY4 * VA2_4 + C5 * T1_5 + S5 * mT2_5 - r5 * EB2_5;
+  const double mT2_4 = MX4 * VA2_4 + T3_5;
+  const double T3_4 = S5 * T1_5 - C5 * mT2_5 + r5 * EB1_5 - mN3_4;
+  const double EB1_4 = C4 * E1_4 - S4 * E2_4;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double F1_3 = MY3 * U12_3 - MX3 * mU11_3;
-  const double F2_3 = MY3 * U22_3 + MX3 * U21_3;
-  const double mN3_3 = MY3 * VP1_3 + MX3 * mVP2_3;
-  const double E1_3 = FA1_4 + F1_3;
-  const double E2_3 = E3_4 + F2_3;
-  const double mT1_3 = MY3 * VA2_3 + C4 * mT1_4 + S4 * T2_4;
-  const double T2_3 = MX3 * VA2_3 + T3_4;
-  const double mT3_3 = C4 * T2_4 - S4 * mT1_4 + mN3_3;
-  const double FA1_3 = C3 * E1_3 - S3 * E2_3;
-  const double FA3_3 = S3 * E1_3 + C3 * E2_3;
+  const double N1_3 = JYZ_3 * D23_3 - MY3 * VP2_2 + JXZ_3 * U21_3;
+  const double N2_3 = MX3 * VP2_2 + JXZ_3 * D31_3 - JYZ_3 * U12_3;
+  const double mN3_3 = JYZ_3 * mU13_3 + JXZ_3 * U23_3 + MY3 * VP1_3 + MX3 * mVP2_3;
+  const double T1_3 = C4 * T1_4 - r3 * E3_4 + S4 * mT2_4 + N1_3;
+  const double T2_3 = T3_4 + r3 * EB1_4 + N2_3;
+  const double mT3_3 = S4 * T1_4 - C4 * mT2_4 + mN3_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
   const double N3_2 = MX2 * VP2_2 - MY2 * VP1_2;
-  const double mT1_2 = MY2 * VP2_1 + C3 * mT1_3 + S3 * T2_3 + r3 * FA3_3;
+  const double mT1_2 = MY2 * VP2_1 - C3 * T1_3 + S3 * T2_3;
   const double T2_2 = MX2 * VP2_1 + mT3_3;
-  const double T3_2 = C3 * T2_3 - S3 * mT1_3 + r3 * FA1_3 + N3_2;
+  const double T3_2 = S3 * T1_3 + C3 * T2_3 + N3_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
   const double N3_1 = MX1 * VP2_1 - MY1 * VP1_1;
@@ -740,14 +718,14 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   tau[1] = T3_2;
   tau[2] = -mT3_3;
   tau[3] = T3_4;
-  tau[4] = -mT3_5;
-  tau[5] = T3_6;
-  tau[6] = -mN3_7;
+  tau[4] = T3_5;
+  tau[5] = -mT3_6;
+  tau[6] = AN3_7;
 }
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[7] rad   tau[7] N m, out
- * 74 mul, 46 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 56 mul, 38 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_gravity(const double *q, double *tau) {
   const double MX1 = 3.7467; /* kg m, sarcos_grla.robot:27 */
   const double MY1 = -3.7196; /* kg m, grouped */
@@ -784,82 +762,61 @@ void sarcos_grla_gravity(const double *q, double *tau) {
   const double S7 = SARCOS_GRLA_AT(sine1, 6);
   const double C7 = SARCOS_GRLA_AT(cosine1, 6);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
+  /* VP acceleration of a standing link, -g, in its frame */
   const double VP1_1 = GY * S1;
   const double VP2_1 = GY * C1;
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double VP1_2 = GZ * S2 + C2 * VP1_1;
   const double VP2_2 = GZ * C2 - S2 * VP1_1;
-
-  /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
   const double VP1_3 = C3 * VP1_2 - S3 * VP2_1;
   const double mVP2_3 = C3 * VP2_1 + S3 * VP1_2;
-
-  /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
   const double VP1_4 = S4 * VP2_2 + C4 * VP1_3;
   const double VP2_4 = C4 * VP2_2 - S4 * VP1_3;
-
-  /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
   const double VP1_5 = C5 * VP1_4 - S5 * mVP2_3;
   const double mVP2_5 = C5 * mVP2_3 + S5 * VP1_4;
-
-  /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
   const double VP1_6 = S6 * VP2_4 + C6 * VP1_5;
-  const double VP2_6 = C6 * VP2_4 - S6 * VP1_5;
 
-  /* forward, link 7: W angular velocity, WP its derivative, VP acceleration of O7, in frame 7 */
-  const double VP1_7 = C7 * VP1_6 - S7 * mVP2_5;
-  const double mVP2_7 = C7 * mVP2_5 + S7 * VP1_6;
+  /* link 7: MS first moments with the links it carries */
+  const double AMS1_7 = MX7 * C7 - MY7 * S7;
+  const double AMS2_7 = MX7 * S7 + MY7 * C7;
+  const double mT3_7 = mVP2_5 * AMS1_7 + VP1_6 * AMS2_7;
 
-  /* backward, link 7: F force, N moment of the link about O7; E, T with the links it carries */
-  const double mN1_7 = MY7 * VP2_6;
-  const double N2_7 = MX7 * VP2_6;
-  const double mN3_7 = MY7 * VP1_7 + MX7 * mVP2_7;
+  /* link 6: MS first moments with the links it carries */
+  const double MS1_6 = MX6 + AMS1_7;
+  const double AMS1_6 = C6 * MS1_6 - MY6 * S6;
+  const double AMS2_6 = MY6 * C6 + S6 * MS1_6;
+  const double T3_6 = VP2_4 * AMS1_6 - VP1_5 * AMS2_6;
 
-  /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double mN1_6 = MY6 * mVP2_5;
-  const double N2_6 = MX6 * mVP2_5;
-  const double N3_6 = MX6 * VP2_6 - MY6 * VP1_6;
-  const double mT1_6 = C7 * mN1_7 + S7 * N2_7 + mN1_6;
-  const double T2_6 = mN3_7 + N2_6;
-  const double T3_6 = C7 * N2_7 - S7 * mN1_7 + N3_6;
+  /* link 5: MS first moments with the links it carries */
+  const double MS1_5 = MX5 + AMS1_6;
+  const double MS2_5 = MY5 + AMS2_7;
+  const double AMS1_5 = C5 * MS1_5 - S5 * MS2_5;
+  const double AMS2_5 = S5 * MS1_5 + C5 * MS2_5;
+  const double mT3_5 = mVP2_3 * AMS1_5 + VP1_4 * AMS2_5;
 
-  /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double mN1_5 = MY5 * VP2_4;
-  const double N2_5 = MX5 * VP2_4;
-  const double mN3_5 = MY5 * VP1_5 + MX5 * mVP2_5;
-  const double mT1_5 = C6 * mT1_6 + S6 * T2_6 + mN1_5;
-  const double T2_5 = T3_6 + N2_5;
-  const double mT3_5 = C6 * T2_6 - S6 * mT1_6 + mN3_5;
+  /* link 4: MS first moments with the links it carries */
+  const double MS1_4 = MX4 + AMS1_5;
+  const double MS2_4 = MY4 + AMS2_6;
+  const double AMS1_4 = C4 * MS1_4 - S4 * MS2_4;
+  const double AMS2_4 = S4 * MS1_4 + C4 * MS2_4;
+  const double T3_4 = VP2_2 * AMS1_4 - VP1_3 * AMS2_4;
 
-  /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double mN1_4 = MY4 * mVP2_3;
-  const double N2_4 = MX4 * mVP2_3;
-  const double N3_4 = MX4 * VP2_4 - MY4 * VP1_4;
-  const double mT1_4 = C5 * mT1_5 + S5 * T2_5 + mN1_4;
-  const double T2_4 = mT3_5 + N2_4;
-  const double T3_4 = C5 * T2_5 - S5 * mT1_5 + N3_4;
+  /* link 3: MS first moments with the links it carries */
+  const double MS1_3 = MX3 + AMS1_4;
+  const double MS2_3 = MY3 + AMS2_5;
+  const double AMS1_3 = C3 * MS1_3 - S3 * MS2_3;
+  const double AMS2_3 = S3 * MS1_3 + C3 * MS2_3;
+  const double mT3_3 = VP2_1 * AMS1_3 + VP1_2 * AMS2_3;
 
-  /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double mN1_3 = MY3 * VP2_2;
-  const double N2_3 = MX3 * VP2_2;
-  const double mN3_3 = MY3 * VP1_3 + MX3 * mVP2_3;
-  const double mT1_3 = C4 * mT1_4 + S4 * T2_4 + mN1_3;
-  const double T2_3 = T3_4 + N2_3;
-  const double mT3_3 = C4 * T2_4 - S4 * mT1_4 + mN3_3;
+  /* link 2: MS first moments with the links it carries */
+  const double MS1_2 = MX2 + AMS1_3;
+  const double MS2_2 = MY2 + AMS2_4;
+  const double AMS1_2 = C2 * MS1_2 - S2 * MS2_2;
+  const double T3_2 = VP2_2 * MS1_2 - VP1_2 * MS2_2;
 
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double mN1_2 = MY2 * VP2_1;
-  const double N2_2 = MX2 * VP2_1;
-  const double N3_2 = MX2 * VP2_2 - MY2 * VP1_2;
-  const double mT1_2 = C3 * mT1_3 + S3 * T2_3 + mN1_2;
-  const double T2_2 = mT3_3 + N2_2;
-  const double T3_2 = C3 * T2_3 - S3 * mT1_3 + N3_2;
-
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = MX1 * VP2_1 - MY1 * VP1_1;
-  const double T3_1 = C2 * T2_2 - S2 * mT1_2 + N3_1;
+  /* link 1: MS first moments with the links it carries */
+  const double MS1_1 = MX1 + AMS1_2;
+  const double MS2_1 = MY1 - AMS2_3;
+  const double T3_1 = VP2_1 * MS1_1 - VP1_1 * MS2_1;
 
   tau[0] = T3_1;
   tau[1] = T3_2;
@@ -867,15 +824,13 @@ void sarcos_grla_gravity(const double *q, double *tau) {
   tau[3] = T3_4;
   tau[4] = -mT3_5;
   tau[5] = T3_6;
-  tau[6] = -mN3_7;
+  tau[6] = -mT3_7;
 }
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[7] rad   dq[7] rad/s   tau[7] N m, out
- * 197 mul, 144 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 167 mul, 129 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
-  const double MX3 = -2.5465; /* kg m, sarcos_grla.robot:27 */
-  const double MY3 = 3.9049; /* kg m, sarcos_grla.robot:29 */
   const double MX4 = 0.4624; /* kg m, sarcos_grla.robot:27 */
   const double MY4 = -23.1605; /* kg m, grouped */
   const double MX5 = 0.2526; /* kg m, sarcos_grla.robot:27 */
@@ -886,6 +841,8 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double MY7 = 0.3668; /* kg m, grouped */
   const double r3 = 0.8788; /* m, sarcos_grla.robot:22 */
   const double r5 = 0.762; /* m, sarcos_grla.robot:22 */
+  const double JXZ_3 = 2.2378642;
+  const double JYZ_3 = -3.43162612;
 
   /* sines and cosines of the joint angles */
   sarcos_grla_pack sine1[(6 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(6 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
@@ -913,32 +870,28 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double U32_2 = 2.0 * dq[1] * W2_2;
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
+  const double W3_3 = dq[2] - W2_2;
   const double W1_3 = dq[1] * S3 + C3 * W1_2;
   const double W2_3 = dq[1] * C3 - S3 * W1_2;
-  const double W3_3 = dq[2] - W2_2;
   const double DV12_3 = W1_3 * W2_3;
   const double mU13_3 = C3 * DV12_2 + S3 * U32_2;
   const double U23_3 = S3 * DV12_2 - C3 * U32_2;
-  const double mWP2_3 = W1_3 * W3_3 + mU13_3;
+  const double mWP2_3 = W3_3 * W1_3 + mU13_3;
   const double DV22_3 = W2_3 * W2_3;
   const double DV33_3 = W3_3 * W3_3;
   const double D23_3 = DV22_3 - DV33_3;
   const double mU11_3 = DV22_3 + DV33_3;
   const double U22_3 = U22_2 + D23_3;
+  const double D31_3 = U22_2 + mU11_3;
   const double U12_3 = DV12_3 - DV13_2;
   const double U21_3 = DV13_2 + DV12_3;
-  const double U32_3 = 2.0 * W2_3 * W3_3 - U23_3;
-  const double mVA1_3 = r3 * DV12_2;
-  const double mVA2_3 = r3 * U22_2;
-  const double mVA3_3 = r3 * U32_2;
-  const double mVP1_3 = C3 * mVA1_3 + S3 * mVA3_3;
-  const double VP2_3 = S3 * mVA1_3 - C3 * mVA3_3;
+  const double U32_3 = 2.0 * W3_3 * W2_3 - U23_3;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W1_4 = C4 * W1_3 - S4 * W3_3;
-  const double mW2_4 = S4 * W1_3 + C4 * W3_3;
   const double W3_4 = dq[3] + W2_3;
-  const double DV13_4 = W1_4 * W3_4;
+  const double W1_4 = C4 * W1_3 - S4 * W3_3;
+  const double mW2_4 = C4 * W3_3 + S4 * W1_3;
+  const double DV13_4 = W3_4 * W1_4;
   const double mDV12_4 = W1_4 * mW2_4;
   const double U13_4 = C4 * U12_3 - S4 * U32_3;
   const double mU23_4 = S4 * U12_3 + C4 * U32_3;
@@ -951,15 +904,18 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double U12_4 = mWP2_3 - mDV12_4;
   const double mU21_4 = mWP2_3 + mDV12_4;
   const double U31_4 = DV13_4 - WP2_4;
-  const double U32_4 = mU23_4 - 2.0 * mW2_4 * W3_4;
-  const double mVP1_4 = S4 * mVA2_3 + C4 * mVP1_3;
-  const double VP2_4 = S4 * mVP1_3 - C4 * mVA2_3;
+  const double U32_4 = mU23_4 - 2.0 * W3_4 * mW2_4;
+  const double mVA1_4 = r3 * mU13_3;
+  const double VA2_4 = r3 * U23_3;
+  const double VA3_4 = r3 * U22_2;
+  const double mVP1_4 = C4 * mVA1_4 + S4 * VA3_4;
+  const double VP2_4 = S4 * mVA1_4 - C4 * VA3_4;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double W1_5 = C5 * W1_4 + S5 * W3_4;
-  const double W2_5 = C5 * W3_4 - S5 * W1_4;
   const double W3_5 = dq[4] + mW2_4;
-  const double DV13_5 = W1_5 * W3_5;
+  const double W1_5 = S5 * W3_4 + C5 * W1_4;
+  const double W2_5 = C5 * W3_4 - S5 * W1_4;
+  const double DV13_5 = W3_5 * W1_5;
   const double DV12_5 = W1_5 * W2_5;
   const double mU13_5 = C5 * U12_4 + S5 * U32_4;
   const double U23_5 = S5 * U12_4 - C5 * U32_4;
@@ -972,18 +928,18 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double U12_5 = WP2_4 + DV12_5;
   const double U21_5 = DV12_5 - WP2_4;
   const double U31_5 = DV13_5 + mWP2_5;
-  const double U32_5 = 2.0 * W2_5 * W3_5 - U23_5;
+  const double U32_5 = 2.0 * W3_5 * W2_5 - U23_5;
   const double mVA1_5 = r5 * U12_4 + mVP1_4;
   const double VA2_5 = VP2_4 - r5 * U22_4;
-  const double VA3_5 = VP2_3 - r5 * U32_4;
+  const double VA3_5 = VA2_4 - r5 * U32_4;
   const double VP1_5 = S5 * VA3_5 - C5 * mVA1_5;
   const double VP2_5 = S5 * mVA1_5 + C5 * VA3_5;
 
   /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
-  const double W1_6 = C6 * W1_5 - S6 * W3_5;
-  const double mW2_6 = S6 * W1_5 + C6 * W3_5;
   const double W3_6 = dq[5] + W2_5;
-  const double DV13_6 = W1_6 * W3_6;
+  const double W1_6 = C6 * W1_5 - S6 * W3_5;
+  const double mW2_6 = C6 * W3_5 + S6 * W1_5;
+  const double DV13_6 = W3_6 * W1_6;
   const double mDV12_6 = W1_6 * mW2_6;
   const double U13_6 = C6 * U12_5 - S6 * U32_5;
   const double mU23_6 = S6 * U12_5 + C6 * U32_5;
@@ -996,107 +952,89 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double U12_6 = mWP2_5 - mDV12_6;
   const double mU21_6 = mWP2_5 + mDV12_6;
   const double U31_6 = DV13_6 - WP2_6;
-  const double U32_6 = mU23_6 - 2.0 * mW2_6 * W3_6;
+  const double U32_6 = mU23_6 - 2.0 * W3_6 * mW2_6;
   const double VP1_6 = S6 * VA2_5 + C6 * VP1_5;
   const double VP2_6 = C6 * VA2_5 - S6 * VP1_5;
 
   /* forward, link 7: W angular velocity, WP its derivative, VP acceleration of O7, in frame 7 */
-  const double W1_7 = C7 * W1_6 + S7 * W3_6;
-  const double W2_7 = C7 * W3_6 - S7 * W1_6;
   const double W3_7 = dq[6] + mW2_6;
-  const double DV12_7 = W1_7 * W2_7;
-  const double mU13_7 = C7 * U12_6 + S7 * U32_6;
-  const double U23_7 = S7 * U12_6 - C7 * U32_6;
-  const double DV22_7 = W2_7 * W2_7;
-  const double DV33_7 = W3_7 * W3_7;
-  const double D23_7 = DV22_7 - DV33_7;
-  const double mU11_7 = DV22_7 + DV33_7;
-  const double U22_7 = U22_6 + D23_7;
-  const double U12_7 = WP2_6 + DV12_7;
-  const double U21_7 = DV12_7 - WP2_6;
-  const double U31_7_part = 2.0 * W3_7;
-  const double U31_7 = mU13_7 + W1_7 * U31_7_part;
-  const double U32_7 = W2_7 * U31_7_part - U23_7;
-  const double VP1_7 = S7 * VP2_5 + C7 * VP1_6;
-  const double VP2_7 = C7 * VP2_5 - S7 * VP1_6;
+  const double ADV33_7 = W3_7 * W3_7;
+  const double AD23_7 = DV33_6 - ADV33_7;
+  const double mAU11_7 = DV33_6 + ADV33_7;
+  const double AU22_7 = U22_6 + AD23_7;
+  const double AU12_7 = DV13_6 + WP2_6;
+  const double AW3T_7 = 2.0 * W3_7;
+  const double AU31_7 = U12_6 + W1_6 * AW3T_7;
+  const double AU32_7 = U32_6 + W3_6 * AW3T_7;
 
   /* backward, link 7: F force, N moment of the link about O7; E, T with the links it carries */
-  const double F1_7 = MY7 * U12_7 - MX7 * mU11_7;
-  const double F2_7 = MY7 * U22_7 + MX7 * U21_7;
-  const double F3_7 = MX7 * U31_7 + MY7 * U32_7;
-  const double mN1_7 = MY7 * VP2_6;
-  const double N2_7 = MX7 * VP2_6;
-  const double N3_7 = MX7 * VP2_7 - MY7 * VP1_7;
-  const double FA1_7 = C7 * F1_7 - S7 * F2_7;
-  const double FA3_7 = S7 * F1_7 + C7 * F2_7;
+  const double AMX_7 = MX7 * C7 - MY7 * S7;
+  const double AMY_7 = MX7 * S7 + MY7 * C7;
+  const double AF1_7 = AU12_7 * AMY_7 - mAU11_7 * AMX_7;
+  const double AF3_7 = AU31_7 * AMX_7 + AU32_7 * AMY_7;
+  const double AN3_7 = VP2_5 * AMX_7 - VP1_6 * AMY_7;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
   const double F1_6 = MY6 * U12_6 - MX6 * mU11_6;
   const double F2_6 = MY6 * U22_6 - MX6 * mU21_6;
-  const double F3_6 = MX6 * U31_6 + MY6 * U32_6;
-  const double N3_6 = MX6 * VP2_6 - MY6 * VP1_6;
-  const double E1_6 = FA1_7 + F1_6;
-  const double E2_6 = F2_6 - F3_7;
-  const double E3_6 = FA3_7 + F3_6;
-  const double mT1_6 = C7 * mN1_7 - MY6 * VP2_5 + S7 * N2_7;
-  const double mT2_6 = MX6 * VP2_5 + N3_7;
-  const double T3_6 = C7 * N2_7 - S7 * mN1_7 + N3_6;
-  const double FA1_6 = C6 * E1_6 - S6 * E2_6;
-  const double mFA3_6 = S6 * E1_6 + C6 * E2_6;
+  const double E1_6 = AF1_7 + F1_6;
+  const double E2_6 = F2_6 - AF3_7;
+  const double T1_6 = MY6 * VP2_5 - VP2_6 * AMY_7;
+  const double mT2_6 = MX6 * VP2_5 + AN3_7;
+  const double AMX_7_plus_MX6 = MX6 + AMX_7;
+  const double T3_6 = VP2_6 * AMX_7_plus_MX6 - MY6 * VP1_6;
+  const double EB1_6 = C6 * E1_6 - S6 * E2_6;
+  const double EB2_6 = S6 * E1_6 + C6 * E2_6;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
   const double F1_5 = MY5 * U12_5 - MX5 * mU11_5;
   const double F2_5 = MY5 * U22_5 + MX5 * U21_5;
   const double F3_5 = MX5 * U31_5 + MY5 * U32_5;
   const double N3_5 = MX5 * VP2_5 - MY5 * VP1_5;
-  const double E1_5 = FA1_6 + F1_5;
-  const double E2_5 = E3_6 + F2_5;
-  const double E3_5 = F3_5 - mFA3_6;
-  const double mT1_5 = MY5 * VA2_5 + C6 * mT1_6 - S6 * mT2_6;
+  const double E1_5 = EB1_6 + F1_5;
+  const double E2_5 = MY6 * U32_6 + AU22_7 * AMY_7 + U31_6 * AMX_7_plus_MX6 + F2_5;
+  const double E3_5 = F3_5 - EB2_6;
+  const double T1_5 = C6 * T1_6 - MY5 * VA2_5 + S6 * mT2_6;
   const double T2_5 = MX5 * VA2_5 + T3_6;
-  const double T3_5 = S6 * mT1_6 + C6 * mT2_6 + N3_5;
-  const double FA1_5 = C5 * E1_5 - S5 * E2_5;
-  const double FA3_5 = S5 * E1_5 + C5 * E2_5;
+  const double T3_5 = C6 * mT2_6 - S6 * T1_6 + N3_5;
+  const double EB1_5 = C5 * E1_5 - S5 * E2_5;
+  const double EB2_5 = S5 * E1_5 + C5 * E2_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
   const double F1_4 = MY4 * U12_4 - MX4 * mU11_4;
   const double F2_4 = MY4 * U22_4 - MX4 * mU21_4;
   const double F3_4 = MX4 * U31_4 + MY4 * U32_4;
   const double N3_4 = MY4 * mVP1_4 + MX4 * VP2_4;
-  const double E1_4 = FA1_5 + F1_4;
+  const double E1_4 = EB1_5 + F1_4;
   const double E2_4 = F2_4 - E3_5;
-  const double E3_4 = FA3_5 + F3_4;
-  const double mT1_4 = C5 * mT1_5 - MY4 * VP2_3 + S5 * T2_5 + r5 * FA3_5;
-  const double mT2_4 = MX4 * VP2_3 + T3_5;
-  const double T3_4 = C5 * T2_5 - S5 * mT1_5 + r5 * FA1_5 + N3_4;
-  const double FA1_4 = C4 * E1_4 - S4 * E2_4;
+  const double E3_4 = EB2_5 + F3_4;
+  const double T1_4 = MY4 * VA2_4 + C5 * T1_5 - S5 * T2_5 - r5 * EB2_5;
+  const double mT2_4 = MX4 * VA2_4 + T3_5;
+  const double T3_4 = S5 * T1_5 + C5 * T2_5 + r5 * EB1_5 + N3_4;
+  const double EB1_4 = C4 * E1_4 - S4 * E2_4;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double F1_3 = MY3 * U12_3 - MX3 * mU11_3;
-  const double F2_3 = MY3 * U22_3 + MX3 * U21_3;
-  const double N3_3 = MY3 * mVP1_3 + MX3 * VP2_3;
-  const double E1_3 = FA1_4 + F1_3;
-  const double E2_3 = E3_4 + F2_3;
-  const double T1_3 = MY3 * mVA2_3 - C4 * mT1_4 + S4 * mT2_4;
-  const double T2_3 = T3_4 - MX3 * mVA2_3;
-  const double T3_3 = S4 * mT1_4 + C4 * mT2_4 + N3_3;
-  const double FA1_3 = C3 * E1_3 - S3 * E2_3;
-  const double FA3_3 = S3 * E1_3 + C3 * E2_3;
+  const double N1_3 = JYZ_3 * D23_3 + JXZ_3 * U21_3;
+  const double N2_3 = JXZ_3 * D31_3 - JYZ_3 * U12_3;
+  const double mN3_3 = JYZ_3 * mU13_3 + JXZ_3 * U23_3;
+  const double T1_3 = C4 * T1_4 - r3 * E3_4 + S4 * mT2_4 + N1_3;
+  const double T2_3 = T3_4 + r3 * EB1_4 + N2_3;
+  const double mT3_3 = S4 * T1_4 - C4 * mT2_4 + mN3_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double mT1_2 = S3 * T2_3 - C3 * T1_3 + r3 * FA3_3;
-  const double T3_2 = S3 * T1_3 + C3 * T2_3 + r3 * FA1_3;
+  const double T1_2 = C3 * T1_3 - S3 * T2_3;
+  const double T3_2 = S3 * T1_3 + C3 * T2_3;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double mT3_1 = C2 * T3_3 + S2 * mT1_2;
+  const double T3_1 = C2 * mT3_3 + S2 * T1_2;
 
-  tau[0] = -mT3_1;
+  tau[0] = T3_1;
   tau[1] = T3_2;
-  tau[2] = T3_3;
+  tau[2] = -mT3_3;
   tau[3] = T3_4;
   tau[4] = T3_5;
   tau[5] = T3_6;
-  tau[6] = N3_7;
+  tau[6] = AN3_7;
 }
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.

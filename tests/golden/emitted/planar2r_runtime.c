@@ -249,9 +249,9 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, const dou
   const double VP2_1 = GY * C1;
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double W3_2 = dq[0] + dq[1];
+  const double DQ_2 = dq[0] + dq[1];
   const double WP3_2 = ddq[0] + ddq[1];
-  const double DV33_2 = W3_2 * W3_2;
+  const double DV33_2 = DQ_2 * DQ_2;
   const double VA1_2 = VP1_1 - d2 * DV33_1;
   const double VA2_2 = d2 * ddq[0] + VP2_1;
   const double VP1_2 = C2 * VA1_2 + S2 * VA2_2;
@@ -293,16 +293,16 @@ void planar2r_gravity(const double *q, const double *chi, double *tau) {
   const double S1_2 = PLANAR2R_AT(sine1, 1);
   const double C1_2 = PLANAR2R_AT(cosine1, 1);
 
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double S1_2_MY2_minus_C1_2_MX2 = chi[PLANAR2R_MY2] * S1_2 - chi[PLANAR2R_MX2] * C1_2;
-  const double mN3_2 = GY * S1_2_MY2_minus_C1_2_MX2;
+  /* link 2: MS first moments with the links it carries */
+  const double AMS1_2 = chi[PLANAR2R_MX2] * C1_2 - chi[PLANAR2R_MY2] * S1_2;
+  const double T3_2 = GY * AMS1_2;
 
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double S1_MY1_minus_C1_MXR1 = chi[PLANAR2R_MY1] * S1 - chi[PLANAR2R_MXR1] * C1;
-  const double T3_1 = -mN3_2 - GY * S1_MY1_minus_C1_MXR1;
+  /* link 1: MS first moments with the links it carries */
+  const double AMS1_1 = chi[PLANAR2R_MXR1] * C1 - chi[PLANAR2R_MY1] * S1;
+  const double T3_1 = T3_2 + GY * AMS1_1;
 
   tau[0] = T3_1;
-  tau[1] = -mN3_2;
+  tau[1] = T3_2;
 }
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
@@ -318,7 +318,7 @@ void planar2r_coriolis(const double *q, const double *dq, const double *chi, dou
   const double C2 = PLANAR2R_AT(cosine1, 0);
 
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double W3_2 = dq[0] + dq[1];
+  const double DQ_2 = dq[0] + dq[1];
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
   const double S2_MX2_plus_C2_MY2 = chi[PLANAR2R_MX2] * S2 + chi[PLANAR2R_MY2] * C2;
@@ -326,7 +326,7 @@ void planar2r_coriolis(const double *q, const double *dq, const double *chi, dou
   const double N3_2 = dq[0] * dq[0] * N3_2_part;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = N3_2 - W3_2 * W3_2 * N3_2_part;
+  const double T3_1 = N3_2 - DQ_2 * DQ_2 * N3_2_part;
 
   tau[0] = T3_1;
   tau[1] = N3_2;

@@ -233,13 +233,13 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double DQ2_2 = 2.0 * dq[1];
   const double VA1_2 = q[1] * ddq[0] + VP1_1;
   const double VA2_2 = q[1] * DV33_1 + VP2_1;
-  const double VP1_2 = dq[0] * DQ2_2 + VA1_2;
-  const double VP3_2 = ddq[1] - VA2_2;
+  const double AVP1_2 = dq[0] * DQ2_2 + VA1_2;
+  const double AVP3_2 = ddq[1] - VA2_2;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = MZ2 * ddq[0] - MX2 * DV33_1 + M2 * VP1_2;
-  const double mF3_2 = MX2 * ddq[0] + MZ2 * DV33_1 - M2 * VP3_2;
-  const double N2_2 = MZ2 * VP1_2 - MX2 * VP3_2;
+  const double F1_2 = MZ2 * ddq[0] - MX2 * DV33_1 + M2 * AVP1_2;
+  const double mF3_2 = MX2 * ddq[0] + MZ2 * DV33_1 - M2 * AVP3_2;
+  const double N2_2 = MZ2 * AVP1_2 - MX2 * AVP3_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
   const double N3_1 = ZZR1 * ddq[0] - MY1 * VP1_1 + MX1 * VP2_1;
@@ -255,12 +255,13 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad (m at 1)   tau[2] N m (N at 1), out
- * 6 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 5 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void rp_gravity(const double *q, double *tau) {
   const double M2 = 5.6267; /* kg, rp.robot:18 */
   const double GY = 9.81; /* m/s^2, rp.robot:36 */
+  const double MS1_1 = 1.280386974;
   const double MZ2_minus_MY1 = 0.860846696;
-  const double MX2_plus_MX1 = 1.280386974;
+  const double GY_M2 = 55.197927;
 
   /* sines and cosines of the joint angles */
   rp_pack sine1[(1 + RP_PACK - 1) / RP_PACK], cosine1[(1 + RP_PACK - 1) / RP_PACK];
@@ -268,18 +269,16 @@ void rp_gravity(const double *q, double *tau) {
   const double S1 = RP_AT(sine1, 0);
   const double C1 = RP_AT(cosine1, 0);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double VP2_1 = GY * C1;
+  /* link 1: MS first moments with the links it carries */
+  const double mMS2_1 = M2 * q[1] + MZ2_minus_MY1;
+  const double AMS1_1 = MS1_1 * C1 + S1 * mMS2_1;
+  const double T3_1 = GY * AMS1_1;
 
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double mF3_2 = M2 * VP2_1;
-
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double M2_q_2_plus_MZ2_minus_MY1 = M2 * q[1] + MZ2_minus_MY1;
-  const double T3_1 = GY * S1 * M2_q_2_plus_MZ2_minus_MY1 + VP2_1 * MX2_plus_MX1;
+  /* joint torques */
+  const double mtau_2 = C1 * GY_M2;
 
   tau[0] = T3_1;
-  tau[1] = -mF3_2;
+  tau[1] = -mtau_2;
 }
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
@@ -296,12 +295,12 @@ void rp_coriolis(const double *q, const double *dq, double *tau) {
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double DQ2_2 = 2.0 * dq[1];
   const double VA2_2 = q[1] * DV33_1;
-  const double VP1_2 = dq[0] * DQ2_2;
+  const double AVP1_2 = dq[0] * DQ2_2;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = M2 * VP1_2 - MX2 * DV33_1;
+  const double F1_2 = M2 * AVP1_2 - MX2 * DV33_1;
   const double mF3_2 = MZ2 * DV33_1 + M2 * VA2_2;
-  const double N2_2 = MX2 * VA2_2 + MZ2 * VP1_2;
+  const double N2_2 = MX2 * VA2_2 + MZ2 * AVP1_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
   const double T3_1 = q[1] * F1_2 + N2_2;

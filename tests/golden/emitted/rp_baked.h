@@ -43,7 +43,7 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau);
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad (m at 1)   tau[2] N m (N at 1), out
- * 6 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 5 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void rp_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
