@@ -3,6 +3,7 @@
 
 #include <ginac/ginac.h>
 
+#include <map>
 #include <vector>
 
 #include "gen/algorithms/code_model.h"
@@ -18,22 +19,31 @@ namespace dyngen {
 /// and `b` more: a constant vector that only turns from frame to frame.
 struct JointScrew {
   int joint = 0;
-  Vector3 a = {0, 0, 0};  ///< angular velocity of the link; of a leader only
-  Vector3 b = {0, 0, 0};  ///< velocity of the link's origin; of the others: what comes on top
-  int leader = 0;         ///< itself, or the parallel joint nearer to the link
-  GiNaC::ex sign = 1;     ///< of the axis along the leader's
+  Vector3 a = {0, 0, 0};        ///< angular velocity of the link; of a leader only
+  Vector3 b = {0, 0, 0};        ///< velocity of the link's origin; of the others: what comes on top
+  Vector3 b_below = {0, 0, 0};  ///< b in the parent's frame, if the axes are not parallel
+  int leader = 0;               ///< itself, or the parallel joint nearer to the link
+  GiNaC::ex sign = 1;           ///< of the axis along the leader's
+  int center = 0;  ///< of a revolute joint: the point on its axis, see LinkScrews::centers
 
   [[nodiscard]] bool leads() const { return leader == joint; }
 };
 
-/// The joint in a list, or null.
-const JointScrew* find_screw(const std::vector<JointScrew>& screws, int joint);
+/// The moving joints that carry a link.
+struct LinkScrews {
+  std::vector<JointScrew> joints;  ///< from the base to the link's own
+  /// Points where axes meet, named by the first joint there: vectors from the point to the link's
+  /// origin, in the link's frame. b = a x center for all joints of a point.
+  std::map<int, Vector3> centers;
 
-/// Writes the screws of the moving joints that carry each link, from the base to the link's own
-/// joint; element 0 is the base's empty list.
+  /// @return null if the joint does not carry the link
+  [[nodiscard]] const JointScrew* find(int joint) const;
+};
+
+/// Writes the screws of the joints that carry each link; element 0 is the base's empty list.
 ///
 /// One rotation about the joint's axis for each vector; chains of parallel axes turn once.
-std::vector<std::vector<JointScrew>> write_joint_screws(Trace& trace, const CodeModel& code,
-                                                        const std::vector<LinkFrame>& frames);
+std::vector<LinkScrews> write_joint_screws(Trace& trace, const CodeModel& code,
+                                           const std::vector<LinkFrame>& frames);
 
 }  // namespace dyngen

@@ -45,20 +45,13 @@ class RowWriter {
       write_axial();
       write_products();
     }
-    const bool weightless = link_.stands && link_.along_gravity.contains(screw_.joint);
-    const Vector3 lever = weightless ? Vector3{0, 0, 0} : cross(motion_.VP, a_);
-    for (std::size_t k = 0; k < 3; ++k) {
-      set(first_moment(k), lever[k] + dot(screw_.b, column(motion_.U, k)));
-    }
-    set(Chi::kM, dot(screw_.b, motion_.VP));
+    write_first_moments();
     return row_;
   }
 
   InertialRow follower(const InertialRow& leader) {
     for (std::size_t k = 0; k < kInertialCount; ++k) row_[k] = screw_.sign * leader[k];
-    for (std::size_t k = 0; k < 3; ++k) {
-      set(first_moment(k), at(first_moment(k)) + dot(screw_.b, column(motion_.U, k)));
-    }
+    add_forces({at(Chi::kMX), at(Chi::kMY), at(Chi::kMZ)});
     set(Chi::kM, at(Chi::kM) + dot(screw_.b, motion_.VP));
     return row_;
   }
@@ -76,7 +69,7 @@ class RowWriter {
   /// (a x W) z, with the motion of the link or of the frame below.
   ex write_spin() {
     const ex here = a_[0] * motion_.W[1] - a_[1] * motion_.W[0];
-    const JointScrew* below = find_screw(*link_.anchor_screws, screw_.joint);
+    const JointScrew* below = link_.anchor_screws->find(screw_.joint);
     if (below == nullptr) return here;
     const FrameRotation& r = link_.frame->from_anchor;
     const Vector3 spin = cross(below->a, link_.anchor_motion->W);
@@ -115,6 +108,61 @@ class RowWriter {
     set(Chi::kYZ, a_[0] * D[0] - a_[1] * U[0][1] + a_[2] * U[0][2]);
   }
 
+  /// MX, MY, MZ, M
+  void write_first_moments() {
+    if (link_.about_center.contains(screw_.center)) {
+      const Vector3& arm = link_.screws->centers.at(screw_.center);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (wants(first_moment(k))) set(first_moment(k), dot(a_, moment_about(arm, k)));
+      }
+      set(Chi::kM, dot(a_, write_vector("N", "M", cross(arm, motion_.VP))));
+      return;
+    }
+    const bool weightless = link_.stands && link_.along_gravity.contains(screw_.joint);
+    const Vector3 lever = weightless ? Vector3{0, 0, 0} : cross(motion_.VP, a_);
+    add_forces(lever);
+    set(Chi::kM, dot(screw_.b, motion_.VP));
+  }
+
+  /// The forces U e of unit first moments on the joint's b.
+  void add_forces(const Vector3& lever) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!wants(first_moment(k))) continue;
+      Vector3 force = column(motion_.U, k);
+      const Vector3* b = &screw_.b;
+      if (link_.force_below && screw_.joint != link_.link) {
+        const std::string parameter(kChiNames[index(first_moment(k))]);
+        const std::string help = fmt::format("FA{}_{}", parameter, link_.link);
+        force = to_parent(trace_, help, link_.frame->rotation, force);
+        for (std::size_t i = 0; i < 3; ++i) {
+          force[i] =
+              trace_.assign(fmt::format("FB{}{}_{}", i + 1, parameter, link_.link), force[i]);
+        }
+        b = &screw_.b_below;
+      }
+      set(first_moment(k), lever[k] + dot(*b, force));
+    }
+  }
+
+  /// Of a unit first moment along an axis of the link, about a point so far below the origin.
+  Vector3 moment_about(const Vector3& arm, std::size_t k) {
+    Vector3 axis = {0, 0, 0};
+    axis[k] = 1;
+    const Vector3 about_origin = cross(axis, motion_.VP);
+    Vector3 moment = cross(arm, column(motion_.U, k));
+    for (std::size_t i = 0; i < 3; ++i) moment[i] += about_origin[i];
+    return write_vector("N", kChiNames[index(first_moment(k))], moment);
+  }
+
+  Vector3 write_vector(const char* quantity, std::string_view parameter, const Vector3& v) {
+    Vector3 result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      result[i] = trace_.assign(
+          fmt::format("{}{}{}_{}_{}", quantity, i + 1, parameter, screw_.center, link_.link), v[i]);
+    }
+    return result;
+  }
+
   Trace& trace_;
   const CarriedLink& link_;
   const LinkMotion& motion_;
@@ -128,7 +176,7 @@ class RowWriter {
 
 std::map<int, InertialRow> write_link_regressor(Trace& trace, const CarriedLink& link) {
   std::map<int, InertialRow> rows;
-  for (auto screw = link.screws->rbegin(); screw != link.screws->rend(); ++screw) {
+  for (auto screw = link.screws->joints.rbegin(); screw != link.screws->joints.rend(); ++screw) {
     RowWriter writer(trace, link, *screw);
     rows[screw->joint] = screw->leads() ? writer.leader() : writer.follower(rows.at(screw->leader));
   }

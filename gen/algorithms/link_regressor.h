@@ -24,12 +24,14 @@ struct CarriedLink {
   int link = 0;
   std::array<bool, kInertialCount> wanted{};  ///< the others stay 0
   const LinkMotion* motion = nullptr;
-  const std::vector<JointScrew>* screws = nullptr;
+  const LinkScrews* screws = nullptr;
   const LinkFrame* frame = nullptr;
   const LinkMotion* anchor_motion = nullptr;  ///< of the link below, see LinkFrame::anchor
-  const std::vector<JointScrew>* anchor_screws = nullptr;
+  const LinkScrews* anchor_screws = nullptr;
   bool stands = false;            ///< the origin has no acceleration but gravity's
   std::set<int> along_gravity{};  ///< joints whose axis keeps gravity's direction
+  std::set<int> about_center{};   ///< first moments act on these joints by moments about the center
+  bool force_below = false;  ///< on the others by forces in the frame below, not parallel to it
 };
 
 /// Writes the rows of the joints that carry the link, by joint.

@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "gen/algorithms/frames.h"
@@ -42,17 +43,32 @@ ex drive_entry(const CodeLink& link, Chi kind) {
   }
 }
 
+/// A link, and a center of joints that carry it.
+using LinkCenter = std::pair<int, int>;
+
+/// What may be chosen: it changes the number of operations, not the values.
+struct Plan {
+  OriginSlides slides;
+  std::set<LinkCenter> about_center{};  ///< first moments act by their moment about the center
+  std::set<int> force_below{};          ///< links whose forces are turned into the frame below
+};
+
+/// What there is to choose.
+struct Choices {
+  std::vector<LinkCenter> centers;  ///< several joints turn about it, away from the link's origin
+  std::vector<int> leaves;          ///< no link hangs on it
+};
+
 class RegressorWriter {
  public:
-  RegressorWriter(Trace& trace, const CodeModel& code, const Columns& columns,
-                  const OriginSlides& slides)
-      : trace_(trace), code_(code), columns_(columns), slides_(slides) {}
+  RegressorWriter(Trace& trace, const CodeModel& code, const Columns& columns, const Plan& plan)
+      : trace_(trace), code_(code), columns_(columns), plan_(plan) {}
 
   void write() {
     std::vector<LinkFrame> frames = write_frames(trace_, code_);
-    slide_origins(trace_, code_, slides_, frames);
+    slide_origins(trace_, code_, plan_.slides, frames);
     const std::vector<LinkMotion> motions = write_motion(trace_, code_, frames, MotionTerms{});
-    const std::vector<std::vector<JointScrew>> screws = write_joint_screws(trace_, code_, frames);
+    const std::vector<LinkScrews> screws = write_joint_screws(trace_, code_, frames);
     std::vector<CarriedLink> links(code_.links.size() + 1);
     links[0].stands = true;
     rows_.resize(links.size());
@@ -75,14 +91,32 @@ class RegressorWriter {
       own.anchor_motion = &motions[anchor];
       own.anchor_screws = &screws[anchor];
       own.along_gravity = along_gravity;
+      apply_plan(own);
       write_link(own);
     }
     write_output();
   }
 
+  [[nodiscard]] const Choices& choices() const { return choices_; }
+
  private:
+  void apply_plan(CarriedLink& own) {
+    const auto& joints = own.screws->joints;
+    for (const auto& [center, to_origin] : own.screws->centers) {
+      const auto turns = std::count_if(joints.begin(), joints.end(), [&](const JointScrew& screw) {
+        return screw.leads() && screw.center == center;
+      });
+      if (turns > 1 && !is_zero(to_origin)) choices_.centers.emplace_back(own.link, center);
+      if (plan_.about_center.contains({own.link, center})) own.about_center.insert(center);
+    }
+    own.force_below = plan_.force_below.contains(own.link);
+    const bool leaf = std::none_of(code_.links.begin(), code_.links.end(),
+                                   [&](const CodeLink& link) { return link.parent == own.link; });
+    if (leaf && !own.frame->parallel) choices_.leaves.push_back(own.link);
+  }
+
   void write_link(CarriedLink& own) {
-    const ex& slide = slides_[static_cast<std::size_t>(own.link)];
+    const ex& slide = plan_.slides[static_cast<std::size_t>(own.link)];
     for (const Column& column : columns_.parameters) {
       if (column.link != own.link || index(column.kind) >= kInertialCount) continue;
       own.wanted[index(column.kind)] = true;
@@ -131,19 +165,71 @@ class RegressorWriter {
   Trace& trace_;
   const CodeModel& code_;
   const Columns& columns_;
-  const OriginSlides& slides_;
+  const Plan& plan_;
   std::vector<std::map<int, InertialRow>> rows_;  // of each link, by joint
+  Choices choices_;
+};
+
+/// Finds a plan with few operations by trials.
+class Planner {
+ public:
+  Planner(const CodeModel& code, const Columns& columns) : code_(code), columns_(columns) {}
+
+  Plan find() {
+    const std::vector<bool> may_slide = links_that_may_slide(code_, columns_.parameters);
+    plan_.slides = choose_slides(
+        code_, may_slide, [&](const OriginSlides& trial) { return count({.slides = trial}); });
+    if (code_.size() > kMostLinks) return plan_;
+    least_ = count(plan_);
+    // centers and leaves from the tips to the base: what a link needs, those below it must carry
+    const Choices choices = choices_;
+    std::set<int> centers;
+    for (const auto& [link, center] : choices.centers) centers.insert(center);
+    for (const int center : centers) {
+      Plan trial = plan_;
+      for (auto choice = choices.centers.rbegin(); choice != choices.centers.rend(); ++choice) {
+        if (choice->second != center) continue;
+        trial.about_center.insert(*choice);
+        keep_if_better(trial);
+      }
+    }
+    for (const int leaf : choices.leaves) {
+      Plan trial = plan_;
+      trial.force_below.insert(leaf);
+      keep_if_better(trial);
+    }
+    return plan_;
+  }
+
+ private:
+  /// Each trial writes the whole function: not for robots where that takes long.
+  static constexpr int kMostLinks = 12;
+
+  int count(const Plan& plan) {
+    Trace scratch(&code_.inputs);
+    RegressorWriter writer(scratch, code_, columns_, plan);
+    writer.write();
+    scratch.drop_dead_code();
+    choices_ = writer.choices();
+    return scratch.count().total();
+  }
+  void keep_if_better(const Plan& trial) {
+    const int own = count(trial);
+    if (own >= least_) return;
+    least_ = own;
+    plan_ = trial;
+  }
+
+  const CodeModel& code_;
+  const Columns& columns_;
+  Plan plan_;
+  int least_ = 0;
+  Choices choices_;
 };
 
 void write_columns(Trace& trace, const CodeModel& code, const Columns& columns) {
-  const std::vector<bool> may_slide = links_that_may_slide(code, columns.parameters);
-  const OriginSlides slides = choose_slides(code, may_slide, [&](const OriginSlides& trial) {
-    Trace scratch(&code.inputs);
-    RegressorWriter(scratch, code, columns, trial).write();
-    scratch.drop_dead_code();
-    return scratch.count().total();
-  });
-  RegressorWriter(trace, code, columns, slides).write();
+  const Plan plan = Planner(code, columns).find();
+  RegressorWriter(trace, code, columns, plan).write();
 }
 
 }  // namespace
