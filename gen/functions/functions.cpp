@@ -16,6 +16,7 @@
 #include "gen/algorithms/rnea.h"
 #include "gen/diagnostic/assert.h"
 #include "gen/passes/optimise.h"
+#include "gen/passes/schedule.h"
 
 namespace dyngen {
 namespace {
@@ -218,7 +219,7 @@ RobotFunction write_plain_function(const FunctionName& name, const CodeModel& co
 RobotFunction write_function(const FunctionName& name, const CodeModel& code) {
   return {.spec = name.spec,
           .name = name.text(),
-          .trace = optimised(write_plain_function(name, code).trace)};
+          .trace = scheduled(optimised(write_plain_function(name, code).trace))};
 }
 
 }  // namespace dyngen

@@ -212,6 +212,16 @@ GiNaC::symbol Trace::append(const std::string& name, const ex& value, int sectio
   return target;
 }
 
+void Trace::rearrange(const std::vector<Position>& order) {
+  DYNGEN_ASSERT(order.size() == assignments_.size(), "statements are lost");
+  std::vector<Assignment> assignments;
+  for (const Position& position : order) {
+    assignments.push_back(assignments_[position.statement]);
+    assignments.back().section = position.section;
+  }
+  assignments_ = std::move(assignments);
+}
+
 void Trace::drop_dead_code() {
   std::set<std::string> needed;
   for (const Output& output : outputs_) collect_symbols(output.value, needed);

@@ -68,6 +68,14 @@ class Trace {
   /// Keeps the statements that the outputs need, and drops the others.
   void drop_dead_code();
 
+  /// A statement in a new order.
+  struct Position {
+    std::size_t statement = 0;  ///< of assignments()
+    int section = 0;
+  };
+  /// The same statements in another order. @param order  each once, after those it reads
+  void rearrange(const std::vector<Position>& order);
+
   [[nodiscard]] const SymbolTable& symbols() const { return symbols_; }
   [[nodiscard]] const std::vector<Assignment>& assignments() const { return assignments_; }
   [[nodiscard]] const std::vector<std::string>& sections() const { return sections_; }
