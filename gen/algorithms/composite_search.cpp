@@ -16,20 +16,6 @@ constexpr Kind kKinds[] = {Kind::kLink,       Kind::kTurned,    Kind::kSlid,
 // About half a second on a slow machine; arms of seven joints need a fifth of it.
 constexpr std::size_t kStatementsAllowed = 800'000;
 
-CompositeChoices first_choices(const CompositeRobot& robot) {
-  CompositeChoices choices;
-  const std::size_t count = static_cast<std::size_t>(robot.size()) + 1;
-  choices.body.resize(count, Route::kTurnThenSlide);
-  choices.wrench = choices.screw = choices.body;
-  choices.slide_to_first.resize(count, false);
-  for (int k = 1; k <= robot.size(); ++k) {
-    if (!robot.link(k).parallel) continue;
-    choices.body[static_cast<std::size_t>(k)] = Route::kChain;
-    choices.screw[static_cast<std::size_t>(k)] = Route::kChain;
-  }
-  return choices;
-}
-
 class Search {
  public:
   Search(const DraftLeaves& leaves, const CompositeRobot& robot)
@@ -223,6 +209,20 @@ std::vector<std::vector<DraftValue>> draft_mass_elements(Draft& draft, const Com
     }
   }
   return M;
+}
+
+CompositeChoices first_choices(const CompositeRobot& robot) {
+  CompositeChoices choices;
+  const std::size_t count = static_cast<std::size_t>(robot.size()) + 1;
+  choices.body.resize(count, Route::kTurnThenSlide);
+  choices.wrench = choices.screw = choices.body;
+  choices.slide_to_first.resize(count, false);
+  for (int k = 1; k <= robot.size(); ++k) {
+    if (!robot.link(k).parallel) continue;
+    choices.body[static_cast<std::size_t>(k)] = Route::kChain;
+    choices.screw[static_cast<std::size_t>(k)] = Route::kChain;
+  }
+  return choices;
 }
 
 CompositeChoices shortest_choices(const DraftLeaves& leaves, const CompositeRobot& robot) {

@@ -10,6 +10,9 @@ namespace dyngen {
 std::vector<std::vector<DraftValue>> draft_mass_elements(Draft& draft, const CompositeRobot& robot,
                                                          const CompositeChoices& choices);
 
+/// Plain choices: every wrench is carried down to the joint that feels it.
+CompositeChoices first_choices(const CompositeRobot& robot);
+
 /// The choices with which the mass matrix takes the fewest operations, of those that were tried.
 ///
 /// One choice after another is changed, and kept where the draft gets shorter, until none helps or

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gen/symbols/symbol_table.h"
@@ -58,6 +59,9 @@ class Trace {
   SinCos sin_cos(const std::string& suffix, const GiNaC::ex& angle);
 
   void output(const std::string& array, int index, const GiNaC::ex& value);
+
+  /// Makes the outputs so far intermediate results of a longer program. @return them
+  std::vector<Output> take_outputs() { return std::exchange(outputs_, {}); }
 
   /// The same inputs and sections without a statement: what a pass writes its result into.
   [[nodiscard]] Trace without_statements() const;
