@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "gen/emit_cpp/emit_cpp.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/shared_object.h"
 
@@ -231,6 +232,27 @@ TEST(CppWrapperText, ComparisonFailsOnSwappedArguments) {
 
 TEST(CppWrapperText, ItIsWrittenOnlyOnRequest) {
   EXPECT_TRUE(generate(pendulum().model, {}).wrapper.empty());
+}
+
+TEST(CppWrapperText, ResultsTooLargeForTheStackAreOnTheHeap) {
+  const CodeModel small = make_code_model(pendulum().model, {});
+  const std::vector<RobotFunction> functions = {
+      write_function(parse_function_name("gravity_regressor"), small)};
+  const auto declares = [&](std::size_t size, Scalar scalar, const std::string& result,
+                            const std::string& end) {
+    CodeModel code = small;
+    code.coordinate_names.assign(size, "joint");
+    code.beta.assign(size, "ZZ");
+    EmitOptions options;
+    options.prefix = "model";
+    options.scalar = scalar;
+    return emit_cpp(code, functions, options)
+               .find(fmt::format("inline {} gravity_regressor(const Vector& q){}", result, end)) !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(declares(128, Scalar::kDouble, "Matrix<NQ, NBETA>", " noexcept {"));  // 128 KiB
+  EXPECT_TRUE(declares(129, Scalar::kDouble, "LargeMatrix", " {"));
+  EXPECT_TRUE(declares(129, Scalar::kFloat, "Matrix<NQ, NBETA>", " noexcept {"));
 }
 
 TEST(CppWrapperText, NamesThatNoNamespaceMayHaveAreRefused) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <functional>
 #include <map>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -40,9 +39,6 @@ struct PeerKind {
   bool trees = false;  ///< takes robots whose links have several children
   std::function<Peer(const NumericRobot&)> make;
 };
-
-/// For GoogleTest's messages.
-inline void PrintTo(const PeerKind& kind, std::ostream* out) { *out << kind.name; }
 
 /// The libraries that this program was built with.
 std::vector<PeerKind> peer_kinds();

@@ -23,10 +23,20 @@ namespace {
 constexpr double kTolerance = 1e-10;
 constexpr int kSamples = 6;
 
-const std::vector<std::string>& function_names() {
-  static const std::vector<std::string> kNames = {"id",          "id_rigid", "gravity",  "coriolis",
-                                                  "mass_matrix", "fd",       "jacobian", "fk"};
-  return kNames;
+/// What is compared on a robot, as far as the generator writes it: poses and Jacobians of the last
+/// link and of one in the middle.
+std::vector<std::string> function_names(const NumericRobot& robot) {
+  const std::string middle = "_" + std::to_string((robot.size() + 1) / 2);
+  std::vector<std::string> names = {"id",          "id_rigid",   "gravity",  "coriolis",
+                                    "mass_matrix", "fd",         "jacobian", "jacobian" + middle,
+                                    "fk",          "fk" + middle};
+  std::erase_if(names, [](const std::string& name) { return find_function(name) == nullptr; });
+  return names;
+}
+
+/// "fk" of "fk_3".
+std::string kind_of(const std::string& function) {
+  return std::string(parse_function_name(function).spec->name);
 }
 
 PeerInput input_of(const MotionSample& sample) {
@@ -42,7 +52,8 @@ double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 std::optional<std::vector<double>> answer(const Peer& peer, const NumericRobot& robot,
                                           const std::string& function, PeerInput input) {
   const bool rigid = function == "id_rigid";
-  const auto call = peer.calls.find(rigid ? "id" : function);
+  const auto call = peer.calls.find(rigid ? "id" : kind_of(function));
+  input.link = parse_function_name(function).link;
   if (call == peer.calls.end()) return std::nullopt;
   const std::vector<std::size_t> moving = moving_joints(robot);
   const auto friction = [&](std::size_t i) {
@@ -72,7 +83,7 @@ class Errors {
  public:
   void add(const std::string& function, const RelativeError& error, const std::string& robot) {
     EXPECT_LT(error.value(), kTolerance) << function << " of " << robot;
-    double& largest = largest_[function];
+    double& largest = largest_[kind_of(function)];
     largest = std::max(largest, error.value());
   }
   void print(const std::string& peer) const {
@@ -123,79 +134,91 @@ std::optional<RelativeError> error_of(const std::string& function, const Evaluat
   return error;
 }
 
-GeneratorOptions options_of(ParameterMode mode) {
+GeneratorOptions options_of(const NumericRobot& robot, ParameterMode mode) {
   GeneratorOptions options;
+  options.functions = function_names(robot);
   options.parameters = mode;
   return options;
 }
 
-void compare(const PeerKind& kind, const std::vector<NamedRobot>& robots, ParameterMode mode) {
-  Errors errors;
+/// Largest errors by peer.
+using ErrorsByPeer = std::map<std::string, Errors>;
+
+void print(const ErrorsByPeer& errors) {
+  for (const auto& [peer, of_peer] : errors) of_peer.print(peer);
+}
+
+/// The peers that take the robot.
+std::vector<PeerKind> peers_of(const NumericRobot& robot) {
+  bool chain = true;
+  for (std::size_t j = 0; j < robot.size(); ++j) {
+    chain = chain && robot.joints[j].parent == static_cast<int>(j);
+  }
+  std::vector<PeerKind> kinds = peer_kinds();
+  std::erase_if(kinds, [&](const PeerKind& kind) { return !chain && !kind.trees; });
+  return kinds;
+}
+
+void compare(const std::vector<NamedRobot>& robots, ParameterMode mode) {
+  ErrorsByPeer errors;
   for (const auto& [name, robot] : robots) {
-    const EvaluatedModel generated(robot_model(robot), options_of(mode));
-    const Peer peer = kind.make(robot);
-    for (const std::string& function : function_names()) {
-      if (find_function(function) == nullptr) continue;
-      const std::optional<RelativeError> error = error_of(function, generated, peer, robot);
-      if (error) errors.add(function, *error, name);
+    const EvaluatedModel generated(robot_model(robot), options_of(robot, mode));
+    for (const PeerKind& kind : peers_of(robot)) {
+      const Peer peer = kind.make(robot);
+      for (const std::string& function : function_names(robot)) {
+        const std::optional<RelativeError> error = error_of(function, generated, peer, robot);
+        if (error) errors[kind.name].add(function, *error, name);
+      }
     }
   }
-  errors.print(kind.name);
+  print(errors);
 }
 
 /// Gravity, a wrench on the last link and a payload are arguments of the generated functions; the
 /// peer gets a robot with that gravity, whose last link holds the payload too.
-void compare_arguments(const PeerKind& kind, const std::vector<NamedRobot>& robots) {
-  GeneratorOptions options;
-  options.gravity = options.wrench = options.payload = true;
-  Errors errors;
+void compare_arguments(const std::vector<NamedRobot>& robots) {
+  ErrorsByPeer errors;
   for (std::size_t r = 0; r < robots.size(); r += 3) {
     const auto& [name, robot] = robots[r];
+    GeneratorOptions options = options_of(robot, ParameterMode::kBaked);
+    options.gravity = options.wrench = options.payload = true;
     const EvaluatedModel generated(robot_model(robot), options);
-    std::map<std::string, RelativeError> of_robot;
-    for (int k = 0; k < 3; ++k) {
-      MotionSample sample = random_samples(coordinates(robot), 2, r).back();
-      sample.gravity = {1.0 + k, 2.0 - k, -3.0 * k};
-      sample.wrench = {10.0 * k, -20, 30, 5, -4.0 * k, 3};
-      const std::array<double, 10> payload = random_body(r + static_cast<std::size_t>(k));
-      sample.payload.assign(payload.begin(), payload.end());
-      NumericRobot loaded = robot;
-      std::copy_n(sample.gravity.begin(), 3, loaded.base_acceleration.begin());
-      for (std::size_t i = 0; i < 10; ++i) loaded.joints.back().inertial[i] += payload[i];
-      const Peer peer = kind.make(loaded);
-      for (const std::string& function : function_names()) {
-        if (find_function(function) == nullptr) continue;
-        RelativeError error = of_robot[function];
-        if (add_error(error, function, generated, peer, loaded, sample)) of_robot[function] = error;
+    for (const PeerKind& kind : peers_of(robot)) {
+      std::map<std::string, RelativeError> of_robot;
+      for (int k = 0; k < 3; ++k) {
+        MotionSample sample = random_samples(coordinates(robot), 2, r).back();
+        sample.gravity = {1.0 + k, 2.0 - k, -3.0 * k};
+        sample.wrench = {10.0 * k, -20, 30, 5, -4.0 * k, 3};
+        const std::array<double, 10> payload = random_body(r + static_cast<std::size_t>(k));
+        sample.payload.assign(payload.begin(), payload.end());
+        NumericRobot loaded = robot;
+        std::copy_n(sample.gravity.begin(), 3, loaded.base_acceleration.begin());
+        for (std::size_t i = 0; i < 10; ++i) loaded.joints.back().inertial[i] += payload[i];
+        const Peer peer = kind.make(loaded);
+        for (const std::string& function : function_names(robot)) {
+          RelativeError error = of_robot[function];
+          if (add_error(error, function, generated, peer, loaded, sample)) {
+            of_robot[function] = error;
+          }
+        }
+      }
+      for (const auto& [function, error] : of_robot) {
+        if (std::isfinite(error.value())) errors[kind.name].add(function, error, name);
       }
     }
-    for (const auto& [function, error] : of_robot) {
-      if (std::isfinite(error.value())) errors.add(function, error, name);
-    }
   }
-  errors.print(kind.name);
+  print(errors);
 }
 
-class Peers : public testing::TestWithParam<PeerKind> {};
+TEST(Peers, AgreeOnRandomChains) { compare(random_chains(), ParameterMode::kBaked); }
 
-TEST_P(Peers, AgreeOnRandomChains) { compare(GetParam(), random_chains(), ParameterMode::kBaked); }
+TEST(Peers, AgreeOnRandomTrees) { compare(random_trees(), ParameterMode::kBaked); }
 
-class PeersOfTrees : public Peers {};
+TEST(Peers, AgreeOnTheRobotFiles) { compare(robots_of_files(), ParameterMode::kRuntime); }
 
-TEST_P(PeersOfTrees, AgreeOnRandomTrees) {
-  compare(GetParam(), random_trees(), ParameterMode::kBaked);
-}
-
-TEST_P(Peers, AgreeWithGravityWrenchAndPayloadAsArguments) {
-  compare_arguments(GetParam(), random_chains());
-}
-
-TEST_P(PeersOfTrees, AgreeWithGravityWrenchAndPayloadAsArguments) {
-  compare_arguments(GetParam(), random_trees());
-}
-
-TEST_P(Peers, AgreeOnTheRobotFiles) {
-  compare(GetParam(), robots_of_files(), ParameterMode::kRuntime);
+TEST(Peers, AgreeWithGravityWrenchAndPayloadAsArguments) {
+  compare_arguments(random_chains());
+  compare_arguments(random_trees());
 }
 
 /// A chain of revolute and prismatic joints in which every number matters to every function.
@@ -216,63 +239,50 @@ NumericRobot robot_to_spoil() {
   return robot;
 }
 
-TEST_P(Peers, DisagreeOnAWrongModel) {
+TEST(Peers, DisagreeOnAWrongModel) {
   const NumericRobot robot = robot_to_spoil();
-  const EvaluatedModel generated(robot_model(robot), options_of(ParameterMode::kBaked));
+  const EvaluatedModel generated(robot_model(robot), options_of(robot, ParameterMode::kBaked));
   std::vector<NumericRobot> wrong(4, robot);
   wrong[0].joints[1].d *= 1 + 1e-6;
-  wrong[1].joints[3].alpha += 1e-6;
+  wrong[1].joints[1].alpha += 1e-6;
   wrong[2].joints[3].inertial[6] *= 1 + 1e-6;
   wrong[3].base_acceleration[2] *= 1 + 1e-6;
-  for (std::size_t i = 0; i < wrong.size(); ++i) {
-    const Peer peer = GetParam().make(wrong[i]);
-    for (const std::string& function : function_names()) {
-      if (find_function(function) == nullptr) continue;
-      const bool of_bodies = function != "fk" && function != "jacobian";
-      const bool of_gravity = function == "id" || function == "gravity" || function == "fd";
-      if ((i == 2 && !of_bodies) || (i == 3 && !of_gravity)) continue;
-      const std::optional<RelativeError> error = error_of(function, generated, peer, robot);
-      if (!error) continue;
-      EXPECT_GT(error->value(), 10 * kTolerance) << function << ", wrong model " << i;
+  for (const PeerKind& kind : peer_kinds()) {
+    for (std::size_t i = 0; i < wrong.size(); ++i) {
+      const Peer peer = kind.make(wrong[i]);
+      for (const std::string& function : function_names(robot)) {
+        const bool of_bodies = kind_of(function) != "fk" && kind_of(function) != "jacobian";
+        const bool of_gravity = function == "id" || function == "gravity" || function == "fd";
+        if ((i == 2 && !of_bodies) || (i == 3 && !of_gravity)) continue;
+        const std::optional<RelativeError> error = error_of(function, generated, peer, robot);
+        if (!error) continue;
+        EXPECT_GT(error->value(), 10 * kTolerance)
+            << function << " of " << kind.name << ", wrong model " << i;
+      }
     }
   }
 }
 
-std::vector<PeerKind> kinds_with_trees() {
-  std::vector<PeerKind> kinds = peer_kinds();
-  std::erase_if(kinds, [](const PeerKind& kind) { return !kind.trees; });
-  return kinds;
-}
-
-const auto name_of = [](const auto& kind) { return kind.param.name; };
-INSTANTIATE_TEST_SUITE_P(Libraries, Peers, testing::ValuesIn(peer_kinds()), name_of);
-INSTANTIATE_TEST_SUITE_P(Libraries, PeersOfTrees, testing::ValuesIn(kinds_with_trees()), name_of);
-
 /// Judges must agree before they judge: every function of every two libraries, with a wrench on
 /// the last link.
-TEST(PeersAmongThemselves, Agree) {
+TEST(Peers, AgreeAmongThemselves) {
   std::vector<NamedRobot> robots = random_chains();
   const std::vector<NamedRobot> trees = random_trees(), files = robots_of_files();
   robots.insert(robots.end(), files.begin(), files.end());
   robots.insert(robots.end(), trees.begin(), trees.end());
-  std::map<std::string, Errors> errors;
-  for (std::size_t r = 0; r < robots.size(); ++r) {
-    const auto& [name, robot] = robots[r];
-    const bool tree = r >= robots.size() - trees.size();
+  ErrorsByPeer errors;
+  for (const auto& [name, robot] : robots) {
     std::vector<Peer> peers;
-    for (const PeerKind& kind : peer_kinds()) {
-      if (kind.trees || !tree) peers.push_back(kind.make(robot));
-    }
-    for (const std::string& function : function_names()) {
+    for (const PeerKind& kind : peers_of(robot)) peers.push_back(kind.make(robot));
+    const Peer& reference = peers.front();
+    for (const std::string& function : function_names(robot)) {
       for (const Peer& peer : peers) {
         RelativeError error;
         for (const MotionSample& sample : random_samples(coordinates(robot), kSamples, 3)) {
           PeerInput input = input_of(sample);
-          input.wrench = {1, -2, 3, 0.5, -0.4, 0.3};
-          input.link = 1 + static_cast<int>(r % robot.size());
-          const std::vector<double> torque = *answer(peers.front(), robot, "id", input);
+          const std::vector<double> torque = *answer(reference, robot, "id", input);
           input.tau = torque;
-          const auto expected = answer(peers.front(), robot, function, input);
+          const auto expected = answer(reference, robot, function, input);
           const auto actual = answer(peer, robot, function, input);
           if (!expected || !actual) break;
           error.add(*actual, *expected);
@@ -283,7 +293,7 @@ TEST(PeersAmongThemselves, Agree) {
       }
     }
   }
-  for (const auto& [peer, of_peer] : errors) of_peer.print(peer);
+  print(errors);
 }
 
 }  // namespace
