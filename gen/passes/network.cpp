@@ -98,7 +98,7 @@ int Network::constant(const ex& value, const std::string& name) {
 }
 
 int operations(const std::vector<Term>& terms) {
-  int count = static_cast<int>(terms.size()) - 1;
+  int count = std::max(static_cast<int>(terms.size()) - 1, 0);
   for (const Term& term : terms) {
     count += std::max(static_cast<int>(term.factors.size()) - 1, 0);
   }
@@ -127,24 +127,19 @@ std::vector<Term> normalised(Network& network, std::vector<Term> terms) {
   const auto by_factors = [](const Term& a, const Term& b) {
     return std::tie(a.factors, a.negative) < std::tie(b.factors, b.negative);
   };
-  const auto constants_in = [&](const Term& term) {
-    return std::count_if(term.factors.begin(), term.factors.end(),
-                         [&](int factor) { return is_constant(network, factor); });
-  };
   std::sort(terms.begin(), terms.end(), by_factors);
-  const bool several_constants = std::any_of(
-      terms.begin(), terms.end(), [&](const Term& term) { return constants_in(term) > 1; });
-  bool like = false;
-  for (std::size_t i = 0; i < terms.size() && !like; ++i) {
-    if (constants_in(terms[i]) > 0) {  // compare without the constant
-      const SplitTerm own = split(network, terms[i]);
-      for (std::size_t j = 0; j < terms.size() && !like; ++j) {
-        like = j != i && split(network, terms[j]).rest == own.rest;
-      }
-    } else {
-      like = i > 0 && terms[i - 1].factors == terms[i].factors;
+  std::vector<std::vector<int>> rests;  // without constants
+  bool several_constants = false;
+  for (const Term& term : terms) {
+    std::vector<int> rest;
+    for (const int factor : term.factors) {
+      if (!is_constant(network, factor)) rest.push_back(factor);
     }
+    several_constants = several_constants || rest.size() + 1 < term.factors.size();
+    rests.push_back(std::move(rest));
   }
+  std::sort(rests.begin(), rests.end());
+  const bool like = std::adjacent_find(rests.begin(), rests.end()) != rests.end();
   if (!like && !several_constants) return terms;
 
   struct Sum {
@@ -237,46 +232,18 @@ std::vector<Term> expanded(const Term& term, int id, const std::vector<Term>& va
 
 }  // namespace
 
-bool eliminate(Network& network, int id, std::size_t most_terms, Readers& readers) {
-  const std::vector<Term> value = network.node(id).terms;
-  bool unread = true;
-  const std::vector<int> own_readers = readers[static_cast<std::size_t>(id)];
-  for (const int reader : own_readers) {
-    const Node& node = network.node(reader);
-    if (!node.alive) continue;
-    if (node.kind == Node::Kind::kInverse && node.of == id) unread = false;
-    std::vector<Term> terms;
-    bool found = false;
-    for (const Term& term : node.terms) {
-      if (reads(term, id)) {
-        found = true;
-        const std::vector<Term> parts = expanded(term, id, value);
-        terms.insert(terms.end(), parts.begin(), parts.end());
-      } else {
-        terms.push_back(term);
-      }
+std::vector<Term> written_out(const std::vector<Term>& terms, int id,
+                              const std::vector<Term>& value) {
+  std::vector<Term> result;
+  for (const Term& term : terms) {
+    if (reads(term, id)) {
+      std::vector<Term> parts = expanded(term, id, value);
+      std::move(parts.begin(), parts.end(), std::back_inserter(result));
+    } else {
+      result.push_back(term);
     }
-    if (!found) continue;
-    if (terms.size() > most_terms) {
-      unread = false;
-      continue;
-    }
-    terms = normalised(network, std::move(terms));
-    readers.resize(network.nodes.size());
-    for (const Term& term : terms) {
-      for (const int factor : term.factors) {
-        std::vector<int>& list = readers[static_cast<std::size_t>(factor)];
-        if (list.empty() || list.back() != reader) list.push_back(reader);
-      }
-    }
-    network.node(reader).terms = std::move(terms);
   }
-  for (const NetworkOutput& output : network.outputs) unread = unread && output.node != id;
-  if (unread) {
-    network.node(id).alive = false;
-    network.node(id).terms.clear();
-  }
-  return unread;
+  return result;
 }
 
 }  // namespace dyngen

@@ -76,17 +76,15 @@ std::vector<Term> normalised(Network& network, std::vector<Term> terms);
 /// The product of two terms, not normalised.
 Term product(const Term& a, const Term& b);
 
+/// A sum with the value of one of its nodes in that node's place, not normalised.
+std::vector<Term> written_out(const std::vector<Term>& terms, int id,
+                              const std::vector<Term>& value);
+
 /// Which nodes read each node; may name some that do not any more, or twice.
 using Readers = std::vector<std::vector<int>>;
 Readers find_readers(const Network& network);
 
 /// How often each node is read: as a factor, by an inverse, as an output.
 std::vector<int> count_uses(const Network& network);
-
-/// Writes a sum out wherever it is a factor.
-/// @param most_terms  a reader that would grow longer keeps it
-/// @param readers     kept up to date
-/// @return            whether nothing reads it any more: then it is dead
-bool eliminate(Network& network, int id, std::size_t most_terms, Readers& readers);
 
 }  // namespace dyngen

@@ -2,22 +2,14 @@
 #include "gen/passes/optimise.h"
 
 #include "gen/passes/conversion.h"
-#include "gen/passes/extraction.h"
 #include "gen/passes/restoration.h"
-#include "gen/passes/simplify.h"
+#include "gen/passes/search.h"
 
 namespace dyngen {
 
-Trace optimised(const Trace& trace) {
+Trace optimised(const Trace& trace, const OptimiseOptions& options) {
   const Network source = to_network(trace);
-  Network network = source;
-  simplify(network);
-  while (true) {
-    const int before = operations(network);
-    extract_divisors(network);
-    simplify(network);
-    if (operations(network) >= before) break;
-  }
+  Network network = searched(source, options.patience);
   restore_statements(network, source);
   Trace result = to_trace(network, trace);
   const OperationCount before = trace.count(), after = result.count();

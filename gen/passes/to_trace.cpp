@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <algorithm>
+#include <cctype>
 #include <unordered_map>
 #include <utility>
 
@@ -31,7 +32,7 @@ class Writing {
     }
     std::sort(order.begin(), order.end(),
               [&](int a, int b) { return network_.node(a).place < network_.node(b).place; });
-    for (const int id : order) write(id, network_.node(id).name, network_.node(id).section);
+    for (const int id : order) write(id, name_of(network_.node(id)), network_.node(id).section);
     int last_section = static_cast<int>(trace_.sections().size()) - 1;
     if (!source_.assignments().empty()) last_section = source_.assignments().back().section;
     for (const NetworkOutput& output : network_.outputs) {
@@ -50,6 +51,15 @@ class Writing {
       if (info.kind != SymbolKind::kConstant) continue;
       symbols_[info.name] = trace_.constant(info.name, info.value, info.unit, info.comment);
     }
+  }
+
+  /// What is stored with its sign changed says so with an m, as in Trace::assign().
+  static std::string name_of(const Node& node) {
+    const std::string& name = node.name;
+    if (!node.negated || name.empty()) return name;
+    const bool marked =
+        name.size() > 1 && name[0] == 'm' && std::isupper(static_cast<unsigned char>(name[1])) != 0;
+    return marked ? name.substr(1) : "m" + name;
   }
 
   ex& value_of(int id) { return values_[static_cast<std::size_t>(id)]; }
@@ -121,7 +131,7 @@ class Writing {
       value_of(id) = sum(node, reader, section);
       return;
     }
-    write(id, node.name.empty() ? name_for(node, reader) : node.name, section);
+    write(id, node.name.empty() ? name_for(node, reader) : name_of(node), section);
   }
 
   ex sum(const Node& node, const std::string& reader, int section) {
@@ -165,7 +175,7 @@ class Writing {
       if (name.empty() && term.negative) name = "minus_";
       std::string factors;
       for (const int factor : term.factors) {
-        const std::string& own = network_.node(factor).name;
+        const std::string own = name_of(network_.node(factor));
         if (own.empty()) return part_of(reader);
         factors += (factors.empty() ? "" : "_") + own;
       }

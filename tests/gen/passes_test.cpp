@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "gen/passes/conversion.h"
-#include "gen/passes/extraction.h"
 #include "gen/passes/optimise.h"
-#include "gen/passes/simplify.h"
 #include "tests/support/exact_evaluation.h"
 #include "tests/support/model_bridge.h"
 
