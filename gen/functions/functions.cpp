@@ -216,10 +216,11 @@ RobotFunction write_plain_function(const FunctionName& name, const CodeModel& co
   return function;
 }
 
-RobotFunction write_function(const FunctionName& name, const CodeModel& code) {
+RobotFunction write_function(const FunctionName& name, const CodeModel& code,
+                             const OptimiseOptions& options) {
   return {.spec = name.spec,
           .name = name.text(),
-          .trace = scheduled(optimised(write_plain_function(name, code).trace))};
+          .trace = scheduled(optimised(write_plain_function(name, code).trace, options))};
 }
 
 }  // namespace dyngen

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gen/algorithms/code_model.h"
+#include "gen/passes/optimise.h"
 #include "gen/trace/trace.h"
 
 namespace dyngen {
@@ -98,6 +99,7 @@ RobotFunction write_plain_function(const FunctionName& name, const CodeModel& co
 
 /// Writes a function of the robot with as few operations as the passes find.
 /// @param name  of the catalogue, and of a link that the robot has
-RobotFunction write_function(const FunctionName& name, const CodeModel& code);
+RobotFunction write_function(const FunctionName& name, const CodeModel& code,
+                             const OptimiseOptions& options = {});
 
 }  // namespace dyngen

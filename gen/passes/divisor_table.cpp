@@ -146,6 +146,7 @@ DivisorTable::Offers DivisorTable::offers(const std::vector<Term>& terms) {
       result.push_back({find(std::move(pair.divisor)), saved});
     }
   }
+  work_ += static_cast<std::int64_t>(result.size());
   std::sort(result.begin(), result.end(),
             [](const Offer& a, const Offer& b) { return a.divisor < b.divisor; });
   std::size_t kept = 0;

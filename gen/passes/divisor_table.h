@@ -55,6 +55,8 @@ class DivisorTable {
   /// @param pick  of several that save as much, which
   [[nodiscard]] int best(std::uint64_t pick) const;
   [[nodiscard]] const Divisor& divisor(int place) const;
+  /// Divisors looked at until now: the measure of the time that was spent.
+  [[nodiscard]] std::int64_t work() const { return work_; }
   /// The sums that it occurs in.
   [[nodiscard]] std::vector<int> nodes(int place) const;
 
@@ -78,6 +80,7 @@ class DivisorTable {
 
   std::unordered_map<Key, int, KeyHash> places_;
   std::vector<Entry> entries_;
+  std::int64_t work_ = 0;
   std::set<std::pair<int, int>> queue_;  // cost - total < 0, place
 };
 

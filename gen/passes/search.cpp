@@ -10,7 +10,13 @@ namespace dyngen {
 namespace {
 
 /// Sums that get longer than this are left: the pairs of their terms are too many.
-constexpr std::size_t kMostTerms = 30;
+constexpr std::size_t kMostTerms = 16;
+
+/// Divisors that are looked at in all: about half a second.
+constexpr std::int64_t kMostWork = 500000;
+
+/// A small program needs more tries per sum.
+constexpr int kTriesOfSmallest = 100;
 
 /// Numbers that look random and are the same everywhere (splitmix64: Steele, Lea and Flood 2014).
 class Random {
@@ -47,21 +53,25 @@ Network searched(const Network& network, int patience) {
   Workspace workspace(network);
   workspace.settle(0);
   Random random;
-  int left = patience;
-  while (left-- > 0) {
-    const std::vector<int> sums = live_sums(workspace);
-    const int count = static_cast<int>(sums.size());
-    for (int i = 0; i < count; ++i) {
-      workspace.begin();
-      const int before = workspace.operations();
-      for (int k = how_many(random); k > 0; --k) {
-        const int id = sums[static_cast<std::size_t>(random.below(count))];
-        if (workspace.is_live_sum(id)) workspace.write_out(id, kMostTerms);
-      }
-      workspace.settle(random() | 1);
-      if (workspace.operations() > before) workspace.roll_back();
-      if (workspace.operations() < before) left = patience;
+  workspace.begin();
+  std::vector<int> sums = live_sums(workspace);
+  const auto tries = [&] { return patience * (static_cast<int>(sums.size()) + kTriesOfSmallest); };
+  int left = sums.empty() ? 0 : tries();
+  while (left-- > 0 && workspace.work() < kMostWork) {
+    workspace.begin();
+    const int before = workspace.operations();
+    for (int k = how_many(random); k > 0; --k) {
+      const int id = sums[static_cast<std::size_t>(random.below(static_cast<int>(sums.size())))];
+      if (workspace.is_live_sum(id)) workspace.write_out(id, kMostTerms);
     }
+    workspace.settle(random() | 1);
+    if (workspace.operations() > before) {
+      workspace.roll_back();
+      continue;
+    }
+    sums = live_sums(workspace);
+    if (sums.empty()) break;
+    if (workspace.operations() < before) left = tries();
   }
   return workspace.network();
 }

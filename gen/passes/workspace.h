@@ -18,6 +18,8 @@ class Workspace {
 
   [[nodiscard]] const Network& network() const { return network_; }
   [[nodiscard]] int operations() const { return operations_; }
+  /// Divisors looked at until now: the measure of the time that was spent.
+  [[nodiscard]] std::int64_t work() const { return table_.work(); }
   [[nodiscard]] bool is_live_sum(int id) const {
     return network_.node(id).alive && network_.is_sum(id);
   }
