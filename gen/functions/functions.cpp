@@ -217,7 +217,7 @@ RobotFunction write_plain_function(const FunctionName& name, const CodeModel& co
 }
 
 RobotFunction write_function(const FunctionName& name, const CodeModel& code,
-                             const OptimiseOptions& options) {
+                             const SearchOptions& options) {
   return {.spec = name.spec,
           .name = name.text(),
           .trace = scheduled(optimised(write_plain_function(name, code).trace, options))};

@@ -100,6 +100,6 @@ RobotFunction write_plain_function(const FunctionName& name, const CodeModel& co
 /// Writes a function of the robot with as few operations as the passes find.
 /// @param name  of the catalogue, and of a link that the robot has
 RobotFunction write_function(const FunctionName& name, const CodeModel& code,
-                             const OptimiseOptions& options = {});
+                             const SearchOptions& options = {});
 
 }  // namespace dyngen

@@ -107,7 +107,7 @@ CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& optio
 std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options) {
   std::vector<RobotFunction> functions;
   for (const WantedFunction& wanted : wanted_functions(options)) {
-    functions.push_back(write_function(wanted.name, code, options.optimise));
+    functions.push_back(write_function(wanted.name, code, options.search));
     functions.back().scalar = wanted.scalar;
     functions.back().batch = wanted.batch;
   }

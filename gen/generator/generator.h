@@ -27,9 +27,9 @@ struct GeneratorOptions {
   bool cpp_wrapper = false;  ///< a C++ header too
   Scalar scalar = Scalar::kDouble;
   Trig trig = Trig::kInline;
-  OptimiseOptions optimise;  ///< how long to look for fewer operations
-  std::string prefix;        ///< empty: the robot's name
-  std::string header_name;   ///< what the source includes
+  SearchOptions search;     ///< how long to look for fewer operations
+  std::string prefix;       ///< empty: the robot's name
+  std::string header_name;  ///< what the source includes
 
   /// @throws std::invalid_argument  naming the option, what was found and what was expected
   void validate() const;

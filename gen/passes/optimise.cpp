@@ -7,9 +7,9 @@
 
 namespace dyngen {
 
-Trace optimised(const Trace& trace, const OptimiseOptions& options) {
+Trace optimised(const Trace& trace, const SearchOptions& options) {
   const Network source = to_network(trace);
-  Network network = searched(source, options.patience);
+  Network network = searched(source, options);
   restore_statements(network, source);
   Trace result = to_trace(network, trace);
   const OperationCount before = trace.count(), after = result.count();

@@ -12,9 +12,6 @@ namespace {
 /// Sums that get longer than this are left: the pairs of their terms are too many.
 constexpr std::size_t kMostTerms = 16;
 
-/// Divisors that are looked at in all: about half a second.
-constexpr std::int64_t kMostWork = 500000;
-
 /// A small program needs more tries per sum.
 constexpr int kTriesOfSmallest = 100;
 
@@ -49,15 +46,17 @@ int how_many(Random& random) {
 
 }  // namespace
 
-Network searched(const Network& network, int patience) {
+Network searched(const Network& network, const SearchOptions& options) {
   Workspace workspace(network);
   workspace.settle(0);
   Random random;
   workspace.begin();
   std::vector<int> sums = live_sums(workspace);
-  const auto tries = [&] { return patience * (static_cast<int>(sums.size()) + kTriesOfSmallest); };
+  const auto tries = [&] {
+    return options.patience * (static_cast<int>(sums.size()) + kTriesOfSmallest);
+  };
   int left = sums.empty() ? 0 : tries();
-  while (left-- > 0 && workspace.work() < kMostWork) {
+  while (left-- > 0 && workspace.work() < options.work) {
     workspace.begin();
     const int before = workspace.operations();
     for (int k = how_many(random); k > 0; --k) {

@@ -61,7 +61,7 @@ std::vector<double> call_as(void* function, const std::vector<Argument>& all,
 
 SharedObject compile(const RobotModel& model, const GeneratorOptions& options,
                      const std::string& prefix) {
-  const CText text = generate(model, options);
+  const CText text = generate(model, with_short_search(options));
   // no contraction to fused operations: they would round differently from the evaluated program
   return SharedObject({{prefix + ".h", text.header}, {prefix + ".c", text.source}},
                       "-std=c99 -O2 -ffp-contract=off");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -226,6 +227,11 @@ std::vector<double> judge(const RobotModel& model, const NumericRobot& robot,
   return moving;
 }
 
+GeneratorOptions with_short_search(GeneratorOptions options) {
+  options.search.work = std::min<std::int64_t>(options.search.work, 10000);
+  return options;
+}
+
 EvaluatedModel::EvaluatedModel(const RobotModel& model, const RobotModel& values,
                                const GeneratorOptions& options)
     : code_(make_code_model(model, options)) {
@@ -260,7 +266,7 @@ EvaluatedModel::EvaluatedModel(const RobotModel& model, const RobotModel& values
     const bool is_argument = options.gravity && entry.name[0] == 'g';
     if (!is_argument) chi_.push_back(to_double(known[entry.symbol]));
   }
-  functions_ = write_functions(code_, options);
+  functions_ = write_functions(code_, with_short_search(options));
   for (const RobotFunction& function : functions_) programs_.push_back(lower(function.trace));
 }
 

@@ -29,6 +29,9 @@ RobotModel with_unknown_parameters(RobotModel model, bool inertial_only);
 /// Gives every unknown quantity a random number; masses and friction are positive.
 RobotModel with_random_values(RobotModel model, std::uint64_t seed);
 
+/// The same with a short search for fewer operations: what is tested holds however long it is.
+GeneratorOptions with_short_search(GeneratorOptions options);
+
 /// Inputs of one sample, one value per coordinate; what a function does not read may be empty.
 struct MotionSample {
   std::vector<double> q, dq, ddq;
