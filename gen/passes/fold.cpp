@@ -110,7 +110,8 @@ class Folding {
     const auto [it, added] = inverses_.emplace(*divisor, 0);
     if (added) {
       const int sum = fold_.add({.terms = *divisor});
-      it->second = fold_.add({.kind = Node::Kind::kInverse, .of = sum});
+      it->second = fold_.add(
+          {.kind = Node::Kind::kInverse, .name = "inverse_of_" + name_of(*divisor), .of = sum});
     }
     return Polynomial{{false, {it->second}}};
   }
@@ -206,7 +207,8 @@ class Folding {
   }
 
   void add_entry(const Polynomial& value) {
-    const bool plain = value.size() == 1 && value[0].factors.size() == 1;
+    const bool plain = value.size() == 1 && value[0].factors.size() == 1 &&
+                       fold_.node(value[0].factors[0]).kind == Node::Kind::kInput;
     const std::string name = name_of(value);
     SymbolInfo info;
     info.name = "folded_" + name;

@@ -17,7 +17,7 @@
 namespace dyngen::test {
 namespace {
 
-const SearchOptions kShort = {.patience = 2, .work = 30000};
+const SearchOptions kShort = {.patience = 2, .work = 10000};
 
 constexpr double kExact = 1e-40;  // of 60 digits; sums of some thousand terms lose few
 
