@@ -14,6 +14,49 @@
 namespace dyngen::test {
 namespace {
 
+constexpr int kBatch = 11;  // samples: no multiple of what a register holds
+
+/// The same for the batches, of kBatch samples; arrays as the C functions have them.
+std::string batch_shim_text(const CodeModel& code, const GeneratorOptions& options) {
+  std::string text;
+  for (const RobotFunction& function : write_functions(code, options)) {
+    if (!function.batch) continue;
+    const std::string name = function.name + "_batch";
+    std::string conversions, passed, direct, copies;
+    int inputs = 0;
+    for (const Argument& argument : arguments(*function.spec, code)) {
+      if (argument.output) continue;
+      conversions += fmt::format(
+          "  const Eigen::Matrix<Scalar, {0}, {1}> x{2} = "
+          "Eigen::Map<const Eigen::Matrix<Scalar, {0}, {1}>>(in[{2}]{3});\n",
+          argument.shared ? fmt::to_string(argument.size()) : "Eigen::Dynamic",
+          argument.shared ? 1 : argument.size(), inputs,
+          argument.shared ? "" : fmt::format(", {}, {}", kBatch, argument.size()));
+      passed += fmt::format("{}x{}", inputs == 0 ? "" : ", ", inputs);
+      direct += fmt::format(", in[{}]", inputs);
+      ++inputs;
+    }
+    const std::vector<OutputSpec>& outputs = function.spec->outputs;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      const std::string place =
+          outputs.size() > 1 ? "y." + std::string(outputs[i].array) : std::string("y");
+      // element e of sample k at e * n + k: column by column
+      copies += fmt::format("  put({}.transpose(), out[{}]);\n", place, i);
+      direct += fmt::format(", out[{}]", i);
+    }
+    const auto head = [&](const std::string& kind) {
+      return fmt::format(
+          "extern \"C\" void {0}_{1}(const Scalar* const* in, Scalar* const* out);\n"
+          "void {0}_{1}(const Scalar* const* in, Scalar* const* out) {{\n",
+          kind, name);
+    };
+    text += head("wrapped") + conversions;
+    text += fmt::format("  const auto y = model::{}({});\n{}}}\n", name, passed, copies);
+    text += head("direct") + fmt::format("  model_{}({}{});\n}}\n", name, kBatch, direct);
+  }
+  return text;
+}
+
 /// Two C functions for each of the model's, of the same signature: wrapped_ calls the wrapper and
 /// writes its results row by row, direct_ calls the C function.
 std::string shim_text(const CodeModel& code, const GeneratorOptions& options) {
@@ -59,6 +102,7 @@ std::string shim_text(const CodeModel& code, const GeneratorOptions& options) {
     }
     text += "}\n" + head("direct") + fmt::format("  model_{}({});\n}}\n", function.name, direct);
   }
+  text += batch_shim_text(code, options);
   // the tables, and that all of this is known to the compiler
   text += fmt::format(
       "static_assert(model::Sizes::nq == {} && model::Sizes::nchi == {} && "
@@ -108,15 +152,20 @@ class Wrapped {
   [[nodiscard]] std::vector<std::vector<T>> call(const std::string& kind,
                                                  const RobotFunction& function,
                                                  const MotionSample& sample,
-                                                 const std::vector<double>& chi) const {
+                                                 const std::vector<double>& chi,
+                                                 bool batch = false) const {
     std::vector<std::vector<T>> in, out;
     for (const Argument& argument : arguments(*function.spec, code_)) {
+      const int samples = batch && !argument.shared ? kBatch : 1;
       if (argument.output) {
-        out.emplace_back(static_cast<std::size_t>(argument.size()), T(-77));
-      } else {
-        const std::vector<double>& values =
-            argument.name == "chi" ? chi : sample.input(argument.name);
-        in.emplace_back(values.begin(), values.end());
+        out.emplace_back(static_cast<std::size_t>(argument.size() * samples), T(-77));
+        continue;
+      }
+      const std::vector<double>& values =
+          argument.name == "chi" ? chi : sample.input(argument.name);
+      std::vector<T>& array = in.emplace_back();
+      for (const double value : values) {
+        for (int k = 0; k < samples; ++k) array.push_back(static_cast<T>(value + 0.1 * k));
       }
     }
     std::vector<const T*> inputs;
@@ -124,8 +173,8 @@ class Wrapped {
     for (const std::vector<T>& array : in) inputs.push_back(array.data());
     for (std::vector<T>& array : out) outputs.push_back(array.data());
     using Function = void (*)(const T* const*, T* const*);
-    reinterpret_cast<Function>(library_.symbol(kind + "_" + function.name))(inputs.data(),
-                                                                            outputs.data());
+    reinterpret_cast<Function>(library_.symbol(
+        kind + "_" + function.name + (batch ? "_batch" : "")))(inputs.data(), outputs.data());
     return out;
   }
   [[nodiscard]] std::vector<double> chi_values() const {
@@ -151,8 +200,11 @@ int differences_as(const WrapperCase& wrapper_case, const CText& text,
   for (const RobotFunction& function : evaluated.functions()) {
     bool equal = true;
     for (const MotionSample& sample : random_samples(wrapper_case.model.coordinate_count, 4, 8)) {
-      equal = equal && wrapped.call("wrapped", function, sample, evaluated.chi()) ==
-                           wrapped.call("direct", function, sample, evaluated.chi());
+      for (const bool batch : {false, true}) {
+        if (batch && !function.batch) continue;
+        equal = equal && wrapped.call("wrapped", function, sample, evaluated.chi(), batch) ==
+                             wrapped.call("direct", function, sample, evaluated.chi(), batch);
+      }
     }
     different += equal ? 0 : 1;
   }
@@ -184,6 +236,7 @@ std::vector<WrapperCase> cases() {
   GeneratorOptions arguments;
   arguments.parameters = ParameterMode::kRuntime;
   arguments.gravity = arguments.wrench = arguments.payload = true;
+  arguments.functions = {kAllFunctions};  // batches too
   GeneratorOptions single;
   single.scalar = Scalar::kFloat;
   GeneratorOptions standard;
@@ -228,6 +281,15 @@ TEST(CppWrapperText, ComparisonFailsOnSwappedArguments) {
   ASSERT_NE(place, std::string::npos);
   text.wrapper.replace(place, right.size(), "dq.data(), q.data()");
   EXPECT_EQ(differences(pendulum(), text, compilers()[0]), 1);  // in id, the first of them
+}
+
+TEST(CppWrapperText, BatchesCheckTheirNumbersOfSamples) {
+  GeneratorOptions options = options_of(pendulum());
+  options.functions = {"id", "id_batch"};
+  const std::string text = generate(pendulum().model, options).wrapper;
+  EXPECT_NE(text.find("check_samples(\"id_batch(): dq\", dq.rows(), samples);"), std::string::npos);
+  EXPECT_NE(text.find("check_samples(\"id_batch(): ddq\", ddq.rows(), samples);"),
+            std::string::npos);
 }
 
 TEST(CppWrapperText, ItIsWrittenOnlyOnRequest) {
