@@ -80,6 +80,14 @@ std::string base_text(const RobotModel& model, const SymbolicRobot& robot, const
                    "formulas hold for these lengths, in numbers.",
                    2);
   }
+  for (const Column& column : base.unsolved) {
+    text += fill_lines("  ",
+                       fmt::format("Warning: {} depends on others by coefficients that are no "
+                                   "polynomials in the run-time lengths. It stays apart: the set "
+                                   "is larger than it need be.",
+                                   chi_name(column.kind, column.link)),
+                       2);
+  }
   return text;
 }
 

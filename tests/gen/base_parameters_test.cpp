@@ -130,5 +130,28 @@ TEST(BaseParameters, DependencyOfAPrismaticAxisParallelToATurnIsFound) {
   EXPECT_EQ(names, "ZZR1 ZZR2 MXR2 MYR2 MR3 ZZ4 MX4 MY4 ");
 }
 
+TEST(BaseParameters, RunTimeLengthsLeaveTheSetMinimal) {
+  RobotModel model = with_unknown_parameters(read_model("robots/scara.robot"), true);
+  for (JointModel& joint : model.joints) {
+    joint.d.unknown = !joint.d.known_zero();
+    joint.r.unknown = !joint.r.known_zero();
+  }
+  const SymbolicRobot robot = make_symbolic(model);
+  const Regrouping grouping = regroup(robot);
+  EXPECT_TRUE(grouping.unsolved.empty());
+  std::map<std::string, GiNaC::ex> values;
+  std::string names;
+  for (const GroupedParameter& parameter : grouping.parameters) {
+    values[parameter.name()] = parameter.value;
+    names += parameter.name() + " ";
+  }
+  EXPECT_EQ(names, "ZZR1 ZZR2 MXR2 MYR2 MR3 ZZ4 MX4 MY4 ");
+  // d3 turns into a coefficient of ZZR2 and of MXR2: both lengths stand in the formulas
+  const GiNaC::ex d3 = robot.link(3).d;
+  const GiNaC::ex MX3 = robot.link(3).chi[index(Chi::kMX)];
+  EXPECT_TRUE((values.at("ZZR2").expand().coeff(MX3) - 2 * d3).is_zero()) << values.at("ZZR2");
+  EXPECT_TRUE((values.at("MXR2").expand().coeff(MX3) - 1).is_zero()) << values.at("MXR2");
+}
+
 }  // namespace
 }  // namespace dyngen::test
