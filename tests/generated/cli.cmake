@@ -105,7 +105,6 @@ refuse(2 "the robot file as output" ARGUMENTS robot.c -o robot.c SAYS "same file
 refuse(2 "the output as depfile" ARGUMENTS ${robot} -o out/x.c --depfile out/x.c SAYS "same file")
 refuse(2 "the header as depfile" ARGUMENTS ${robot} -o out/x.c --depfile out/x.h SAYS "same file")
 refuse(2 "empty prefix" ARGUMENTS ${robot} -o out/x.c --prefix "" SAYS "--prefix")
-refuse(2 "inline float" ARGUMENTS ${robot} -o out/x.c --scalar float --trig inline SAYS "--trig")
 refuse(2 "no arguments" SAYS robot --help)
 refuse(2 "nothing to do" ARGUMENTS ${robot} SAYS "-o" "--count" "--explain")
 run(text 0 ${DYNGEN} ${robot} --explain)
