@@ -21,7 +21,7 @@ constexpr const char* kPack =
 #define {1}_PACK 2
 #endif
 #define {1}_NOINLINE __attribute__((noinline))
-#define {1}_INLINE inline __attribute__((always_inline))
+#define {1}_INLINE inline __attribute__((always_inline, unused))
 #define {1}_AT(x, i) x[(i) / {1}_PACK][(i) % {1}_PACK]
 typedef double {0}_pack __attribute__((vector_size(8 * {1}_PACK)));
 typedef unsigned long long {0}_bits __attribute__((vector_size(8 * {1}_PACK)));

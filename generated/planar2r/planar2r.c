@@ -67,7 +67,7 @@ static double planar2r_sign(double x) {
 #define PLANAR2R_PACK 2
 #endif
 #define PLANAR2R_NOINLINE __attribute__((noinline))
-#define PLANAR2R_INLINE inline __attribute__((always_inline))
+#define PLANAR2R_INLINE inline __attribute__((always_inline, unused))
 #define PLANAR2R_AT(x, i) x[(i) / PLANAR2R_PACK][(i) % PLANAR2R_PACK]
 typedef double planar2r_pack __attribute__((vector_size(8 * PLANAR2R_PACK)));
 typedef unsigned long long planar2r_bits __attribute__((vector_size(8 * PLANAR2R_PACK)));

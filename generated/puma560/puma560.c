@@ -149,7 +149,7 @@ static double puma560_sign(double x) {
 #define PUMA560_PACK 2
 #endif
 #define PUMA560_NOINLINE __attribute__((noinline))
-#define PUMA560_INLINE inline __attribute__((always_inline))
+#define PUMA560_INLINE inline __attribute__((always_inline, unused))
 #define PUMA560_AT(x, i) x[(i) / PUMA560_PACK][(i) % PUMA560_PACK]
 typedef double puma560_pack __attribute__((vector_size(8 * PUMA560_PACK)));
 typedef unsigned long long puma560_bits __attribute__((vector_size(8 * PUMA560_PACK)));

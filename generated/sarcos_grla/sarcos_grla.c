@@ -76,7 +76,7 @@ const double sarcos_grla_chi_values[] = {
 #define SARCOS_GRLA_PACK 2
 #endif
 #define SARCOS_GRLA_NOINLINE __attribute__((noinline))
-#define SARCOS_GRLA_INLINE inline __attribute__((always_inline))
+#define SARCOS_GRLA_INLINE inline __attribute__((always_inline, unused))
 #define SARCOS_GRLA_AT(x, i) x[(i) / SARCOS_GRLA_PACK][(i) % SARCOS_GRLA_PACK]
 typedef double sarcos_grla_pack __attribute__((vector_size(8 * SARCOS_GRLA_PACK)));
 typedef unsigned long long sarcos_grla_bits __attribute__((vector_size(8 * SARCOS_GRLA_PACK)));

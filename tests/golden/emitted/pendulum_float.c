@@ -37,7 +37,7 @@ const float pendulum_chi_values[] = {
 #define PENDULUM_PACK 2
 #endif
 #define PENDULUM_NOINLINE __attribute__((noinline))
-#define PENDULUM_INLINE inline __attribute__((always_inline))
+#define PENDULUM_INLINE inline __attribute__((always_inline, unused))
 #define PENDULUM_AT(x, i) x[(i) / PENDULUM_PACK][(i) % PENDULUM_PACK]
 typedef double pendulum_pack __attribute__((vector_size(8 * PENDULUM_PACK)));
 typedef unsigned long long pendulum_bits __attribute__((vector_size(8 * PENDULUM_PACK)));

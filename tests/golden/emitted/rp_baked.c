@@ -67,7 +67,7 @@ static double rp_sign(double x) {
 #define RP_PACK 2
 #endif
 #define RP_NOINLINE __attribute__((noinline))
-#define RP_INLINE inline __attribute__((always_inline))
+#define RP_INLINE inline __attribute__((always_inline, unused))
 #define RP_AT(x, i) x[(i) / RP_PACK][(i) % RP_PACK]
 typedef double rp_pack __attribute__((vector_size(8 * RP_PACK)));
 typedef unsigned long long rp_bits __attribute__((vector_size(8 * RP_PACK)));
