@@ -32,7 +32,7 @@ std::vector<Term> divided(const std::vector<Term>& terms, const Divisor& divisor
 
 /// Every divisor of every sum, and what naming it would save: kept up to date sum by sum.
 ///
-/// Source: two-term divisors and two-literal products as in Rajski and Vasudevamurthi, "The
+/// Source: two-term divisors and two-literal products as in Rajski and Vasudevamurthy, "The
 /// testability-preserving concurrent decomposition and factorization of Boolean expressions" (IEEE
 /// Trans. CAD, 1992), after the kernels of Brayton and McMullen 1982; for polynomials Hosangadi,
 /// Fallah and Kastner 2006.
