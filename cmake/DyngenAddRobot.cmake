@@ -58,8 +58,8 @@ function(dyngen_add_robot target)
   if(NOT EXISTS "${robot}" OR IS_DIRECTORY "${robot}")
     message(FATAL_ERROR "${where}: ROBOT: there is no file '${robot}'")
   endif()
-  set(functions id id_rigid gravity coriolis friction regressor base_regressor gravity_regressor
-    energy_regressor power)
+  set(functions id id_rigid gravity coriolis friction mass_matrix fd regressor base_regressor
+    gravity_regressor energy_regressor power)
   set(batch_functions ${functions})
   list(TRANSFORM batch_functions APPEND _batch)
   _dyngen_check_choice(FUNCTIONS arg_FUNCTIONS all ${functions} ${batch_functions})

@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "gen/algorithms/energy.h"
+#include "gen/algorithms/forward_dynamics.h"
 #include "gen/algorithms/gravity.h"
 #include "gen/algorithms/gravity_regressor.h"
 #include "gen/algorithms/jacobian.h"
@@ -102,6 +103,13 @@ const std::vector<FunctionSpec>& function_catalogue() {
        "M = M(q): the inertia matrix of the joints, rotor inertia on its diagonal; by composite "
        "bodies.",
        write_mass_matrix},
+      {.name = "fd",
+       .inputs = {"q", "dq", "tau"},
+       .outputs = {{.array = "ddq", .unit = "rad/s^2 (m/s^2 where a joint slides)"}},
+       .reads = kAll,
+       .summary = "ddq = M(q)^-1 (tau - c(q, dq) - g(q) - friction): forward dynamics.",
+       .write = write_forward_dynamics,
+       .why_absent = why_no_forward_dynamics},
       {"regressor",
        {"q", "dq", "ddq"},
        {{.array = "Y", .columns = Extent::kChi, .unit = "torque per unit parameter"}},

@@ -42,6 +42,8 @@ struct FunctionSpec {
   std::string_view summary;
   void (*write)(Trace&, const CodeModel&) = nullptr;
   void (*write_of_link)(Trace&, const CodeModel&, int link) = nullptr;  ///< instead of `write`
+  /// Why a robot has no such function; empty if it has. Null: every robot has it.
+  std::string (*why_absent)(const CodeModel&) = nullptr;
 
   [[nodiscard]] bool of_link() const { return write_of_link != nullptr; }
 };

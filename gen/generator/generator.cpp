@@ -62,6 +62,19 @@ std::vector<WantedFunction> wanted_functions(const GeneratorOptions& options) {
   return wanted;
 }
 
+/// True if the robot has no such function, and all were asked for.
+/// @throws std::invalid_argument  if it was asked for by its name
+bool is_absent(const FunctionName& name, const CodeModel& code, const GeneratorOptions& options) {
+  if (name.spec->why_absent == nullptr) return false;
+  const std::string reason = name.spec->why_absent(code);
+  if (reason.empty()) return false;
+  for (const std::string& text : options.functions) {
+    if (parse_function_name(without_batch(text)).spec != name.spec) continue;
+    throw std::invalid_argument(fmt::format("--functions: '{}': {}", text, reason));
+  }
+  return true;
+}
+
 }  // namespace
 
 void GeneratorOptions::validate() const {
@@ -107,6 +120,7 @@ CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& optio
 std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options) {
   std::vector<RobotFunction> functions;
   for (const WantedFunction& wanted : wanted_functions(options)) {
+    if (is_absent(wanted.name, code, options)) continue;
     functions.push_back(write_function(wanted.name, code, options.search));
     functions.back().scalar = wanted.scalar;
     functions.back().batch = wanted.batch;

@@ -62,6 +62,10 @@ constexpr Other kOthers[] = {
     {"rx90", "base_regressor", Case::kRigid, "SymPyBotics", 0, 0, 843},
     {"ur10e", "base_regressor", Case::kRigid, "better of both", 0, 0, 986},
     {"panda", "base_regressor", Case::kRigid, "SymPyBotics", 0, 0, 1342},
+    {"puma560", "mass_matrix", Case::kRigid, "better of both", 0, 0, 459},
+    {"rx90", "mass_matrix", Case::kRigid, "better of both", 0, 0, 328},
+    {"ur10e", "mass_matrix", Case::kRigid, "better of both", 0, 0, 394},
+    {"panda", "mass_matrix", Case::kRigid, "better of both", 0, 0, 532},
 };
 
 /// The best of the others in this convention.
@@ -103,6 +107,8 @@ struct CountedFunction {
 constexpr CountedFunction kFunctions[] = {
     {"id", "Inverse dynamics", true, true},
     {"gravity", "Gravity", false, true},
+    {"mass_matrix", "Mass matrix", false, false},
+    {"fd", "Forward dynamics (one division for each joint besides)", false, false},
     {"base_regressor", "Regressor in base parameters", false, false},
     {"gravity_regressor", "Regressor of gravity", false, false},
     {"energy_regressor", "Regressor of energy", false, false},
