@@ -47,13 +47,13 @@ std::vector<int> weightless_joints(const CodeModel& code) {
   return result;
 }
 
-void write_mass_matrix(Trace& trace, const CodeModel& code) {
+void write_mass_matrix(Trace& trace, const CodeModel& code, const std::string& array) {
   const UpperTriangle M = write_mass_elements(trace, code, write_frames(trace, code));
   const std::size_t n = M.size();
   trace.section("mass matrix");
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
-      trace.output("M", static_cast<int>(i * n + j), i <= j ? M[i][j] : M[j][i]);
+      trace.output(array, static_cast<int>(i * n + j), i <= j ? M[i][j] : M[j][i]);
     }
   }
 }

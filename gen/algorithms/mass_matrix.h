@@ -3,6 +3,7 @@
 
 #include <ginac/ginac.h>
 
+#include <string>
 #include <vector>
 
 #include "gen/algorithms/code_model.h"
@@ -23,8 +24,8 @@ UpperTriangle write_mass_elements(Trace& trace, const CodeModel& code,
 /// values of the parameters.
 std::vector<int> weightless_joints(const CodeModel& code);
 
-/// Writes the output array "M": n x n, row-major, both triangles (kg m^2; kg m and kg where
-/// joints are prismatic).
-void write_mass_matrix(Trace& trace, const CodeModel& code);
+/// Writes an output array: n x n, row-major, both triangles (kg m^2; kg m and kg where joints are
+/// prismatic).
+void write_mass_matrix(Trace& trace, const CodeModel& code, const std::string& array);
 
 }  // namespace dyngen

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "gen/algorithms/derivatives.h"
 #include "gen/algorithms/energy.h"
 #include "gen/algorithms/forward_dynamics.h"
 #include "gen/algorithms/gravity.h"
@@ -35,6 +36,24 @@ void write_coriolis(Trace& trace, const CodeModel& code) {
   terms.motion = {.velocity = true, .acceleration = false, .gravity = false};
   terms.rotor = terms.friction = terms.wrench = false;
   write_rnea(trace, code, terms);
+}
+
+void write_id_dq_pos(Trace& trace, const CodeModel& code) {
+  write_derivatives(trace, code, {.position = "D"});
+}
+
+void write_id_dq(Trace& trace, const CodeModel& code) {
+  write_derivatives(trace, code, {.velocity = "D"});
+}
+
+void write_id_ddq(Trace& trace, const CodeModel& code) { write_mass_matrix(trace, code, "D"); }
+
+void write_id_derivatives(Trace& trace, const CodeModel& code) {
+  write_derivatives(trace, code, {.position = "D_q", .velocity = "D_dq", .acceleration = "D_ddq"});
+}
+
+OutputSpec joint_square(std::string_view array, std::string_view unit) {
+  return {.array = array, .columns = Extent::kJoints, .unit = unit};
 }
 
 constexpr ExtraInputs kAll = {.gravity = true, .wrench = true, .payload = true};
@@ -102,7 +121,7 @@ const std::vector<FunctionSpec>& function_catalogue() {
        {.payload = true},
        "M = M(q): the inertia matrix of the joints, rotor inertia on its diagonal; by composite "
        "bodies.",
-       write_mass_matrix},
+       [](Trace& trace, const CodeModel& code) { write_mass_matrix(trace, code, "M"); }},
       {.name = "fd",
        .inputs = {"q", "dq", "tau"},
        .outputs = {{.array = "ddq", .unit = "rad/s^2 (m/s^2 where a joint slides)"}},
@@ -140,6 +159,32 @@ const std::vector<FunctionSpec>& function_catalogue() {
        {},
        "P beta: power that is not stored; dq . tau = d(H beta)/dt + P beta.",
        write_power},
+      {"id_dq_pos",
+       {"q", "dq", "ddq"},
+       {joint_square("D", "torque per rad or m")},
+       kAll,
+       "D_ij = d tau_i / d q_j: derivatives of id by the positions.",
+       write_id_dq_pos},
+      {"id_dq",
+       {"q", "dq"},
+       {joint_square("D", "torque per rad/s or m/s")},
+       {.payload = true},
+       "D_ij = d tau_i / d dq_j: derivatives of id by the velocities; sign(dq) has none.",
+       write_id_dq},
+      {"id_ddq",
+       {"q"},
+       {joint_square("D", "torque per rad/s^2 or m/s^2")},
+       {.payload = true},
+       "D_ij = d tau_i / d ddq_j: derivatives of id by the accelerations, the mass matrix.",
+       write_id_ddq},
+      {"id_derivatives",
+       {"q", "dq", "ddq"},
+       {joint_square("D_q", "torque per rad or m"), joint_square("D_dq", "torque per rad/s or m/s"),
+        joint_square("D_ddq", "torque per rad/s^2 or m/s^2")},
+       kAll,
+       "Derivatives of id by q, dq and ddq, which share much of their work: D_ij = d tau_i / d "
+       "x_j.",
+       write_id_derivatives},
       {.name = "fk",
        .inputs = {"q"},
        .outputs = {{"T", Extent::kFour, Extent::kFour, "m (last column)"}},
@@ -226,9 +271,9 @@ RobotFunction write_plain_function(const FunctionName& name, const CodeModel& co
 
 RobotFunction write_function(const FunctionName& name, const CodeModel& code,
                              const SearchOptions& options) {
-  return {.spec = name.spec,
-          .name = name.text(),
-          .trace = scheduled(optimised(write_plain_function(name, code).trace, options))};
+  Trace trace = optimised(write_plain_function(name, code).trace, options);
+  trace.drop_dead_code();  // what cancels leaves sines behind
+  return {.spec = name.spec, .name = name.text(), .trace = scheduled(trace)};
 }
 
 }  // namespace dyngen

@@ -229,11 +229,9 @@ static PLANAR2R_NOINLINE void planar2r_sincos2(double x0, double x1, planar2r_pa
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   tau[2] N m, out
- * 28 mul, 20 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
+ * 27 mul, 20 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
 void planar2r_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double ZZR1 = 1.42767426758476; /* kg m^2, grouped */
-  const double MXR1 = -0.268846444; /* kg m, grouped */
-  const double MY1 = 1.34761664; /* kg m, planar2r.robot:19 */
   const double FV1 = 0.7729; /* N m s/rad, planar2r.robot:30 */
   const double FS1 = 2.911; /* N m, planar2r.robot:29 */
   const double ZZ2 = 0.05774062387148; /* kg m^2, planar2r.robot:26 */
@@ -244,6 +242,10 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, double *t
   const double FS2 = 2.5288; /* N m, planar2r.robot:29 */
   const double d2 = 0.5; /* m, planar2r.robot:13 */
   const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
+  const double GY_MY1 = 13.2201192384;
+  const double GY_MXR1 = 2.63738361564;
+  const double d2_MY2 = 0.014593607;
+  const double d2_MX2 = 0.07823949;
 
   /* sines and cosines of the joint angles */
   planar2r_pack sine1[(2 + PLANAR2R_PACK - 1) / PLANAR2R_PACK], cosine1[(2 + PLANAR2R_PACK - 1) / PLANAR2R_PACK];
@@ -253,33 +255,25 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, double *t
   const double S2 = PLANAR2R_AT(sine1, 1);
   const double C2 = PLANAR2R_AT(cosine1, 1);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-  const double VP1_1 = GY * S1;
-  const double VP2_1 = GY * C1;
-
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double DQ_2 = dq[0] + dq[1];
-  const double WP3_2 = ddq[0] + ddq[1];
-  const double DV33_2 = DQ_2 * DQ_2;
-  const double VA1_2 = VP1_1 - d2 * DV33_1;
-  const double VA2_2 = d2 * ddq[0] + VP2_1;
-  const double VP1_2 = C2 * VA1_2 + S2 * VA2_2;
-  const double VP2_2 = C2 * VA2_2 - S2 * VA1_2;
-
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double mF1_2 = MY2 * WP3_2 + MX2 * DV33_2;
-  const double F2_2 = MX2 * WP3_2 - MY2 * DV33_2;
-  const double N3_2 = ZZ2 * WP3_2 - MY2 * VP1_2 + MX2 * VP2_2;
-  const double FA2_2 = C2 * F2_2 - S2 * mF1_2;
+  const double DQ_2_DQ_2 = DQ_2 * DQ_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = ZZR1 * ddq[0] - MY1 * VP1_1 + MXR1 * VP2_1;
-  const double T3_1 = N3_2 + d2 * FA2_2 + N3_1;
+  const double N3_1 = ZZR1 * ddq[0] - S1 * GY_MY1 - C1 * GY_MXR1;
+  const double C1_GY_plus_ddq_1_d2 = d2 * ddq[0] + GY * C1;
+  const double S1_GY_minus_dq_1_dq_1_d2 = GY * S1 - d2 * dq[0] * dq[0];
 
   /* joint torques */
-  const double tau_1 = FV1 * dq[0] + FS1 * planar2r_sign(dq[0]) + T3_1;
-  const double tau_2 = FV2 * dq[1] + FS2 * planar2r_sign(dq[1]) + IA2 * ddq[1] + N3_2;
+  const double ddq_1_plus_ddq_2 = ddq[0] + ddq[1];
+  const double tau_1_part = d2_MY2 * ddq_1_plus_ddq_2 + d2_MX2 * DQ_2_DQ_2;
+  const double tau_1_part_2 = ddq_1_plus_ddq_2 * d2_MX2 - d2_MY2 * DQ_2_DQ_2;
+  const double tau_1_part_3 = MY2 * C1_GY_plus_ddq_1_d2 + MX2 * S1_GY_minus_dq_1_dq_1_d2;
+  const double tau_1_part_4 = MY2 * S1_GY_minus_dq_1_dq_1_d2 - MX2 * C1_GY_plus_ddq_1_d2;
+  const double tau_1_part_5 = ZZ2 * ddq_1_plus_ddq_2 - S2 * tau_1_part_3 - C2 * tau_1_part_4;
+  const double tau_1 = FV1 * dq[0] + FS1 * planar2r_sign(dq[0]) + N3_1 - S2 * tau_1_part
+      + C2 * tau_1_part_2 + tau_1_part_5;
+  const double tau_2 = FV2 * dq[1] + FS2 * planar2r_sign(dq[1]) + IA2 * ddq[1] + tau_1_part_5;
 
   tau[0] = tau_1;
   tau[1] = tau_2;
@@ -287,17 +281,19 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, double *t
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   tau[2] N m, out
- * 24 mul, 16 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 23 mul, 16 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
   const double ZZR1 = 1.42767426758476; /* kg m^2, grouped */
-  const double MXR1 = -0.268846444; /* kg m, grouped */
-  const double MY1 = 1.34761664; /* kg m, planar2r.robot:19 */
   const double ZZ2 = 0.05774062387148; /* kg m^2, planar2r.robot:26 */
   const double MX2 = 0.15647898; /* kg m, planar2r.robot:18 */
   const double MY2 = 0.029187214; /* kg m, planar2r.robot:19 */
   const double IA2 = 0.47588; /* kg m^2, planar2r.robot:28 */
   const double d2 = 0.5; /* m, planar2r.robot:13 */
   const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
+  const double GY_MY1 = 13.2201192384;
+  const double GY_MXR1 = 2.63738361564;
+  const double d2_MY2 = 0.014593607;
+  const double d2_MX2 = 0.07823949;
 
   /* sines and cosines of the joint angles */
   planar2r_pack sine1[(2 + PLANAR2R_PACK - 1) / PLANAR2R_PACK], cosine1[(2 + PLANAR2R_PACK - 1) / PLANAR2R_PACK];
@@ -307,32 +303,22 @@ void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, dou
   const double S2 = PLANAR2R_AT(sine1, 1);
   const double C2 = PLANAR2R_AT(cosine1, 1);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-  const double VP1_1 = GY * S1;
-  const double VP2_1 = GY * C1;
-
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double DQ_2 = dq[0] + dq[1];
-  const double WP3_2 = ddq[0] + ddq[1];
-  const double DV33_2 = DQ_2 * DQ_2;
-  const double VA1_2 = VP1_1 - d2 * DV33_1;
-  const double VA2_2 = d2 * ddq[0] + VP2_1;
-  const double VP1_2 = C2 * VA1_2 + S2 * VA2_2;
-  const double VP2_2 = C2 * VA2_2 - S2 * VA1_2;
-
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double mF1_2 = MY2 * WP3_2 + MX2 * DV33_2;
-  const double F2_2 = MX2 * WP3_2 - MY2 * DV33_2;
-  const double N3_2 = ZZ2 * WP3_2 - MY2 * VP1_2 + MX2 * VP2_2;
-  const double FA2_2 = C2 * F2_2 - S2 * mF1_2;
+  const double DQ_2_DQ_2 = DQ_2 * DQ_2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = ZZR1 * ddq[0] - MY1 * VP1_1 + MXR1 * VP2_1;
-  const double T3_1 = N3_2 + d2 * FA2_2 + N3_1;
-
-  /* joint torques */
-  const double tau_2 = IA2 * ddq[1] + N3_2;
+  const double N3_1 = ZZR1 * ddq[0] - S1 * GY_MY1 - C1 * GY_MXR1;
+  const double C1_GY_plus_ddq_1_d2 = d2 * ddq[0] + GY * C1;
+  const double S1_GY_minus_dq_1_dq_1_d2 = GY * S1 - d2 * dq[0] * dq[0];
+  const double ddq_1_plus_ddq_2 = ddq[0] + ddq[1];
+  const double T3_1_part = d2_MY2 * ddq_1_plus_ddq_2 + d2_MX2 * DQ_2_DQ_2;
+  const double T3_1_part_2 = ddq_1_plus_ddq_2 * d2_MX2 - d2_MY2 * DQ_2_DQ_2;
+  const double T3_1_part_3 = MY2 * C1_GY_plus_ddq_1_d2 + MX2 * S1_GY_minus_dq_1_dq_1_d2;
+  const double T3_1_part_4 = MY2 * S1_GY_minus_dq_1_dq_1_d2 - MX2 * C1_GY_plus_ddq_1_d2;
+  const double T3_1_part_5 = ZZ2 * ddq_1_plus_ddq_2 - S2 * T3_1_part_3 - C2 * T3_1_part_4;
+  const double T3_1 = N3_1 - S2 * T3_1_part + C2 * T3_1_part_2 + T3_1_part_5;
+  const double tau_2 = IA2 * ddq[1] + T3_1_part_5;
 
   tau[0] = T3_1;
   tau[1] = tau_2;
@@ -340,13 +326,12 @@ void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, dou
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   tau[2] N m, out
- * 6 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 4 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_gravity(const double *q, double *tau) {
-  const double MXR1 = -0.268846444; /* kg m, grouped */
-  const double MY1 = 1.34761664; /* kg m, planar2r.robot:19 */
-  const double MX2 = 0.15647898; /* kg m, planar2r.robot:18 */
-  const double MY2 = 0.029187214; /* kg m, planar2r.robot:19 */
-  const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
+  const double MY2_GY = 0.28632656934;
+  const double MX2_GY = 1.5350587938;
+  const double GY_MY1 = 13.2201192384;
+  const double GY_MXR1 = 2.63738361564;
 
   /* sines and cosines of the joint angles */
   const double Q1_2 = q[0] + q[1];
@@ -356,14 +341,8 @@ void planar2r_gravity(const double *q, double *tau) {
   const double C1 = PLANAR2R_AT(cosine1, 0);
   const double S1_2 = PLANAR2R_AT(sine1, 1);
   const double C1_2 = PLANAR2R_AT(cosine1, 1);
-
-  /* link 2: MS first moments with the links it carries */
-  const double AMS1_2 = MX2 * C1_2 - MY2 * S1_2;
-  const double T3_2 = GY * AMS1_2;
-
-  /* link 1: MS first moments with the links it carries */
-  const double AMS1_1 = MXR1 * C1 - MY1 * S1;
-  const double T3_1 = T3_2 + GY * AMS1_1;
+  const double T3_2 = C1_2 * MX2_GY - S1_2 * MY2_GY;
+  const double T3_1 = T3_2 - S1 * GY_MY1 - C1 * GY_MXR1;
 
   tau[0] = T3_1;
   tau[1] = T3_2;
@@ -371,30 +350,26 @@ void planar2r_gravity(const double *q, double *tau) {
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad   dq[2] rad/s   tau[2] N m, out
- * 7 mul, 3 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 7 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_coriolis(const double *q, const double *dq, double *tau) {
-  const double MX2 = 0.15647898; /* kg m, planar2r.robot:18 */
-  const double MY2 = 0.029187214; /* kg m, planar2r.robot:19 */
-  const double d2 = 0.5; /* m, planar2r.robot:13 */
+  const double d2_MX2 = 0.07823949;
+  const double d2_MY2 = 0.014593607;
 
   /* sines and cosines of the joint angles */
   planar2r_pack sine1[(1 + PLANAR2R_PACK - 1) / PLANAR2R_PACK], cosine1[(1 + PLANAR2R_PACK - 1) / PLANAR2R_PACK];
   planar2r_sincos1(q[1], sine1, cosine1);
   const double S2 = PLANAR2R_AT(sine1, 0);
   const double C2 = PLANAR2R_AT(cosine1, 0);
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double DQ_2 = dq[0] + dq[1];
+  const double S2_d2_MX2_plus_C2_d2_MY2 = S2 * d2_MX2 + C2 * d2_MY2;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double S2_MX2_plus_C2_MY2 = MX2 * S2 + MY2 * C2;
-  const double N3_2_part = d2 * S2_MX2_plus_C2_MY2;
-  const double N3_2 = dq[0] * dq[0] * N3_2_part;
+  const double N3_2 = dq[0] * dq[0] * S2_d2_MX2_plus_C2_d2_MY2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = N3_2 - DQ_2 * DQ_2 * N3_2_part;
+  const double mT3_1_part = 2.0 * dq[0] + dq[1];
+  const double mT3_1 = dq[1] * S2_d2_MX2_plus_C2_d2_MY2 * mT3_1_part;
 
-  tau[0] = T3_1;
+  tau[0] = -mT3_1;
   tau[1] = N3_2;
 }
 

@@ -37,22 +37,22 @@ extern const double planar2r_chi_values[];
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   tau[2] N m, out
- * 28 mul, 20 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
+ * 27 mul, 20 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
 void planar2r_id(const double *q, const double *dq, const double *ddq, double *tau);
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   tau[2] N m, out
- * 24 mul, 16 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 23 mul, 16 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, double *tau);
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   tau[2] N m, out
- * 6 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 4 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad   dq[2] rad/s   tau[2] N m, out
- * 7 mul, 3 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 7 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_coriolis(const double *q, const double *dq, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.

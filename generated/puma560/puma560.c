@@ -287,15 +287,13 @@ static PUMA560_NOINLINE void puma560_sincos4(double x0, double x1, double x2, do
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
- * 169 mul, 137 add, 4 sin/cos, 6 sgn.  Reads every input before writing tau. */
+ * 169 mul, 136 add, 4 sin/cos, 6 sgn.  Reads every input before writing tau. */
 void puma560_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double FV1 = 5.8018217679508; /* N m s/rad, puma560.robot:42 */
   const double FS1 = 25.9836065; /* N m, puma560.robot:41 */
   const double XXR2 = -1.601861202; /* kg m^2, grouped */
   const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
   const double ZZR2 = 6.458114002; /* kg m^2, grouped */
-  const double MXR2 = 3.79559; /* kg m, grouped */
-  const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
   const double FV2 = 9.496868641825; /* N m s/rad, puma560.robot:42 */
   const double FS2 = 10.6197775; /* N m, puma560.robot:41 */
   const double XYR3 = -0.0106736385; /* kg m^2, grouped */
@@ -333,6 +331,9 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double XmZ_5 = -0.0004;
   const double XmZ_4 = -0.0013;
   const double AJ2XY_2 = -0.0141984;
+  const double ZZR4_plus_XXR4 = 0.0019;
+  const double GZ_MY2 = 1.024164;
+  const double GZ_MXR2 = 37.2347379;
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
@@ -347,146 +348,119 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
   const double S5 = PUMA560_AT(sine1, 3);
   const double C5 = PUMA560_AT(cosine1, 3);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double ADV33_2 = dq[1] * dq[1];
-  const double mAU11_2 = DV33_1 + ADV33_2;
-  const double mAU32_2 = 2.0 * dq[0] * dq[1];
-
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
   const double DQ_3 = dq[1] + dq[2];
-  const double mW1_3 = dq[0] * S2_3;
-  const double mW2_3 = dq[0] * C2_3;
-  const double WP3_3 = ddq[1] + ddq[2];
-  const double mDV13_3 = DQ_3 * mW1_3;
-  const double DV12_3 = mW1_3 * mW2_3;
-  const double mU13_3 = ddq[0] * C2_3;
-  const double WP2_3 = mDV13_3 - mU13_3;
-  const double DV22_3 = mW2_3 * mW2_3;
-  const double DV33_3 = DQ_3 * DQ_3;
-  const double D23_3 = DV22_3 - DV33_3;
-  const double mU11_3 = DV22_3 + DV33_3;
-  const double U22_3 = D23_3 - DV33_1;
-  const double mD12_3 = mU11_3 + U22_3;
-  const double U12_3 = DV12_3 - WP3_3;
-  const double U21_3 = WP3_3 + DV12_3;
-  const double mU31_3 = mDV13_3 + WP2_3;
-  const double mU32_3 = ddq[0] * S2_3 + 2.0 * DQ_3 * mW2_3;
-  const double AP1_3 = d3 * C2;
-  const double AP2_3 = d3 * S2;
-  const double mAVA1_3 = ddq[0] * P3_3 + mAU11_2 * AP1_3 + ddq[1] * AP2_3;
-  const double mAVA2_3 = GZ - ddq[1] * AP1_3 + ADV33_2 * AP2_3;
-  const double mAVA3_3 = P3_3 * DV33_1 - ddq[0] * AP1_3 + mAU32_2 * AP2_3;
-  const double mVP1_3 = C2_3 * mAVA1_3 + S2_3 * mAVA2_3;
-  const double VP2_3 = S2_3 * mAVA1_3 - C2_3 * mAVA2_3;
+  const double C2_3_ddq_1 = ddq[0] * C2_3;
+  const double S2_3_dq_1 = dq[0] * S2_3;
+  const double WP2_3_part = DQ_3 * S2_3_dq_1;
+  const double WP2_3 = WP2_3_part - C2_3_ddq_1;
+  const double tau_1_part_11 = WP2_3_part + WP2_3;
+  const double WP2_3_minus_ddq_4 = WP2_3 - ddq[3];
+  const double C2_3_dq_1 = dq[0] * C2_3;
+  const double mU32_3 = ddq[0] * S2_3 + 2.0 * DQ_3 * C2_3_dq_1;
+  const double C2_d3 = d3 * C2;
+  const double dq_1_dq_1 = dq[0] * dq[0];
+  const double S2_d3 = d3 * S2;
+  const double mAVA3_3_part = 2.0 * dq[0] * dq[1];
+  const double mAVA3_3 = P3_3 * dq_1_dq_1 - ddq[0] * C2_d3 + S2_d3 * mAVA3_3_part;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W3_4 = dq[3] + mW2_3;
-  const double W1_4 = S4 * DQ_3 - C4 * mW1_3;
-  const double W2_4 = C4 * DQ_3 + S4 * mW1_3;
-  const double WP3_4 = ddq[3] - WP2_3;
-  const double DV23_4 = W3_4 * W2_4;
-  const double DV13_4 = W3_4 * W1_4;
-  const double DV12_4 = W1_4 * W2_4;
-  const double U13_4 = S4 * mU32_3 - C4 * U12_3;
-  const double U23_4 = S4 * U12_3 + C4 * mU32_3;
-  const double WP1_4 = DV23_4 - U23_4;
-  const double WP2_4 = U13_4 - DV13_4;
-  const double D23_4 = W2_4 * W2_4 - W3_4 * W3_4;
-  const double U22_4 = U22_3 + D23_4;
-  const double U12_4 = DV12_4 - WP3_4;
-  const double U32_4 = DV23_4 + WP1_4;
-  const double mVA1_4 = d4 * mU11_3 + r4 * U12_3 + mVP1_3;
-  const double VA2_4 = d4 * U21_3 - r4 * U22_3 + VP2_3;
-  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mAVA3_3;
-  const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
-  const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
+  const double W3_4 = dq[3] + C2_3_dq_1;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double W3_5 = dq[4] + W2_4;
-  const double W1_5 = C5 * W1_4 - S5 * W3_4;
-  const double mW2_5 = C5 * W3_4 + S5 * W1_4;
-  const double WP3_5 = ddq[4] + WP2_4;
-  const double mDV23_5 = W3_5 * mW2_5;
-  const double DV13_5 = W3_5 * W1_5;
-  const double mDV12_5 = W1_5 * mW2_5;
-  const double U13_5 = C5 * U12_4 - S5 * U32_4;
-  const double mU23_5 = S5 * U12_4 + C5 * U32_4;
-  const double WP1_5 = mU23_5 - mDV23_5;
-  const double WP2_5 = U13_5 - DV13_5;
-  const double D23_5 = mW2_5 * mW2_5 - W3_5 * W3_5;
-  const double U22_5 = U22_4 + D23_5;
-  const double mU12_5 = WP3_5 + mDV12_5;
-  const double U32_5 = WP1_5 - mDV23_5;
-  const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
-
-  /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
-  const double W3_6 = dq[5] + mW2_5;
-  const double WP3_6 = ddq[5] - WP2_5;
-
-  /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double AN3_6 = ZZ6 * WP3_6;
-
-  /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double mF1_5 = MYR5 * mU12_5;
-  const double F2_5 = MYR5 * U22_5;
-  const double F3_5 = MYR5 * U32_5;
-  const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
-  const double N3_5 = ZZR5 * WP3_5 + XXR5 * mDV12_5 - MYR5 * VP1_5;
-  const double W3_6_ZZ6 = ZZ6 * W3_6;
-  const double T1_5 = N1_5 + W3_5 * W3_6_ZZ6;
-  const double T2_5 = XmZ_5 * DV13_5 - AN3_6;
-  const double T3_5 = N3_5 - W1_5 * W3_6_ZZ6;
-  const double mEB1_5 = C5 * mF1_5 + S5 * F2_5;
-  const double EB2_5 = C5 * F2_5 - S5 * mF1_5;
-
-  /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
-  const double N3_4 = ZZR4 * WP3_4 - XXR4 * DV12_4;
-  const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
-  const double T2_4 = XmZ_4 * DV13_4 + T3_5;
-  const double mT3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
-  const double mEB1_4 = S4 * F3_5 + C4 * mEB1_5;
-  const double EB2_4 = C4 * F3_5 - S4 * mEB1_5;
-
-  /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double F1_3 = MYR3 * U12_3 - MXR3 * mU11_3;
-  const double F2_3 = MYR3 * U22_3 + MXR3 * U21_3;
-  const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
-  const double N1_3 = YZ3 * D23_3 + XYR3 * mU31_3 - KYY_3 * mU32_3 - MYR3 * mAVA3_3;
-  const double N2_3 = KXX_3 * mU31_3 - YZ3 * U12_3 - XYR3 * mU32_3 + MXR3 * mAVA3_3;
-  const double N3_3 = KXX_3 * U21_3 - YZ3 * mU13_3 - XYR3 * mD12_3 - KYY_3 * U12_3 + MYR3 * mVP1_3
-      + MXR3 * VP2_3;
-  const double E1_3 = F1_3 - mEB1_4;
-  const double E2_3 = EB2_5 + F2_3;
-  const double E3_3 = EB2_4 - mF3_3;
-  const double T1_3 = C4 * T1_4 - S4 * T2_4 - r4 * EB2_4 + N1_3;
-  const double T2_3 = mT3_4 - d4 * EB2_4 + N2_3;
-  const double T3_3 = d4 * EB2_5 + S4 * T1_4 + C4 * T2_4 - r4 * mEB1_4 + N3_3;
-  const double EB1_3 = C2_3 * E1_3 - S2_3 * E2_3;
-  const double EB2_3 = S2_3 * E1_3 + C2_3 * E2_3;
-
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double AJ_2 = XXR2 * S2 + AJ2XY_2 * C2;
-  const double AJXY_2 = C2 * AJ_2 - XY2;
-  const double AJXZ_2 = JXZ_2 * C2 - JYZ_2 * S2;
-  const double AJYZ_2 = JXZ_2 * S2 + JYZ_2 * C2;
-  const double AMX_2 = MXR2 * C2 - MY2 * S2;
-  const double mAN3_2 = DV33_1 * AJXY_2 - ZZR2 * ddq[1] + ddq[0] * AJYZ_2 + GZ * AMX_2;
-  const double T3_2 = T3_3 - AP2_3 * EB1_3 + AP1_3 * EB2_3 - mAN3_2;
+  const double mW2_5_part = S4 * DQ_3 - C4 * S2_3_dq_1;
+  const double mW2_5 = C5 * W3_4 + S5 * mW2_5_part;
+  const double WP1_5_part = C4 * DQ_3 + S4 * S2_3_dq_1;
+  const double WP1_5_part_5 = S2_3_dq_1 * C2_3_dq_1;
+  const double DQ_3_DQ_3 = DQ_3 * DQ_3;
+  const double tau_1_part_3 = C2_3_dq_1 * C2_3_dq_1;
+  const double WP1_5_part_2 = mW2_5_part * WP1_5_part;
+  const double WP1_5_part_3 = WP2_3_minus_ddq_4 + WP1_5_part_2;
+  const double WP1_5_part_4 = W3_4 * WP1_5_part;
+  const double ddq_2_plus_ddq_3 = ddq[1] + ddq[2];
+  const double WP1_5_part_6 = ddq_2_plus_ddq_3 - WP1_5_part_5;
+  const double tau_1_part_2 = ddq_2_plus_ddq_3 + WP1_5_part_5;
+  const double WP1_5_part_7 = S4 * WP1_5_part_6 - C4 * mU32_3;
+  const double WP1_5_part_8 = 2.0 * WP1_5_part_4 + WP1_5_part_7;
+  const double WP1_5_part_9 = dq[4] + WP1_5_part;
+  const double tau_1_part_31 = dq[4] + 2.0 * WP1_5_part;
+  const double WP1_5_part_10 = mW2_5 * WP1_5_part_9;
+  const double WP1_5 = S5 * WP1_5_part_3 + C5 * WP1_5_part_8 - WP1_5_part_10;
 
   /* joint torques */
-  const double S2_AJ_2_plus_JZZ_1 = JZZ_1 + S2 * AJ_2;
-  const double tau_1 = FV1 * dq[0] + FS1 * puma560_sign(dq[0]) + AP1_3 * E3_3 - S2_3 * T1_3
-      - C2_3 * T2_3 - P3_3 * EB1_3 + mAU32_2 * AJXY_2 - ADV33_2 * AJXZ_2 - ddq[1] * AJYZ_2
-      + ddq[0] * S2_AJ_2_plus_JZZ_1;
-  const double tau_2 = FV2 * dq[1] + FS2 * puma560_sign(dq[1]) + T3_2;
-  const double tau_3 = FV3 * dq[2] + FS3 * puma560_sign(dq[2]) + IA3 * ddq[2] + T3_3;
-  const double tau_4 = FV4 * dq[3] + FS4 * puma560_sign(dq[3]) + IA4 * ddq[3] - mT3_4;
-  const double tau_5 = FV5 * dq[4] + FS5 * puma560_sign(dq[4]) + IA5 * ddq[4] + T3_5;
-  const double tau_6 = FV6 * dq[5] + FS6 * puma560_sign(dq[5]) + IA6 * ddq[5] + AN3_6;
+  const double tau_1_part = W3_4 * mW2_5_part;
+  const double tau_1_part_19 = S5 * W3_4 - C5 * mW2_5_part;
+  const double tau_1_part_4 = DQ_3_DQ_3 - tau_1_part_3;
+  const double tau_1_part_13 = DQ_3_DQ_3 + tau_1_part_3;
+  const double tau_1_part_5 = -dq_1_dq_1 - tau_1_part_4;
+  const double tau_1_part_32 = W3_4 * W3_4 - mW2_5 * mW2_5 - tau_1_part_5 + dq[4] * tau_1_part_31;
+  const double tau_1_part_33 = MYR5 * tau_1_part_32;
+  const double dq_2_dq_2 = dq[1] * dq[1];
+  const double tau_1_part_6 = dq_1_dq_1 + dq_2_dq_2;
+  const double tau_1_part_7 = ddq[0] * P3_3 + ddq[1] * S2_d3 + C2_d3 * tau_1_part_6;
+  const double tau_1_part_8 = GZ - ddq[1] * C2_d3 + S2_d3 * dq_2_dq_2;
+  const double tau_1_part_9 = S2_3 * tau_1_part_7 - C2_3 * tau_1_part_8;
+  const double tau_1_part_14 = C2_3 * tau_1_part_7 + S2_3 * tau_1_part_8;
+  const double tau_1_part_10 = d4 * tau_1_part_2 - r4 * tau_1_part_5 + tau_1_part_9;
+  const double tau_1_part_12 = mAVA3_3 - r4 * mU32_3 + d4 * tau_1_part_11;
+  const double tau_1_part_15 = d4 * tau_1_part_13 - r4 * WP1_5_part_6 + tau_1_part_14;
+  const double tau_1_part_16 = S4 * tau_1_part_12 + C4 * tau_1_part_15;
+  const double tau_1_part_28 = S4 * tau_1_part_15 - C4 * tau_1_part_12;
+  const double tau_1_part_17 = S5 * tau_1_part_10 - C5 * tau_1_part_16;
+  const double tau_1_part_18 = ddq[4] + S4 * mU32_3 + C4 * WP1_5_part_6 - tau_1_part;
+  const double mW2_5_plus_dq_6 = dq[5] + mW2_5;
+  const double tau_1_part_20 = ZZ6 * mW2_5_plus_dq_6;
+  const double tau_1_part_29 = XXR5 * WP1_5 - ZZR5 * WP1_5_part_10 + WP1_5_part_9 * tau_1_part_20
+      + MYR5 * tau_1_part_28;
+  const double tau_1_part_37 = WP1_5 - WP1_5_part_10;
+  const double tau_1_part_24 = WP1_5_part_9 * tau_1_part_19;
+  const double tau_1_part_25 = ddq[5] - C5 * WP1_5_part_3 + S5 * WP1_5_part_8 - tau_1_part_24;
+  const double tau_1_part_21 = XXR5 * mW2_5 - tau_1_part_20;
+  const double tau_1_part_22 = MYR5 * tau_1_part_17 - ZZR5 * tau_1_part_18
+      + tau_1_part_19 * tau_1_part_21;
+  const double tau_1_part_34 = mW2_5 * tau_1_part_19 - tau_1_part_18;
+  const double tau_1_part_26 = ZZ6 * tau_1_part_25;
+  const double tau_1_part_27 = XmZ_5 * tau_1_part_24 + tau_1_part_26;
+  const double tau_1_part_30 = XXR4 * WP1_5_part_7 + S5 * tau_1_part_27 + C5 * tau_1_part_29
+      + WP1_5_part_4 * ZZR4_plus_XXR4;
+  const double tau_1_part_41 = ZZR4 * WP2_3_minus_ddq_4 + XXR4 * WP1_5_part_2 - C5 * tau_1_part_27
+      + S5 * tau_1_part_29;
+  const double tau_1_part_35 = MYR5 * tau_1_part_34;
+  const double tau_1_part_38 = MYR5 * tau_1_part_37;
+  const double tau_1_part_23 = XmZ_4 * tau_1_part - tau_1_part_22;
+  const double tau_5 = FV5 * dq[4] + FS5 * puma560_sign(dq[4]) + IA5 * ddq[4] - tau_1_part_22;
+  const double tau_6 = FV6 * dq[5] + FS6 * puma560_sign(dq[5]) + IA6 * ddq[5] + tau_1_part_26;
+  const double tau_1_part_36 = S5 * tau_1_part_33 + C5 * tau_1_part_35;
+  const double tau_1_part_44 = S5 * tau_1_part_35 - C5 * tau_1_part_33;
+  const double tau_1_part_39 = S4 * tau_1_part_36 + C4 * tau_1_part_38;
+  const double tau_1_part_46 = S4 * tau_1_part_38 - C4 * tau_1_part_36;
+  const double tau_1_part_40 = XYR3 * tau_1_part_11 - KYY_3 * mU32_3 - MYR3 * mAVA3_3
+      - YZ3 * tau_1_part_4 - S4 * tau_1_part_23 + C4 * tau_1_part_30 - r4 * tau_1_part_39;
+  const double tau_1_part_42 = MXR3 * mAVA3_3 - XYR3 * mU32_3 + YZ3 * WP1_5_part_6
+      + KXX_3 * tau_1_part_11 - d4 * tau_1_part_39 + tau_1_part_41;
+  const double tau_1_part_49 = MYR3 * mU32_3 + MXR3 * tau_1_part_11 - tau_1_part_39;
+  const double tau_4 = FV4 * dq[3] + FS4 * puma560_sign(dq[3]) + IA4 * ddq[3] - tau_1_part_41;
+  const double S2_JXZ_2_plus_C2_JYZ_2 = JXZ_2 * S2 + JYZ_2 * C2;
+  const double S2_XXR2_plus_C2_AJ2XY_2 = XXR2 * S2 + AJ2XY_2 * C2;
+  const double tau_1_part_43 = JZZ_1 + S2 * S2_XXR2_plus_C2_AJ2XY_2;
+  const double tau_1_part_50 = C2 * S2_XXR2_plus_C2_AJ2XY_2 - XY2;
+  const double tau_1_part_45 = -MXR3 * tau_1_part_2 - MYR3 * tau_1_part_5 - tau_1_part_44;
+  const double tau_2_part_2 = tau_1_part_5 + tau_1_part_13;
+  const double tau_2_part_3 = KYY_3 * WP1_5_part_6 - YZ3 * C2_3_ddq_1 + KXX_3 * tau_1_part_2
+      + MXR3 * tau_1_part_9 + MYR3 * tau_1_part_14 + C4 * tau_1_part_23 + S4 * tau_1_part_30
+      + d4 * tau_1_part_44 - r4 * tau_1_part_46 - XYR3 * tau_2_part_2;
+  const double tau_1_part_47 = MYR3 * WP1_5_part_6 + MXR3 * tau_1_part_13 + tau_1_part_46;
+  const double tau_1_part_48 = S2_3 * tau_1_part_45 - C2_3 * tau_1_part_47;
+  const double tau_2_part = -C2_3 * tau_1_part_45 - S2_3 * tau_1_part_47;
+  const double tau_2 = FV2 * dq[1] + FS2 * puma560_sign(dq[1]) + ZZR2 * ddq[1]
+      - ddq[0] * S2_JXZ_2_plus_C2_JYZ_2 - S2_d3 * tau_1_part_48 - dq_1_dq_1 * tau_1_part_50
+      + S2 * GZ_MY2 - C2 * GZ_MXR2 + C2_d3 * tau_2_part + tau_2_part_3;
+  const double S2_JYZ_2_minus_C2_JXZ_2 = JYZ_2 * S2 - JXZ_2 * C2;
+  const double tau_1 = FV1 * dq[0] + FS1 * puma560_sign(dq[0]) - S2_3 * tau_1_part_40
+      - C2_3 * tau_1_part_42 - ddq[1] * S2_JXZ_2_plus_C2_JYZ_2 + ddq[0] * tau_1_part_43
+      - P3_3 * tau_1_part_48 - C2_d3 * tau_1_part_49 + dq_2_dq_2 * S2_JYZ_2_minus_C2_JXZ_2
+      + mAVA3_3_part * tau_1_part_50;
+  const double tau_3 = FV3 * dq[2] + FS3 * puma560_sign(dq[2]) + IA3 * ddq[2] + tau_2_part_3;
 
   tau[0] = tau_1;
   tau[1] = tau_2;
@@ -498,13 +472,11 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
- * 157 mul, 125 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 158 mul, 123 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void puma560_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
   const double XXR2 = -1.601861202; /* kg m^2, grouped */
   const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
   const double ZZR2 = 6.458114002; /* kg m^2, grouped */
-  const double MXR2 = 3.79559; /* kg m, grouped */
-  const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
   const double XYR3 = -0.0106736385; /* kg m^2, grouped */
   const double YZ3 = 0.004704; /* kg m^2, puma560.robot:35 */
   const double MXR3 = -0.025375; /* kg m, grouped */
@@ -532,6 +504,11 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double XmZ_5 = -0.0004;
   const double XmZ_4 = -0.0013;
   const double AJ2XY_2 = -0.0141984;
+  const double GZ_MY2 = 1.024164;
+  const double GZ_MXR2 = 37.2347379;
+  const double K_MYR5 = 0.00576;
+  const double ZZR5_minus_XXR5 = 0.00088432;
+  const double ZZR4_plus_XXR4 = 0.0019;
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
@@ -546,146 +523,116 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
   const double S5 = PUMA560_AT(sine1, 3);
   const double C5 = PUMA560_AT(cosine1, 3);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double ADV33_2 = dq[1] * dq[1];
-  const double mAU11_2 = DV33_1 + ADV33_2;
-  const double mAU32_2 = 2.0 * dq[0] * dq[1];
-
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
   const double DQ_3 = dq[1] + dq[2];
-  const double mW1_3 = dq[0] * S2_3;
-  const double mW2_3 = dq[0] * C2_3;
-  const double WP3_3 = ddq[1] + ddq[2];
-  const double mDV13_3 = DQ_3 * mW1_3;
-  const double DV12_3 = mW1_3 * mW2_3;
-  const double mU13_3 = ddq[0] * C2_3;
-  const double WP2_3 = mDV13_3 - mU13_3;
-  const double DV22_3 = mW2_3 * mW2_3;
-  const double DV33_3 = DQ_3 * DQ_3;
-  const double D23_3 = DV22_3 - DV33_3;
-  const double mU11_3 = DV22_3 + DV33_3;
-  const double U22_3 = D23_3 - DV33_1;
-  const double mD12_3 = mU11_3 + U22_3;
-  const double U12_3 = DV12_3 - WP3_3;
-  const double U21_3 = WP3_3 + DV12_3;
-  const double mU31_3 = mDV13_3 + WP2_3;
-  const double mU32_3 = ddq[0] * S2_3 + 2.0 * DQ_3 * mW2_3;
-  const double AP1_3 = d3 * C2;
-  const double AP2_3 = d3 * S2;
-  const double mAVA1_3 = ddq[0] * P3_3 + mAU11_2 * AP1_3 + ddq[1] * AP2_3;
-  const double mAVA2_3 = GZ - ddq[1] * AP1_3 + ADV33_2 * AP2_3;
-  const double mAVA3_3 = P3_3 * DV33_1 - ddq[0] * AP1_3 + mAU32_2 * AP2_3;
-  const double mVP1_3 = C2_3 * mAVA1_3 + S2_3 * mAVA2_3;
-  const double VP2_3 = S2_3 * mAVA1_3 - C2_3 * mAVA2_3;
+  const double C2_3_ddq_1 = ddq[0] * C2_3;
+  const double S2_3_dq_1 = dq[0] * S2_3;
+  const double WP2_3_part = DQ_3 * S2_3_dq_1;
+  const double WP2_3 = WP2_3_part - C2_3_ddq_1;
+  const double T3_2_part_42 = WP2_3_part + WP2_3;
+  const double WP2_3_minus_ddq_4 = WP2_3 - ddq[3];
+  const double C2_3_dq_1 = dq[0] * C2_3;
+  const double mU32_3 = ddq[0] * S2_3 + 2.0 * DQ_3 * C2_3_dq_1;
+  const double C2_d3 = d3 * C2;
+  const double dq_1_dq_1 = dq[0] * dq[0];
+  const double S2_d3 = d3 * S2;
+  const double mAVA3_3_part = 2.0 * dq[0] * dq[1];
+  const double mAVA3_3 = P3_3 * dq_1_dq_1 - ddq[0] * C2_d3 + S2_d3 * mAVA3_3_part;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W3_4 = dq[3] + mW2_3;
-  const double W1_4 = S4 * DQ_3 - C4 * mW1_3;
-  const double W2_4 = C4 * DQ_3 + S4 * mW1_3;
-  const double WP3_4 = ddq[3] - WP2_3;
-  const double DV23_4 = W3_4 * W2_4;
-  const double DV13_4 = W3_4 * W1_4;
-  const double DV12_4 = W1_4 * W2_4;
-  const double U13_4 = S4 * mU32_3 - C4 * U12_3;
-  const double U23_4 = S4 * U12_3 + C4 * mU32_3;
-  const double WP1_4 = DV23_4 - U23_4;
-  const double WP2_4 = U13_4 - DV13_4;
-  const double D23_4 = W2_4 * W2_4 - W3_4 * W3_4;
-  const double U22_4 = U22_3 + D23_4;
-  const double U12_4 = DV12_4 - WP3_4;
-  const double U32_4 = DV23_4 + WP1_4;
-  const double mVA1_4 = d4 * mU11_3 + r4 * U12_3 + mVP1_3;
-  const double VA2_4 = d4 * U21_3 - r4 * U22_3 + VP2_3;
-  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mAVA3_3;
-  const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
-  const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
+  const double W3_4 = dq[3] + C2_3_dq_1;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double W3_5 = dq[4] + W2_4;
-  const double W1_5 = C5 * W1_4 - S5 * W3_4;
-  const double mW2_5 = C5 * W3_4 + S5 * W1_4;
-  const double WP3_5 = ddq[4] + WP2_4;
-  const double mDV23_5 = W3_5 * mW2_5;
-  const double DV13_5 = W3_5 * W1_5;
-  const double mDV12_5 = W1_5 * mW2_5;
-  const double U13_5 = C5 * U12_4 - S5 * U32_4;
-  const double mU23_5 = S5 * U12_4 + C5 * U32_4;
-  const double WP1_5 = mU23_5 - mDV23_5;
-  const double WP2_5 = U13_5 - DV13_5;
-  const double D23_5 = mW2_5 * mW2_5 - W3_5 * W3_5;
-  const double U22_5 = U22_4 + D23_5;
-  const double mU12_5 = WP3_5 + mDV12_5;
-  const double U32_5 = WP1_5 - mDV23_5;
-  const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
-
-  /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
-  const double W3_6 = dq[5] + mW2_5;
-  const double WP3_6 = ddq[5] - WP2_5;
-
-  /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double AN3_6 = ZZ6 * WP3_6;
-
-  /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double mF1_5 = MYR5 * mU12_5;
-  const double F2_5 = MYR5 * U22_5;
-  const double F3_5 = MYR5 * U32_5;
-  const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
-  const double N3_5 = ZZR5 * WP3_5 + XXR5 * mDV12_5 - MYR5 * VP1_5;
-  const double W3_6_ZZ6 = ZZ6 * W3_6;
-  const double T1_5 = N1_5 + W3_5 * W3_6_ZZ6;
-  const double T2_5 = XmZ_5 * DV13_5 - AN3_6;
-  const double T3_5 = N3_5 - W1_5 * W3_6_ZZ6;
-  const double mEB1_5 = C5 * mF1_5 + S5 * F2_5;
-  const double EB2_5 = C5 * F2_5 - S5 * mF1_5;
-
-  /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
-  const double N3_4 = ZZR4 * WP3_4 - XXR4 * DV12_4;
-  const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
-  const double T2_4 = XmZ_4 * DV13_4 + T3_5;
-  const double mT3_4 = S5 * T1_5 + C5 * T2_5 - N3_4;
-  const double mEB1_4 = S4 * F3_5 + C4 * mEB1_5;
-  const double EB2_4 = C4 * F3_5 - S4 * mEB1_5;
-
-  /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double F1_3 = MYR3 * U12_3 - MXR3 * mU11_3;
-  const double F2_3 = MYR3 * U22_3 + MXR3 * U21_3;
-  const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
-  const double N1_3 = YZ3 * D23_3 + XYR3 * mU31_3 - KYY_3 * mU32_3 - MYR3 * mAVA3_3;
-  const double N2_3 = KXX_3 * mU31_3 - YZ3 * U12_3 - XYR3 * mU32_3 + MXR3 * mAVA3_3;
-  const double N3_3 = KXX_3 * U21_3 - YZ3 * mU13_3 - XYR3 * mD12_3 - KYY_3 * U12_3 + MYR3 * mVP1_3
-      + MXR3 * VP2_3;
-  const double E1_3 = F1_3 - mEB1_4;
-  const double E2_3 = EB2_5 + F2_3;
-  const double E3_3 = EB2_4 - mF3_3;
-  const double T1_3 = C4 * T1_4 - S4 * T2_4 - r4 * EB2_4 + N1_3;
-  const double T2_3 = mT3_4 - d4 * EB2_4 + N2_3;
-  const double T3_3 = d4 * EB2_5 + S4 * T1_4 + C4 * T2_4 - r4 * mEB1_4 + N3_3;
-  const double EB1_3 = C2_3 * E1_3 - S2_3 * E2_3;
-  const double EB2_3 = S2_3 * E1_3 + C2_3 * E2_3;
+  const double mW2_5_part = S4 * DQ_3 - C4 * S2_3_dq_1;
+  const double mW2_5 = C5 * W3_4 + S5 * mW2_5_part;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double AJ_2 = XXR2 * S2 + AJ2XY_2 * C2;
-  const double AJXY_2 = C2 * AJ_2 - XY2;
-  const double AJXZ_2 = JXZ_2 * C2 - JYZ_2 * S2;
-  const double AJYZ_2 = JXZ_2 * S2 + JYZ_2 * C2;
-  const double AMX_2 = MXR2 * C2 - MY2 * S2;
-  const double mAN3_2 = DV33_1 * AJXY_2 - ZZR2 * ddq[1] + ddq[0] * AJYZ_2 + GZ * AMX_2;
-  const double T3_2 = T3_3 - AP2_3 * EB1_3 + AP1_3 * EB2_3 - mAN3_2;
-
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double S2_AJ_2_plus_JZZ_1 = JZZ_1 + S2 * AJ_2;
-  const double T3_1 = AP1_3 * E3_3 - S2_3 * T1_3 - C2_3 * T2_3 - P3_3 * EB1_3 + mAU32_2 * AJXY_2
-      - ADV33_2 * AJXZ_2 - ddq[1] * AJYZ_2 + ddq[0] * S2_AJ_2_plus_JZZ_1;
-
-  /* joint torques */
-  const double tau_3 = IA3 * ddq[2] + T3_3;
-  const double tau_4 = IA4 * ddq[3] - mT3_4;
-  const double tau_5 = IA5 * ddq[4] + T3_5;
-  const double tau_6 = IA6 * ddq[5] + AN3_6;
+  const double S2_JXZ_2_plus_C2_JYZ_2 = JXZ_2 * S2 + JYZ_2 * C2;
+  const double ddq_2_plus_ddq_3 = ddq[1] + ddq[2];
+  const double T3_2_part = S2_3_dq_1 * C2_3_dq_1;
+  const double T3_2_part_5 = C4 * DQ_3 + S4 * S2_3_dq_1;
+  const double T3_2_part_3 = C2_3_dq_1 * C2_3_dq_1;
+  const double DQ_3_DQ_3 = DQ_3 * DQ_3;
+  const double T3_2_part_2 = ddq_2_plus_ddq_3 - T3_2_part;
+  const double T3_2_part_27 = ddq_2_plus_ddq_3 + T3_2_part;
+  const double T3_2_part_4 = T3_2_part_3 + DQ_3_DQ_3;
+  const double T3_2_part_15 = DQ_3_DQ_3 - T3_2_part_3;
+  const double T3_2_part_6 = dq[4] + T3_2_part_5;
+  const double T3_2_part_7 = mW2_5_part * T3_2_part_5;
+  const double T3_2_part_8 = WP2_3_minus_ddq_4 + T3_2_part_7;
+  const double T3_2_part_9 = W3_4 * T3_2_part_5;
+  const double T3_2_part_14 = dq[4] + 2.0 * T3_2_part_5;
+  const double T3_2_part_10 = S4 * T3_2_part_2 - C4 * mU32_3;
+  const double T3_2_part_11 = 2.0 * T3_2_part_9 + T3_2_part_10;
+  const double T3_2_part_12 = S5 * T3_2_part_8 + C5 * T3_2_part_11;
+  const double T3_2_part_13 = mW2_5 * K_MYR5 * T3_2_part_6 + MYR5 * T3_2_part_12;
+  const double T3_2_part_16 = dq_1_dq_1 + T3_2_part_15;
+  const double T3_2_part_17 = W3_4 * W3_4 - mW2_5 * mW2_5 + dq[4] * T3_2_part_14 + T3_2_part_16;
+  const double T3_2_part_18 = MYR5 * T3_2_part_17;
+  const double T3_2_part_19 = S5 * W3_4 - C5 * mW2_5_part;
+  const double T3_2_part_20 = W3_4 * mW2_5_part;
+  const double T3_2_part_21 = ddq[4] + S4 * mU32_3 + C4 * T3_2_part_2 - T3_2_part_20;
+  const double T3_2_part_22 = mW2_5 * T3_2_part_19 - T3_2_part_21;
+  const double T3_2_part_23 = MYR5 * T3_2_part_22;
+  const double T3_2_part_24 = S5 * T3_2_part_18 + C5 * T3_2_part_23;
+  const double T3_2_part_28 = C5 * T3_2_part_18 - S5 * T3_2_part_23;
+  const double T3_2_part_25 = S4 * T3_2_part_13 - C4 * T3_2_part_24;
+  const double T3_1_part = C4 * T3_2_part_13 + S4 * T3_2_part_24;
+  const double T3_2_part_26 = MYR3 * T3_2_part_2 + MXR3 * T3_2_part_4 + T3_2_part_25;
+  const double T3_2_part_29 = MYR3 * T3_2_part_16 - MXR3 * T3_2_part_27 + T3_2_part_28;
+  const double T3_2_part_30 = S2_3 * T3_2_part_26 + C2_3 * T3_2_part_29;
+  const double T3_2_part_32 = S2_3 * T3_2_part_29 - C2_3 * T3_2_part_26;
+  const double S2_XXR2_plus_C2_AJ2XY_2 = XXR2 * S2 + AJ2XY_2 * C2;
+  const double T3_2_part_31 = C2 * S2_XXR2_plus_C2_AJ2XY_2 - XY2;
+  const double T3_1_part_5 = JZZ_1 + S2 * S2_XXR2_plus_C2_AJ2XY_2;
+  const double T3_2_part_33 = T3_2_part_6 * T3_2_part_19;
+  const double T3_2_part_34 = ddq[5] - C5 * T3_2_part_8 + S5 * T3_2_part_11 - T3_2_part_33;
+  const double T3_2_part_35 = ZZ6 * T3_2_part_34;
+  const double T3_2_part_36 = XmZ_5 * T3_2_part_33 + T3_2_part_35;
+  const double tau_6 = IA6 * ddq[5] + T3_2_part_35;
+  const double dq_2_dq_2 = dq[1] * dq[1];
+  const double T3_2_part_37 = GZ - ddq[1] * C2_d3 + S2_d3 * dq_2_dq_2;
+  const double T3_2_part_38 = dq_1_dq_1 + dq_2_dq_2;
+  const double T3_2_part_39 = ddq[0] * P3_3 + ddq[1] * S2_d3 + C2_d3 * T3_2_part_38;
+  const double T3_2_part_40 = S2_3 * T3_2_part_37 + C2_3 * T3_2_part_39;
+  const double T3_2_part_49 = S2_3 * T3_2_part_39 - C2_3 * T3_2_part_37;
+  const double T3_2_part_41 = d4 * T3_2_part_4 - r4 * T3_2_part_2 + T3_2_part_40;
+  const double T3_2_part_56 = T3_2_part_16 - T3_2_part_4;
+  const double T3_2_part_50 = r4 * T3_2_part_16 + d4 * T3_2_part_27 + T3_2_part_49;
+  const double T3_2_part_43 = mAVA3_3 - r4 * mU32_3 + d4 * T3_2_part_42;
+  const double T3_2_part_44 = S4 * T3_2_part_41 - C4 * T3_2_part_43;
+  const double T3_2_part_51 = C4 * T3_2_part_41 + S4 * T3_2_part_43;
+  const double T3_2_part_52 = S5 * T3_2_part_50 - C5 * T3_2_part_51;
+  const double mW2_5_plus_dq_6 = dq[5] + mW2_5;
+  const double T3_2_part_45 = ZZ6 * mW2_5_plus_dq_6;
+  const double T3_2_part_46 = mW2_5 * ZZR5_minus_XXR5 - T3_2_part_45;
+  const double T3_2_part_47 = XXR5 * T3_2_part_12 + MYR5 * T3_2_part_44
+      - T3_2_part_6 * T3_2_part_46;
+  const double T3_2_part_53 = XXR5 * mW2_5 - T3_2_part_45;
+  const double T3_2_part_54 = MYR5 * T3_2_part_52 - ZZR5 * T3_2_part_21
+      + T3_2_part_19 * T3_2_part_53;
+  const double T3_2_part_48 = XXR4 * T3_2_part_10 + S5 * T3_2_part_36 + C5 * T3_2_part_47
+      + T3_2_part_9 * ZZR4_plus_XXR4;
+  const double T3_1_part_3 = ZZR4 * WP2_3_minus_ddq_4 + XXR4 * T3_2_part_7 - C5 * T3_2_part_36
+      + S5 * T3_2_part_47;
+  const double T3_2_part_55 = XmZ_4 * T3_2_part_20 - T3_2_part_54;
+  const double T3_2_part_57 = KYY_3 * T3_2_part_2 - YZ3 * C2_3_ddq_1 - r4 * T3_2_part_25
+      + KXX_3 * T3_2_part_27 - d4 * T3_2_part_28 + MYR3 * T3_2_part_40 + S4 * T3_2_part_48
+      + MXR3 * T3_2_part_49 + C4 * T3_2_part_55 + XYR3 * T3_2_part_56;
+  const double T3_1_part_2 = KYY_3 * mU32_3 + MYR3 * mAVA3_3 + YZ3 * T3_2_part_15
+      - XYR3 * T3_2_part_42 - C4 * T3_2_part_48 + S4 * T3_2_part_55 + r4 * T3_1_part;
+  const double T3_2 = ZZR2 * ddq[1] + S2 * GZ_MY2 - C2 * GZ_MXR2 - ddq[0] * S2_JXZ_2_plus_C2_JYZ_2
+      - C2_d3 * T3_2_part_30 - dq_1_dq_1 * T3_2_part_31 - S2_d3 * T3_2_part_32 + T3_2_part_57;
+  const double T3_1_part_4 = MXR3 * mAVA3_3 - XYR3 * mU32_3 + YZ3 * T3_2_part_2
+      + KXX_3 * T3_2_part_42 - d4 * T3_1_part + T3_1_part_3;
+  const double T3_1_part_6 = MYR3 * mU32_3 + MXR3 * T3_2_part_42 - T3_1_part;
+  const double S2_JYZ_2_minus_C2_JXZ_2 = JYZ_2 * S2 - JXZ_2 * C2;
+  const double T3_1 = mAVA3_3_part * T3_2_part_31 - ddq[1] * S2_JXZ_2_plus_C2_JYZ_2
+      - P3_3 * T3_2_part_32 + S2_3 * T3_1_part_2 - C2_3 * T3_1_part_4 + ddq[0] * T3_1_part_5
+      - C2_d3 * T3_1_part_6 + dq_2_dq_2 * S2_JYZ_2_minus_C2_JXZ_2;
+  const double tau_3 = IA3 * ddq[2] + T3_2_part_57;
+  const double tau_4 = IA4 * ddq[3] - T3_1_part_3;
+  const double tau_5 = IA5 * ddq[4] - T3_2_part_54;
 
   tau[0] = T3_1;
   tau[1] = T3_2;
@@ -697,14 +644,13 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[6] rad   tau[6] N m, out
- * 15 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 12 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void puma560_gravity(const double *q, double *tau) {
-  const double MXR2 = 3.79559; /* kg m, grouped */
-  const double MY2 = 0.1044; /* kg m, puma560.robot:29 */
-  const double MXR3 = -0.025375; /* kg m, grouped */
-  const double MYR3 = -0.861795; /* kg m, grouped */
-  const double MYR5 = -0.00288; /* kg m, grouped */
-  const double GZ = 9.81; /* m/s^2, puma560.robot:48 */
+  const double GZ_MYR5 = 0.0282528;
+  const double GZ_MYR3 = 8.45420895;
+  const double GZ_MXR3 = 0.24892875;
+  const double GZ_MY2 = 1.024164;
+  const double GZ_MXR2 = 37.2347379;
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
@@ -717,43 +663,29 @@ void puma560_gravity(const double *q, double *tau) {
   const double S4 = PUMA560_AT(sine1, 2);
   const double C4 = PUMA560_AT(cosine1, 2);
   const double S5 = PUMA560_AT(sine1, 3);
+  const double S5_GZ_MYR5 = S5 * GZ_MYR5;
+  const double T3_4 = S2_3 * S4 * S5_GZ_MYR5;
   const double C5 = PUMA560_AT(cosine1, 3);
-
-  /* VP acceleration of a standing link, -g, in its frame */
-  const double mVP1_3 = GZ * S2_3;
-  const double mVP2_3 = GZ * C2_3;
-  const double mVP1_4 = C4 * mVP1_3;
+  const double C5_GZ_MYR5 = C5 * GZ_MYR5;
 
   /* link 5: MS first moments with the links it carries */
-  const double mAMS1_5 = MYR5 * S5;
-  const double AMS2_5 = MYR5 * C5;
-  const double T3_5 = mVP2_3 * mAMS1_5 + mVP1_4 * AMS2_5;
-
-  /* link 4: MS first moments with the links it carries */
-  const double mAMS1_4 = C4 * mAMS1_5;
-  const double mAMS2_4 = S4 * mAMS1_5;
-  const double mT3_4 = mVP1_3 * mAMS2_4;
-
-  /* link 3: MS first moments with the links it carries */
-  const double MS1_3 = MXR3 - mAMS1_4;
-  const double MS2_3 = MYR3 + AMS2_5;
-  const double T3_3 = mVP1_3 * MS2_3 - mVP2_3 * MS1_3;
-
-  /* link 2: MS first moments with the links it carries */
-  const double AMS1_2 = MXR2 * C2 - MY2 * S2;
-  const double T3_2 = T3_3 - GZ * AMS1_2;
+  const double T3_5 = -S2_3 * C4 * C5_GZ_MYR5 - C2_3 * S5_GZ_MYR5;
+  const double T3_3_part_2 = C4 * S5_GZ_MYR5 - GZ_MXR3;
+  const double T3_3_part = C5_GZ_MYR5 + GZ_MYR3;
+  const double T3_3 = -S2_3 * T3_3_part - C2_3 * T3_3_part_2;
+  const double T3_2 = T3_3 + S2 * GZ_MY2 - C2 * GZ_MXR2;
 
   tau[0] = 0.0;
   tau[1] = T3_2;
   tau[2] = T3_3;
-  tau[3] = -mT3_4;
+  tau[3] = T3_4;
   tau[4] = T3_5;
   tau[5] = 0.0;
 }
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[6] rad   dq[6] rad/s   tau[6] N m, out
- * 136 mul, 97 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 137 mul, 95 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double XXR2 = -1.601861202; /* kg m^2, grouped */
   const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
@@ -770,15 +702,23 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double d3 = 0.4318; /* m, puma560.robot:21 */
   const double d4 = -0.0203; /* m, puma560.robot:21 */
   const double r4 = 0.4331; /* m, puma560.robot:23 */
-  const double KXX_3 = 0.0167651125;
-  const double KYY_3 = 0.3163401365;
   const double JXZ_2 = -0.690314699;
   const double JYZ_2 = -0.023751;
   const double P3_3 = 0.1501;
   const double XmZ_5 = -0.0004;
   const double XmZ_4 = -0.0013;
   const double AJ2XY_2 = -0.0141984;
+  const double K_r4 = 0.8662;
+  const double K_d4 = 0.0406;
+  const double ZZR5_minus_XXR5 = 0.00088432;
+  const double ZZR4_plus_XXR4 = 0.0019;
+  const double K_MYR5 = 0.00576;
   const double KYY_3_plus_KXX_3 = 0.299575024;
+  const double K_KYY_3 = 0.632680273;
+  const double K_XYR3 = 0.021347277;
+  const double ZZR4_plus_K_KXX_3 = 0.035130225;
+  const double K_MYR3 = 1.72359;
+  const double K_MXR3 = 0.05075;
 
   /* sines and cosines of the joint angles */
   const double Q2_3 = q[1] + q[2];
@@ -793,132 +733,117 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double S5 = PUMA560_AT(sine1, 3);
   const double C5 = PUMA560_AT(cosine1, 3);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double ADV33_2 = dq[1] * dq[1];
-  const double mAU11_2 = DV33_1 + ADV33_2;
-  const double mAU32_2 = 2.0 * dq[0] * dq[1];
-
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
   const double DQ_3 = dq[1] + dq[2];
-  const double mW1_3 = dq[0] * S2_3;
-  const double mW2_3 = dq[0] * C2_3;
-  const double mDV13_3 = DQ_3 * mW1_3;
-  const double DV12_3 = mW1_3 * mW2_3;
-  const double DV22_3 = mW2_3 * mW2_3;
-  const double DV33_3 = DQ_3 * DQ_3;
-  const double D23_3 = DV22_3 - DV33_3;
-  const double mU11_3 = DV22_3 + DV33_3;
-  const double U22_3 = D23_3 - DV33_1;
-  const double mD12_3 = mU11_3 + U22_3;
-  const double mU31_3 = 2.0 * mDV13_3;
-  const double mU32_3 = 2.0 * DQ_3 * mW2_3;
-  const double AP1_3 = d3 * C2;
-  const double AP2_3 = d3 * S2;
-  const double mAVA1_3 = mAU11_2 * AP1_3;
-  const double mAVA2_3 = ADV33_2 * AP2_3;
-  const double mAVA3_3 = P3_3 * DV33_1 + mAU32_2 * AP2_3;
-  const double mVP1_3 = C2_3 * mAVA1_3 + S2_3 * mAVA2_3;
-  const double VP2_3 = S2_3 * mAVA1_3 - C2_3 * mAVA2_3;
+  const double dq_1_dq_1 = dq[0] * dq[0];
+  const double mAVA3_3_part = 2.0 * dq[0] * dq[1];
+  const double S2_d3 = d3 * S2;
+  const double mAVA3_3 = P3_3 * dq_1_dq_1 + mAVA3_3_part * S2_d3;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
-  const double W3_4 = dq[3] + mW2_3;
-  const double W1_4 = S4 * DQ_3 - C4 * mW1_3;
-  const double W2_4 = C4 * DQ_3 + S4 * mW1_3;
-  const double DV23_4 = W3_4 * W2_4;
-  const double DV13_4 = W3_4 * W1_4;
-  const double DV12_4 = W1_4 * W2_4;
-  const double U13_4 = S4 * mU32_3 - C4 * DV12_3;
-  const double U23_4 = S4 * DV12_3 + C4 * mU32_3;
-  const double WP1_4 = DV23_4 - U23_4;
-  const double WP2_4 = U13_4 - DV13_4;
-  const double D23_4 = W2_4 * W2_4 - W3_4 * W3_4;
-  const double U22_4 = U22_3 + D23_4;
-  const double U12_4 = mDV13_3 + DV12_4;
-  const double U32_4 = DV23_4 + WP1_4;
-  const double mVA1_4 = r4 * DV12_3 + d4 * mU11_3 + mVP1_3;
-  const double VA2_4 = d4 * DV12_3 - r4 * U22_3 + VP2_3;
-  const double mVA3_4 = d4 * mU31_3 - r4 * mU32_3 + mAVA3_3;
-  const double mVP1_4 = C4 * mVA1_4 + S4 * mVA3_4;
-  const double VP2_4 = S4 * mVA1_4 - C4 * mVA3_4;
+  const double C2_3_dq_1 = dq[0] * C2_3;
+  const double W3_4 = dq[3] + C2_3_dq_1;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
-  const double W3_5 = dq[4] + W2_4;
-  const double W1_5 = C5 * W1_4 - S5 * W3_4;
-  const double mW2_5 = C5 * W3_4 + S5 * W1_4;
-  const double mDV23_5 = W3_5 * mW2_5;
-  const double DV13_5 = W3_5 * W1_5;
-  const double mDV12_5 = W1_5 * mW2_5;
-  const double U13_5 = C5 * U12_4 - S5 * U32_4;
-  const double mU23_5 = S5 * U12_4 + C5 * U32_4;
-  const double WP1_5 = mU23_5 - mDV23_5;
-  const double WP2_5 = U13_5 - DV13_5;
-  const double D23_5 = mW2_5 * mW2_5 - W3_5 * W3_5;
-  const double U22_5 = U22_4 + D23_5;
-  const double mU12_5 = WP2_4 + mDV12_5;
-  const double U32_5 = WP1_5 - mDV23_5;
-  const double VP1_5 = S5 * VA2_4 - C5 * mVP1_4;
-
-  /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
-  const double W3_6 = dq[5] + mW2_5;
+  const double S2_3_dq_1 = dq[0] * S2_3;
+  const double mW2_5_part = S4 * DQ_3 - C4 * S2_3_dq_1;
+  const double mW2_5 = C5 * W3_4 + S5 * mW2_5_part;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double mAN3_6 = ZZ6 * WP2_5;
+  const double AN3_6_part = C4 * DQ_3 + S4 * S2_3_dq_1;
+  const double AN3_6_part_2 = W3_4 * AN3_6_part;
+  const double AN3_6_part_3 = C2_3_dq_1 * S2_3_dq_1;
+  const double AN3_6_part_8 = DQ_3 * S2_3_dq_1;
+  const double AN3_6_part_4 = DQ_3 * C2_3_dq_1;
+  const double DQ_3_DQ_3 = DQ_3 * DQ_3;
+  const double T3_5_part = C2_3_dq_1 * C2_3_dq_1;
+  const double AN3_6_part_5 = 2.0 * AN3_6_part_4;
+  const double AN3_6_part_6 = S4 * AN3_6_part_3 + C4 * AN3_6_part_5;
+  const double AN3_6_part_7 = 2.0 * AN3_6_part_2 - AN3_6_part_6;
+  const double AN3_6_part_9 = mW2_5_part * AN3_6_part;
+  const double AN3_6_part_10 = AN3_6_part_8 + AN3_6_part_9;
+  const double AN3_6_part_11 = S5 * W3_4 - C5 * mW2_5_part;
+  const double T3_5_part_15 = W3_4 * mW2_5_part;
+  const double T3_5_part_16 = C4 * AN3_6_part_3 - S4 * AN3_6_part_5 + T3_5_part_15;
+  const double AN3_6_part_12 = dq[4] + AN3_6_part;
+  const double T3_3_part_4 = dq[4] + 2.0 * AN3_6_part;
+  const double AN3_6_part_13 = AN3_6_part_11 * AN3_6_part_12;
+  const double AN3_6_part_14 = S5 * AN3_6_part_7 - C5 * AN3_6_part_10 - AN3_6_part_13;
+  const double mT3_4_part_2 = C5 * AN3_6_part_7 + S5 * AN3_6_part_10;
+  const double AN3_6 = ZZ6 * AN3_6_part_14;
+  const double mT3_4_part_5 = XmZ_5 * AN3_6_part_13 + AN3_6;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double mF1_5 = MYR5 * mU12_5;
-  const double F2_5 = MYR5 * U22_5;
-  const double F3_5 = MYR5 * U32_5;
-  const double N1_5 = MYR5 * VP2_4 - ZZR5 * mDV23_5 + XXR5 * WP1_5;
-  const double N3_5 = ZZR5 * WP2_4 + XXR5 * mDV12_5 - MYR5 * VP1_5;
-  const double W3_6_ZZ6 = ZZ6 * W3_6;
-  const double T1_5 = N1_5 + W3_5 * W3_6_ZZ6;
-  const double T2_5 = XmZ_5 * DV13_5 + mAN3_6;
-  const double T3_5 = N3_5 - W1_5 * W3_6_ZZ6;
-  const double mEB1_5 = C5 * mF1_5 + S5 * F2_5;
-  const double EB2_5 = C5 * F2_5 - S5 * mF1_5;
+  const double T3_5_part_2 = DQ_3_DQ_3 - T3_5_part;
+  const double T3_5_part_10 = DQ_3_DQ_3 + T3_5_part;
+  const double T3_5_part_3 = -dq_1_dq_1 - T3_5_part_2;
+  const double T3_3_part_5 = W3_4 * W3_4 - mW2_5 * mW2_5 - T3_5_part_3 + dq[4] * T3_3_part_4;
+  const double T3_3_part_6 = MYR5 * T3_3_part_5;
+  const double C2_d3 = d3 * C2;
+  const double dq_2_dq_2 = dq[1] * dq[1];
+  const double T3_5_part_4 = dq_1_dq_1 + dq_2_dq_2;
+  const double T3_5_part_5 = C2_d3 * T3_5_part_4;
+  const double T3_5_part_6 = S2_d3 * dq_2_dq_2;
+  const double T3_5_part_7 = S2_3 * T3_5_part_5 - C2_3 * T3_5_part_6;
+  const double T3_5_part_11 = C2_3 * T3_5_part_5 + S2_3 * T3_5_part_6;
+  const double T3_5_part_8 = d4 * AN3_6_part_3 - r4 * T3_5_part_3 + T3_5_part_7;
+  const double T3_5_part_9 = mAVA3_3 - AN3_6_part_4 * K_r4 - AN3_6_part_8 * K_d4;
+  const double T3_5_part_12 = r4 * AN3_6_part_3 + d4 * T3_5_part_10 + T3_5_part_11;
+  const double T3_5_part_13 = S4 * T3_5_part_9 + C4 * T3_5_part_12;
+  const double mT3_4_part = S4 * T3_5_part_12 - C4 * T3_5_part_9;
+  const double T3_5_part_14 = S5 * T3_5_part_8 - C5 * T3_5_part_13;
+  const double T3_5_part_17 = mW2_5 * AN3_6_part_11;
+  const double mW2_5_plus_dq_6 = dq[5] + mW2_5;
+  const double T3_5_part_18 = ZZ6 * mW2_5_plus_dq_6;
+  const double T3_5 = AN3_6_part_11 * T3_5_part_18 - MYR5 * T3_5_part_14 - ZZR5 * T3_5_part_16
+      - XXR5 * T3_5_part_17;
+  const double T3_3_part_7 = -T3_5_part_16 - T3_5_part_17;
+  const double mT3_4_part_3 = mW2_5 * ZZR5_minus_XXR5 - T3_5_part_18;
+  const double mT3_4_part_4 = MYR5 * mT3_4_part + XXR5 * mT3_4_part_2
+      - AN3_6_part_12 * mT3_4_part_3;
+  const double T3_3_part_3 = MYR5 * mT3_4_part_2 + mW2_5 * AN3_6_part_12 * K_MYR5;
+  const double T3_3_part = C5 * mT3_4_part_4 - XXR4 * AN3_6_part_6 + S5 * mT3_4_part_5
+      + AN3_6_part_2 * ZZR4_plus_XXR4;
+  const double mT3_4_part_6 = XXR4 * AN3_6_part_9 + S5 * mT3_4_part_4 - C5 * mT3_4_part_5;
+  const double T3_3_part_8 = MYR5 * T3_3_part_7;
+  const double T3_3_part_2 = XmZ_4 * T3_5_part_15 + T3_5;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double N1_4 = ZZR4 * DV23_4 + XXR4 * WP1_4;
-  const double mN3_4 = ZZR4 * mDV13_3 + XXR4 * DV12_4;
-  const double T1_4 = C5 * T1_5 - S5 * T2_5 + N1_4;
-  const double T2_4 = XmZ_4 * DV13_4 + T3_5;
-  const double mT3_4 = S5 * T1_5 + C5 * T2_5 + mN3_4;
-  const double mEB1_4 = S4 * F3_5 + C4 * mEB1_5;
-  const double EB2_4 = C4 * F3_5 - S4 * mEB1_5;
+  const double mT3_4 = ZZR4 * AN3_6_part_8 + mT3_4_part_6;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double F1_3 = MYR3 * DV12_3 - MXR3 * mU11_3;
-  const double F2_3 = MXR3 * DV12_3 + MYR3 * U22_3;
-  const double mF3_3 = MXR3 * mU31_3 + MYR3 * mU32_3;
-  const double N1_3 = YZ3 * D23_3 + XYR3 * mU31_3 - KYY_3 * mU32_3 - MYR3 * mAVA3_3;
-  const double N2_3 = KXX_3 * mU31_3 - YZ3 * DV12_3 - XYR3 * mU32_3 + MXR3 * mAVA3_3;
-  const double N3_3 = MYR3 * mVP1_3 - XYR3 * mD12_3 + MXR3 * VP2_3 - DV12_3 * KYY_3_plus_KXX_3;
-  const double E1_3 = F1_3 - mEB1_4;
-  const double E2_3 = EB2_5 + F2_3;
-  const double E3_3 = EB2_4 - mF3_3;
-  const double T1_3 = C4 * T1_4 - S4 * T2_4 - r4 * EB2_4 + N1_3;
-  const double T2_3 = mT3_4 - d4 * EB2_4 + N2_3;
-  const double T3_3 = d4 * EB2_5 + S4 * T1_4 + C4 * T2_4 - r4 * mEB1_4 + N3_3;
-  const double EB1_3 = C2_3 * E1_3 - S2_3 * E2_3;
-  const double EB2_3 = S2_3 * E1_3 + C2_3 * E2_3;
+  const double T3_3_part_9 = C5 * T3_3_part_8 - S5 * T3_3_part_6;
+  const double T3_3_part_11 = C5 * T3_3_part_6 + S5 * T3_3_part_8;
+  const double T3_3_part_10 = S4 * T3_3_part_3 + C4 * T3_3_part_9;
+  const double AT2_2_part = C4 * T3_3_part_3 - S4 * T3_3_part_9;
+  const double AT2_2_part_2 = C4 * T3_3_part - MYR3 * mAVA3_3 - YZ3 * T3_5_part_2
+      - S4 * T3_3_part_2 - r4 * AT2_2_part - AN3_6_part_4 * K_KYY_3 - AN3_6_part_8 * K_XYR3;
+  const double AT2_2_part_3 = MXR3 * mAVA3_3 - YZ3 * AN3_6_part_3 + mT3_4_part_6 - d4 * AT2_2_part
+      + AN3_6_part_4 * K_XYR3 + AN3_6_part_8 * ZZR4_plus_K_KXX_3;
+  const double AT2_2_part_4 = AT2_2_part + AN3_6_part_4 * K_MYR3 + AN3_6_part_8 * K_MXR3;
+  const double T3_3_part_12 = T3_5_part_3 + T3_5_part_10;
+  const double T3_3 = MXR3 * T3_5_part_7 + MYR3 * T3_5_part_11 + S4 * T3_3_part + C4 * T3_3_part_2
+      - r4 * T3_3_part_10 - d4 * T3_3_part_11 - XYR3 * T3_3_part_12
+      - AN3_6_part_3 * KYY_3_plus_KXX_3;
+  const double T3_2_part_2 = MXR3 * AN3_6_part_3 + MYR3 * T3_5_part_3 - T3_3_part_11;
+  const double T3_2_part_3 = MXR3 * T3_5_part_10 - MYR3 * AN3_6_part_3 + T3_3_part_10;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double AJ_2 = XXR2 * S2 + AJ2XY_2 * C2;
-  const double AJXY_2 = C2 * AJ_2 - XY2;
-  const double AJXZ_2 = JXZ_2 * C2 - JYZ_2 * S2;
-  const double AN2_2 = ADV33_2 * AJXZ_2 - mAU32_2 * AJXY_2;
-  const double T3_2 = T3_3 - AP2_3 * EB1_3 + AP1_3 * EB2_3 - DV33_1 * AJXY_2;
-  const double AT2_2 = S2_3 * T1_3 - AP1_3 * E3_3 + C2_3 * T2_3 + P3_3 * EB1_3 + AN2_2;
+  const double S2_XXR2_plus_C2_AJ2XY_2 = XXR2 * S2 + AJ2XY_2 * C2;
+  const double T3_2_part = C2 * S2_XXR2_plus_C2_AJ2XY_2 - XY2;
+  const double S2_JYZ_2_minus_C2_JXZ_2 = JYZ_2 * S2 - JXZ_2 * C2;
+  const double T3_2_part_4 = -S2_3 * T3_2_part_2 - C2_3 * T3_2_part_3;
+  const double AT2_2 = P3_3 * T3_2_part_4 - mAVA3_3_part * T3_2_part + S2_3 * AT2_2_part_2
+      + C2_3 * AT2_2_part_3 - dq_2_dq_2 * S2_JYZ_2_minus_C2_JXZ_2 - C2_d3 * AT2_2_part_4;
+  const double T3_2_part_5 = S2_3 * T3_2_part_3 - C2_3 * T3_2_part_2;
+  const double T3_2 = T3_3 - dq_1_dq_1 * T3_2_part - S2_d3 * T3_2_part_4 - C2_d3 * T3_2_part_5;
 
   tau[0] = -AT2_2;
   tau[1] = T3_2;
   tau[2] = T3_3;
   tau[3] = -mT3_4;
   tau[4] = T3_5;
-  tau[5] = -mAN3_6;
+  tau[5] = AN3_6;
 }
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.

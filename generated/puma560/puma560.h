@@ -70,22 +70,22 @@ extern const double puma560_chi_values[];
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
- * 169 mul, 137 add, 4 sin/cos, 6 sgn.  Reads every input before writing tau. */
+ * 169 mul, 136 add, 4 sin/cos, 6 sgn.  Reads every input before writing tau. */
 void puma560_id(const double *q, const double *dq, const double *ddq, double *tau);
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
- * 157 mul, 125 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 158 mul, 123 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void puma560_id_rigid(const double *q, const double *dq, const double *ddq, double *tau);
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[6] rad   tau[6] N m, out
- * 15 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 12 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void puma560_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[6] rad   dq[6] rad/s   tau[6] N m, out
- * 136 mul, 97 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 137 mul, 95 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void puma560_coriolis(const double *q, const double *dq, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.

@@ -245,10 +245,8 @@ static SARCOS_GRLA_NOINLINE void sarcos_grla_sincos7(double x0, double x1, doubl
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
- * 190 mul, 156 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 190 mul, 152 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double *tau) {
-  const double MX1 = 3.7467; /* kg m, sarcos_grla.robot:27 */
-  const double MY1 = -3.7196; /* kg m, grouped */
   const double MX2 = 5.3212; /* kg m, sarcos_grla.robot:27 */
   const double MY2 = -78.0962; /* kg m, grouped */
   const double MX3 = -2.5465; /* kg m, sarcos_grla.robot:27 */
@@ -267,6 +265,12 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double GZ = 6.93567; /* m/s^2, sarcos_grla.robot:45 */
   const double JXZ_3 = 2.2378642;
   const double JYZ_3 = -3.43162612;
+  const double r3_MY4 = 20.3534474;
+  const double r3_MX4 = 0.40635712;
+  const double GY_MY1 = 25.797918132;
+  const double GZ_MY2 = 541.649471454;
+  const double GZ_MX2 = 36.906087204;
+  const double GY_MX1 = 25.985874789;
 
   /* sines and cosines of the joint angles */
   sarcos_grla_pack sine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
@@ -286,193 +290,158 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
   const double S7 = SARCOS_GRLA_AT(sine1, 6);
   const double C7 = SARCOS_GRLA_AT(cosine1, 6);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double VP1_1 = GY * S1;
-  const double VP2_1 = GY * C1;
-
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double W1_2 = dq[0] * S2;
-  const double W2_2 = dq[0] * C2;
-  const double WP2_2 = ddq[0] * C2 - dq[1] * W1_2;
-  const double D23_2 = W2_2 * W2_2 - dq[1] * dq[1];
-  const double U22_2 = D23_2 - dq[0] * dq[0];
-  const double U12_2 = W1_2 * W2_2 - ddq[1];
-  const double U32_2 = ddq[0] * S2 + 2.0 * dq[1] * W2_2;
-  const double VP1_2 = GZ * S2 + C2 * VP1_1;
-  const double VP2_2 = GZ * C2 - S2 * VP1_1;
+  const double S1_GY = GY * S1;
+  const double VP1_2 = GZ * S2 + C2 * S1_GY;
+  const double VP2_2 = GZ * C2 - S2 * S1_GY;
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
-  const double W3_3 = dq[2] - W2_2;
-  const double W1_3 = dq[1] * S3 + C3 * W1_2;
-  const double W2_3 = dq[1] * C3 - S3 * W1_2;
-  const double WP3_3 = ddq[2] - WP2_2;
-  const double DV12_3 = W1_3 * W2_3;
-  const double mU13_3 = C3 * U12_2 + S3 * U32_2;
-  const double U23_3 = S3 * U12_2 - C3 * U32_2;
-  const double mWP2_3 = W3_3 * W1_3 + mU13_3;
-  const double DV22_3 = W2_3 * W2_3;
-  const double DV33_3 = W3_3 * W3_3;
-  const double D23_3 = DV22_3 - DV33_3;
-  const double mU11_3 = DV22_3 + DV33_3;
-  const double U22_3 = U22_2 + D23_3;
-  const double D31_3 = U22_2 + mU11_3;
-  const double U12_3 = DV12_3 - WP3_3;
-  const double U21_3 = WP3_3 + DV12_3;
-  const double U32_3 = 2.0 * W3_3 * W2_3 - U23_3;
-  const double VP1_3 = C3 * VP1_2 - S3 * VP2_1;
-  const double mVP2_3 = C3 * VP2_1 + S3 * VP1_2;
+  const double C2_dq_1 = dq[0] * C2;
+  const double W3_3 = dq[2] - C2_dq_1;
+  const double S2_dq_1 = dq[0] * S2;
+  const double W2_3 = dq[1] * C3 - S3 * S2_dq_1;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
   const double W3_4 = dq[3] + W2_3;
-  const double W1_4 = C4 * W1_3 - S4 * W3_3;
-  const double mW2_4 = C4 * W3_3 + S4 * W1_3;
-  const double WP3_4 = ddq[3] - mWP2_3;
-  const double DV13_4 = W3_4 * W1_4;
-  const double mDV12_4 = W1_4 * mW2_4;
-  const double U13_4 = C4 * U12_3 - S4 * U32_3;
-  const double mU23_4 = S4 * U12_3 + C4 * U32_3;
-  const double WP2_4 = U13_4 - DV13_4;
-  const double DV22_4 = mW2_4 * mW2_4;
-  const double DV33_4 = W3_4 * W3_4;
-  const double D23_4 = DV22_4 - DV33_4;
-  const double mU11_4 = DV22_4 + DV33_4;
-  const double U22_4 = U22_3 + D23_4;
-  const double mU12_4 = WP3_4 + mDV12_4;
-  const double U21_4 = WP3_4 - mDV12_4;
-  const double U31_4 = DV13_4 - WP2_4;
-  const double U32_4 = mU23_4 - 2.0 * W3_4 * mW2_4;
-  const double VA1_4 = VP1_3 - r3 * mU13_3;
-  const double VA2_4 = r3 * U23_3 - mVP2_3;
-  const double VA3_4 = r3 * U22_2 - VP2_2;
-  const double VP1_4 = C4 * VA1_4 - S4 * VA3_4;
-  const double mVP2_4 = S4 * VA1_4 + C4 * VA3_4;
+  const double mW2_4_part = dq[1] * S3 + C3 * S2_dq_1;
+  const double mW2_4 = C4 * W3_3 + S4 * mW2_4_part;
+  const double WP2_4_part = ddq[1] - C2_dq_1 * S2_dq_1;
+  const double WP2_4_part_5 = ddq[2] - ddq[0] * C2 + dq[1] * S2_dq_1;
+  const double WP2_4_part_2 = ddq[0] * S2 + 2.0 * dq[1] * C2_dq_1;
+  const double mVA2_5_part_2 = dq[0] * dq[0] + dq[1] * dq[1] - C2_dq_1 * C2_dq_1;
+  const double WP2_4_part_3 = S3 * WP2_4_part + C3 * WP2_4_part_2;
+  const double WP2_5_part_2 = S3 * WP2_4_part_2 - C3 * WP2_4_part;
+  const double WP2_4_part_4 = 2.0 * W3_3 * W2_3 + WP2_4_part_3;
+  const double WP2_4_part_6 = W2_3 * mW2_4_part;
+  const double W2_3_W2_3 = W2_3 * W2_3;
+  const double WP2_4_part_7 = WP2_4_part_5 - WP2_4_part_6;
+  const double T3_2_part = WP2_4_part_5 + WP2_4_part_6;
+  const double WP2_4_part_8 = S4 * W3_3 - C4 * mW2_4_part;
+  const double WP2_5_part_3 = ddq[3] - W3_3 * mW2_4_part - WP2_5_part_2;
+  const double W3_3_W3_3 = W3_3 * W3_3;
+  const double WP2_4_part_9 = W3_4 * WP2_4_part_8;
+  const double WP2_4 = WP2_4_part_9 - S4 * WP2_4_part_4 - C4 * WP2_4_part_7;
+  const double U32_4 = C4 * WP2_4_part_4 - 2.0 * W3_4 * mW2_4 - S4 * WP2_4_part_7;
+  const double T3_2_part_2 = WP2_4_part_9 + WP2_4;
+  const double WP2_4_minus_ddq_5 = WP2_4 - ddq[4];
+  const double C1_GY = GY * C1;
+  const double VA2_4_part = S3 * VP1_2 + C3 * C1_GY;
+  const double mVA2_5_part_4 = S3 * C1_GY - C3 * VP1_2;
+  const double N3_2 = MX2 * VP2_2 - MY2 * VP1_2;
+  const double VA2_4 = -r3 * WP2_4_part_3 - VA2_4_part;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
   const double W3_5 = dq[4] + mW2_4;
-  const double W1_5 = S5 * W3_4 + C5 * W1_4;
-  const double W2_5 = C5 * W3_4 - S5 * W1_4;
-  const double WP3_5 = ddq[4] - WP2_4;
-  const double DV13_5 = W3_5 * W1_5;
-  const double DV12_5 = W1_5 * W2_5;
-  const double U13_5 = C5 * mU12_4 - S5 * U32_4;
-  const double mU23_5 = S5 * mU12_4 + C5 * U32_4;
-  const double WP2_5 = U13_5 - DV13_5;
-  const double DV22_5 = W2_5 * W2_5;
-  const double DV33_5 = W3_5 * W3_5;
-  const double D23_5 = DV22_5 - DV33_5;
-  const double mU11_5 = DV22_5 + DV33_5;
-  const double U22_5 = U22_4 + D23_5;
-  const double U12_5 = DV12_5 - WP3_5;
-  const double U21_5 = WP3_5 + DV12_5;
-  const double U31_5 = DV13_5 - WP2_5;
-  const double U32_5 = 2.0 * W3_5 * W2_5 + mU23_5;
-  const double VA1_5 = r5 * mU12_4 + VP1_4;
-  const double mVA2_5 = r5 * U22_4 + mVP2_4;
-  const double VA3_5 = VA2_4 - r5 * U32_4;
-  const double VP1_5 = C5 * VA1_5 + S5 * VA3_5;
-  const double VP2_5 = C5 * VA3_5 - S5 * VA1_5;
+  const double W2_5 = C5 * W3_4 + S5 * WP2_4_part_8;
+  const double WP2_5_part = mW2_4 * WP2_4_part_8;
+  const double WP2_5_part_5 = S5 * W3_4 - C5 * WP2_4_part_8;
+  const double W3_4_W3_4 = W3_4 * W3_4;
+  const double mW2_4_mW2_4 = mW2_4 * mW2_4;
+  const double WP2_5_part_4 = WP2_5_part - WP2_5_part_3;
+  const double T3_2_part_5 = WP2_5_part + WP2_5_part_3;
+  const double WP2_5_part_6 = W3_5 * WP2_5_part_5;
+  const double WP2_5 = -S5 * U32_4 - C5 * WP2_5_part_4 - WP2_5_part_6;
+  const double T3_2_part_4 = WP2_5 - WP2_5_part_6;
+  const double WP2_5_plus_ddq_6 = ddq[5] + WP2_5;
+  const double U32_5 = C5 * U32_4 + 2.0 * W3_5 * W2_5 - S5 * WP2_5_part_4;
+  const double mVA2_5_part = W3_3_W3_3 - W2_3_W2_3;
+  const double T3_2_part_10 = W2_3_W2_3 + W3_3_W3_3 - mVA2_5_part_2;
+  const double mVA2_5_part_3 = W3_4_W3_4 + mVA2_5_part + mVA2_5_part_2 - mW2_4_mW2_4;
+  const double T3_2_part_7 = W3_4_W3_4 + mW2_4_mW2_4;
+  const double mVA2_5_part_6 = VP2_2 + r3 * mVA2_5_part_2;
+  const double mVA2_5_part_5 = r3 * WP2_5_part_2 + mVA2_5_part_4;
+  const double mVA2_5_part_7 = S4 * mVA2_5_part_5 + C4 * mVA2_5_part_6;
+  const double AN3_7_part = S4 * mVA2_5_part_6 - C4 * mVA2_5_part_5;
+  const double mVA2_5 = -r5 * mVA2_5_part_3 - mVA2_5_part_7;
 
   /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
   const double W3_6 = dq[5] + W2_5;
-  const double W1_6 = C6 * W1_5 - S6 * W3_5;
-  const double mW2_6 = C6 * W3_5 + S6 * W1_5;
-  const double WP3_6 = ddq[5] + WP2_5;
-  const double DV13_6 = W3_6 * W1_6;
-  const double mDV12_6 = W1_6 * mW2_6;
-  const double U13_6 = C6 * U12_5 - S6 * U32_5;
-  const double mU23_6 = S6 * U12_5 + C6 * U32_5;
-  const double WP2_6 = U13_6 - DV13_6;
-  const double DV22_6 = mW2_6 * mW2_6;
-  const double DV33_6 = W3_6 * W3_6;
-  const double D23_6 = DV22_6 - DV33_6;
-  const double mU11_6 = DV22_6 + DV33_6;
-  const double U22_6 = U22_5 + D23_6;
-  const double mU12_6 = WP3_6 + mDV12_6;
-  const double U21_6 = WP3_6 - mDV12_6;
-  const double U31_6 = DV13_6 - WP2_6;
-  const double U32_6 = mU23_6 - 2.0 * W3_6 * mW2_6;
-  const double VP1_6 = C6 * VP1_5 - S6 * mVA2_5;
-  const double mVP2_6 = C6 * mVA2_5 + S6 * VP1_5;
+  const double mW2_6 = C6 * W3_5 + S6 * WP2_5_part_5;
 
   /* forward, link 7: W angular velocity, WP its derivative, VP acceleration of O7, in frame 7 */
   const double W3_7 = dq[6] + mW2_6;
-  const double WP3_7 = ddq[6] - WP2_6;
-  const double ADV33_7 = W3_7 * W3_7;
-  const double AD23_7 = DV33_6 - ADV33_7;
-  const double mAU11_7 = DV33_6 + ADV33_7;
-  const double AU22_7 = U22_6 + AD23_7;
-  const double AU12_7 = DV13_6 - WP3_7;
-  const double AU21_7 = DV13_6 + WP3_7;
-  const double AW3T_7 = 2.0 * W3_7;
-  const double AU31_7 = W1_6 * AW3T_7 - mU12_6;
-  const double AU32_7 = U32_6 + W3_6 * AW3T_7;
 
   /* backward, link 7: F force, N moment of the link about O7; E, T with the links it carries */
-  const double AMX_7 = MX7 * C7 - MY7 * S7;
-  const double AMY_7 = MX7 * S7 + MY7 * C7;
-  const double AF1_7 = AU12_7 * AMY_7 - mAU11_7 * AMX_7;
-  const double AF2_7 = AU21_7 * AMX_7 + AU22_7 * AMY_7;
-  const double AF3_7 = AU31_7 * AMX_7 + AU32_7 * AMY_7;
-  const double AN3_7 = VP2_5 * AMX_7 - VP1_6 * AMY_7;
+  const double S7_MX7_plus_C7_MY7 = MX7 * S7 + MY7 * C7;
+  const double S7_MY7_minus_C7_MX7 = MY7 * S7 - MX7 * C7;
+  const double U32_4_r5_minus_VA2_4 = r5 * U32_4 - VA2_4;
+  const double AN3_7_part_2 = AN3_7_part - r5 * WP2_5_part_4;
+  const double AN3_7_part_3 = S5 * U32_4_r5_minus_VA2_4 - C5 * AN3_7_part_2;
+  const double AN3_7_part_5 = C5 * U32_4_r5_minus_VA2_4 + S5 * AN3_7_part_2;
+  const double AN3_7_part_4 = S6 * mVA2_5 + C6 * AN3_7_part_3;
+  const double AN3_7 = S7_MX7_plus_C7_MY7 * AN3_7_part_4 + S7_MY7_minus_C7_MX7 * AN3_7_part_5;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double mF1_6 = MX6 * mU11_6 + MY6 * mU12_6;
-  const double F2_6 = MY6 * U22_6 + MX6 * U21_6;
-  const double F3_6 = MX6 * U31_6 + MY6 * U32_6;
-  const double E1_6 = AF1_7 - mF1_6;
-  const double E2_6 = F2_6 - AF3_7;
-  const double E3_6 = AF2_7 + F3_6;
-  const double T1_6 = MY6 * VP2_5 + mVP2_6 * AMY_7;
-  const double mT2_6 = MX6 * VP2_5 + AN3_7;
-  const double AMX_7_plus_MX6 = MX6 + AMX_7;
-  const double mT3_6 = MY6 * VP1_6 + mVP2_6 * AMX_7_plus_MX6;
-  const double EB1_6 = C6 * E1_6 - S6 * E2_6;
-  const double EB2_6 = S6 * E1_6 + C6 * E2_6;
+  const double mT3_6_part = MX6 - S7_MY7_minus_C7_MX7;
+  const double mT3_6_part_2 = C6 * mVA2_5 - S6 * AN3_7_part_3;
+  const double mT3_6 = mT3_6_part * mT3_6_part_2 - MY6 * AN3_7_part_4;
+  const double T3_5_part = MY6 * AN3_7_part_5 - S7_MX7_plus_C7_MY7 * mT3_6_part_2;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double F1_5 = MY5 * U12_5 - MX5 * mU11_5;
-  const double F2_5 = MY5 * U22_5 + MX5 * U21_5;
-  const double F3_5 = MX5 * U31_5 + MY5 * U32_5;
-  const double N3_5 = MX5 * VP2_5 - MY5 * VP1_5;
-  const double E1_5 = EB1_6 + F1_5;
-  const double E2_5 = E3_6 + F2_5;
-  const double E3_5 = F3_5 - EB2_6;
-  const double T1_5 = MY5 * mVA2_5 + C6 * T1_6 + S6 * mT2_6;
-  const double mT2_5 = MX5 * mVA2_5 + mT3_6;
-  const double T3_5 = C6 * mT2_6 - S6 * T1_6 + N3_5;
-  const double EB1_5 = C5 * E1_5 - S5 * E2_5;
-  const double EB2_5 = S5 * E1_5 + C5 * E2_5;
+  const double T3_5_part_2 = AN3_7 - MX6 * AN3_7_part_5;
+  const double T3_5 = MY5 * AN3_7_part_3 - MX5 * AN3_7_part_5 + S6 * T3_5_part + C6 * T3_5_part_2;
+  const double T3_4_part = C6 * T3_5_part - MY5 * mVA2_5 - S6 * T3_5_part_2;
+  const double mVA2_5_MX5_plus_mT3_6 = MX5 * mVA2_5 + mT3_6;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double mF1_4 = MX4 * mU11_4 + MY4 * mU12_4;
-  const double F2_4 = MY4 * U22_4 + MX4 * U21_4;
-  const double F3_4 = MX4 * U31_4 + MY4 * U32_4;
-  const double mN3_4 = MY4 * VP1_4 + MX4 * mVP2_4;
-  const double E1_4 = EB1_5 - mF1_4;
-  const double E2_4 = F2_4 - E3_5;
-  const double E3_4 = EB2_5 + F3_4;
-  const double T1_4 = MY4 * VA2_4 + C5 * T1_5 + S5 * mT2_5 - r5 * EB2_5;
-  const double mT2_4 = MX4 * VA2_4 + T3_5;
-  const double T3_4 = S5 * T1_5 - C5 * mT2_5 + r5 * EB1_5 - mN3_4;
-  const double EB1_4 = C4 * E1_4 - S4 * E2_4;
-
-  /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double N1_3 = JYZ_3 * D23_3 - MY3 * VP2_2 + JXZ_3 * U21_3;
-  const double N2_3 = MX3 * VP2_2 + JXZ_3 * D31_3 - JYZ_3 * U12_3;
-  const double mN3_3 = JYZ_3 * mU13_3 + JXZ_3 * U23_3 + MY3 * VP1_3 + MX3 * mVP2_3;
-  const double T1_3 = C4 * T1_4 - r3 * E3_4 + S4 * mT2_4 + N1_3;
-  const double T2_3 = T3_4 + r3 * EB1_4 + N2_3;
-  const double mT3_3 = S4 * T1_4 - C4 * mT2_4 + mN3_3;
-
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double N3_2 = MX2 * VP2_2 - MY2 * VP1_2;
-  const double mT1_2 = MY2 * VP2_1 - C3 * T1_3 + S3 * T2_3;
-  const double T2_2 = MX2 * VP2_1 + mT3_3;
-  const double T3_2 = S3 * T1_3 + C3 * T2_3 + N3_2;
+  const double T3_4_part_2 = W2_5 * WP2_5_part_5;
+  const double T3_4_part_10 = S6 * W3_5 - C6 * WP2_5_part_5;
+  const double W2_5_W2_5 = W2_5 * W2_5;
+  const double W3_5_W3_5 = W3_5 * W3_5;
+  const double T3_4_part_3 = T3_4_part_2 + WP2_4_minus_ddq_5;
+  const double T3_4_part_7 = WP2_4_minus_ddq_5 - T3_4_part_2;
+  const double T3_4_part_4 = 2.0 * W3_6;
+  const double W3_6_W3_6 = W3_6 * W3_6;
+  const double T3_4_part_5 = C6 * U32_5 + S6 * T3_4_part_3 - mW2_6 * T3_4_part_4;
+  const double T3_4_part_6 = W2_5_W2_5 - mVA2_5_part_3 - W3_5_W3_5;
+  const double T3_4_part_25 = W2_5_W2_5 + W3_5_W3_5;
+  const double W3_7_W3_7 = W3_7 * W3_7;
+  const double mW2_6_mW2_6 = mW2_6 * mW2_6;
+  const double T3_4_part_14 = mW2_6 * T3_4_part_10;
+  const double T3_4_part_8 = T3_4_part_6 + mW2_6_mW2_6;
+  const double T3_4_part_21 = mW2_6_mW2_6 + W3_6_W3_6;
+  const double T3_4_part_9 = T3_4_part_8 - W3_7_W3_7;
+  const double T3_4_part_16 = T3_4_part_8 - W3_6_W3_6;
+  const double T3_4_part_23 = W3_7_W3_7 + W3_6_W3_6;
+  const double T3_4_part_11 = S6 * U32_5 - C6 * T3_4_part_3;
+  const double T3_4_part_12 = T3_4_part_4 * T3_4_part_10 - T3_4_part_11;
+  const double T3_4_part_13 = MY6 * T3_4_part_5 - ddq[6] * S7_MY7_minus_C7_MX7 + MY5 * T3_4_part_6
+      - MX5 * T3_4_part_7 + S7_MX7_plus_C7_MY7 * T3_4_part_9 - mT3_6_part * T3_4_part_12;
+  const double T3_4_part_17 = W3_7 * T3_4_part_4 + T3_4_part_5;
+  const double T3_4_part_22 = ddq[6] + T3_4_part_11;
+  const double T3_4_part_15 = WP2_5_plus_ddq_6 + T3_4_part_14;
+  const double T3_4_part_18 = WP2_5_plus_ddq_6 - T3_4_part_14;
+  const double T3_4_part_24 = MY6 * T3_4_part_18 + MX6 * T3_4_part_21
+      + S7_MX7_plus_C7_MY7 * T3_4_part_22 - S7_MY7_minus_C7_MX7 * T3_4_part_23;
+  const double T3_4_part_19 = 2.0 * W3_7 * T3_4_part_10 + T3_4_part_18;
+  const double T3_4_part_20 = MX6 * T3_4_part_15 + MY6 * T3_4_part_16
+      - S7_MX7_plus_C7_MY7 * T3_4_part_17 - S7_MY7_minus_C7_MX7 * T3_4_part_19;
+  const double T3_2_part_6 = MY5 * U32_5 + MY4 * mVA2_5_part_3 - C6 * T3_4_part_20
+      + S6 * T3_4_part_24 - MX5 * T3_2_part_4 - MX4 * T3_2_part_5;
+  const double T3_4_part_26 = MY5 * T3_4_part_3 - S6 * T3_4_part_20 - C6 * T3_4_part_24
+      - MX5 * T3_4_part_25;
+  const double T3_4_part_27 = C5 * T3_4_part_26 - S5 * T3_4_part_13;
+  const double mT3_3_part = C5 * T3_4_part_13 + S5 * T3_4_part_26;
+  const double T3_4 = MX4 * mVA2_5_part_7 - MY4 * AN3_7_part - S5 * T3_4_part
+      - C5 * mVA2_5_MX5_plus_mT3_6 + r5 * T3_4_part_27;
+  const double mT3_3_part_2 = MY4 * VA2_4 - C5 * T3_4_part + S5 * mVA2_5_MX5_plus_mT3_6
+      - r5 * mT3_3_part;
+  const double T3_2_part_8 = MY4 * WP2_5_part_4 + T3_4_part_27 - MX4 * T3_2_part_7;
+  const double T3_2_part_9 = S4 * T3_2_part_6 + C4 * T3_2_part_8;
+  const double T3_2_part_11 = MX3 * VP2_2 + JYZ_3 * WP2_4_part_7 + T3_4 + r3 * T3_2_part_9
+      + JXZ_3 * T3_2_part_10;
+  const double VA2_4_MX4_plus_T3_5 = MX4 * VA2_4 + T3_5;
+  const double T3_2_part_3 = MY3 * VP2_2 + JYZ_3 * mVA2_5_part + r3 * mT3_3_part
+      - C4 * mT3_3_part_2 - S4 * VA2_4_MX4_plus_T3_5 - U32_4 * r3_MY4 - JXZ_3 * T3_2_part
+      - r3_MX4 * T3_2_part_2;
+  const double mT3_3 = MX3 * VA2_4_part - JXZ_3 * WP2_4_part_3 + JYZ_3 * WP2_5_part_2
+      - MY3 * mVA2_5_part_4 + S4 * mT3_3_part_2 - C4 * VA2_4_MX4_plus_T3_5;
+  const double T3_2 = N3_2 - S3 * T3_2_part_3 + C3 * T3_2_part_11;
+  const double T3_1_part_2 = C3 * T3_2_part_3 + S3 * T3_2_part_11;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = MX1 * VP2_1 - MY1 * VP1_1;
-  const double T3_1 = C2 * T2_2 - S2 * mT1_2 + N3_1;
+  const double T3_1_part = S2 * GZ_MY2 + C2 * GZ_MX2 + GY_MX1;
+  const double T3_1 = C2 * mT3_3 - S1 * GY_MY1 - C1 * T3_1_part - S2 * T3_1_part_2;
 
   tau[0] = T3_1;
   tau[1] = T3_2;
@@ -485,10 +454,8 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
- * 190 mul, 156 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 190 mul, 152 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
-  const double MX1 = 3.7467; /* kg m, sarcos_grla.robot:27 */
-  const double MY1 = -3.7196; /* kg m, grouped */
   const double MX2 = 5.3212; /* kg m, sarcos_grla.robot:27 */
   const double MY2 = -78.0962; /* kg m, grouped */
   const double MX3 = -2.5465; /* kg m, sarcos_grla.robot:27 */
@@ -507,6 +474,12 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double GZ = 6.93567; /* m/s^2, sarcos_grla.robot:45 */
   const double JXZ_3 = 2.2378642;
   const double JYZ_3 = -3.43162612;
+  const double r3_MY4 = 20.3534474;
+  const double r3_MX4 = 0.40635712;
+  const double GY_MY1 = 25.797918132;
+  const double GZ_MY2 = 541.649471454;
+  const double GZ_MX2 = 36.906087204;
+  const double GY_MX1 = 25.985874789;
 
   /* sines and cosines of the joint angles */
   sarcos_grla_pack sine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
@@ -526,193 +499,158 @@ void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, 
   const double S7 = SARCOS_GRLA_AT(sine1, 6);
   const double C7 = SARCOS_GRLA_AT(cosine1, 6);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double VP1_1 = GY * S1;
-  const double VP2_1 = GY * C1;
-
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double W1_2 = dq[0] * S2;
-  const double W2_2 = dq[0] * C2;
-  const double WP2_2 = ddq[0] * C2 - dq[1] * W1_2;
-  const double D23_2 = W2_2 * W2_2 - dq[1] * dq[1];
-  const double U22_2 = D23_2 - dq[0] * dq[0];
-  const double U12_2 = W1_2 * W2_2 - ddq[1];
-  const double U32_2 = ddq[0] * S2 + 2.0 * dq[1] * W2_2;
-  const double VP1_2 = GZ * S2 + C2 * VP1_1;
-  const double VP2_2 = GZ * C2 - S2 * VP1_1;
+  const double S1_GY = GY * S1;
+  const double VP1_2 = GZ * S2 + C2 * S1_GY;
+  const double VP2_2 = GZ * C2 - S2 * S1_GY;
 
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
-  const double W3_3 = dq[2] - W2_2;
-  const double W1_3 = dq[1] * S3 + C3 * W1_2;
-  const double W2_3 = dq[1] * C3 - S3 * W1_2;
-  const double WP3_3 = ddq[2] - WP2_2;
-  const double DV12_3 = W1_3 * W2_3;
-  const double mU13_3 = C3 * U12_2 + S3 * U32_2;
-  const double U23_3 = S3 * U12_2 - C3 * U32_2;
-  const double mWP2_3 = W3_3 * W1_3 + mU13_3;
-  const double DV22_3 = W2_3 * W2_3;
-  const double DV33_3 = W3_3 * W3_3;
-  const double D23_3 = DV22_3 - DV33_3;
-  const double mU11_3 = DV22_3 + DV33_3;
-  const double U22_3 = U22_2 + D23_3;
-  const double D31_3 = U22_2 + mU11_3;
-  const double U12_3 = DV12_3 - WP3_3;
-  const double U21_3 = WP3_3 + DV12_3;
-  const double U32_3 = 2.0 * W3_3 * W2_3 - U23_3;
-  const double VP1_3 = C3 * VP1_2 - S3 * VP2_1;
-  const double mVP2_3 = C3 * VP2_1 + S3 * VP1_2;
+  const double C2_dq_1 = dq[0] * C2;
+  const double W3_3 = dq[2] - C2_dq_1;
+  const double S2_dq_1 = dq[0] * S2;
+  const double W2_3 = dq[1] * C3 - S3 * S2_dq_1;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
   const double W3_4 = dq[3] + W2_3;
-  const double W1_4 = C4 * W1_3 - S4 * W3_3;
-  const double mW2_4 = C4 * W3_3 + S4 * W1_3;
-  const double WP3_4 = ddq[3] - mWP2_3;
-  const double DV13_4 = W3_4 * W1_4;
-  const double mDV12_4 = W1_4 * mW2_4;
-  const double U13_4 = C4 * U12_3 - S4 * U32_3;
-  const double mU23_4 = S4 * U12_3 + C4 * U32_3;
-  const double WP2_4 = U13_4 - DV13_4;
-  const double DV22_4 = mW2_4 * mW2_4;
-  const double DV33_4 = W3_4 * W3_4;
-  const double D23_4 = DV22_4 - DV33_4;
-  const double mU11_4 = DV22_4 + DV33_4;
-  const double U22_4 = U22_3 + D23_4;
-  const double mU12_4 = WP3_4 + mDV12_4;
-  const double U21_4 = WP3_4 - mDV12_4;
-  const double U31_4 = DV13_4 - WP2_4;
-  const double U32_4 = mU23_4 - 2.0 * W3_4 * mW2_4;
-  const double VA1_4 = VP1_3 - r3 * mU13_3;
-  const double VA2_4 = r3 * U23_3 - mVP2_3;
-  const double VA3_4 = r3 * U22_2 - VP2_2;
-  const double VP1_4 = C4 * VA1_4 - S4 * VA3_4;
-  const double mVP2_4 = S4 * VA1_4 + C4 * VA3_4;
+  const double mW2_4_part = dq[1] * S3 + C3 * S2_dq_1;
+  const double mW2_4 = C4 * W3_3 + S4 * mW2_4_part;
+  const double WP2_4_part = ddq[1] - C2_dq_1 * S2_dq_1;
+  const double WP2_4_part_5 = ddq[2] - ddq[0] * C2 + dq[1] * S2_dq_1;
+  const double WP2_4_part_2 = ddq[0] * S2 + 2.0 * dq[1] * C2_dq_1;
+  const double mVA2_5_part_2 = dq[0] * dq[0] + dq[1] * dq[1] - C2_dq_1 * C2_dq_1;
+  const double WP2_4_part_3 = S3 * WP2_4_part + C3 * WP2_4_part_2;
+  const double WP2_5_part_2 = S3 * WP2_4_part_2 - C3 * WP2_4_part;
+  const double WP2_4_part_4 = 2.0 * W3_3 * W2_3 + WP2_4_part_3;
+  const double WP2_4_part_6 = W2_3 * mW2_4_part;
+  const double W2_3_W2_3 = W2_3 * W2_3;
+  const double WP2_4_part_7 = WP2_4_part_5 - WP2_4_part_6;
+  const double T3_2_part = WP2_4_part_5 + WP2_4_part_6;
+  const double WP2_4_part_8 = S4 * W3_3 - C4 * mW2_4_part;
+  const double WP2_5_part_3 = ddq[3] - W3_3 * mW2_4_part - WP2_5_part_2;
+  const double W3_3_W3_3 = W3_3 * W3_3;
+  const double WP2_4_part_9 = W3_4 * WP2_4_part_8;
+  const double WP2_4 = WP2_4_part_9 - S4 * WP2_4_part_4 - C4 * WP2_4_part_7;
+  const double U32_4 = C4 * WP2_4_part_4 - 2.0 * W3_4 * mW2_4 - S4 * WP2_4_part_7;
+  const double T3_2_part_2 = WP2_4_part_9 + WP2_4;
+  const double WP2_4_minus_ddq_5 = WP2_4 - ddq[4];
+  const double C1_GY = GY * C1;
+  const double VA2_4_part = S3 * VP1_2 + C3 * C1_GY;
+  const double mVA2_5_part_4 = S3 * C1_GY - C3 * VP1_2;
+  const double N3_2 = MX2 * VP2_2 - MY2 * VP1_2;
+  const double VA2_4 = -r3 * WP2_4_part_3 - VA2_4_part;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
   const double W3_5 = dq[4] + mW2_4;
-  const double W1_5 = S5 * W3_4 + C5 * W1_4;
-  const double W2_5 = C5 * W3_4 - S5 * W1_4;
-  const double WP3_5 = ddq[4] - WP2_4;
-  const double DV13_5 = W3_5 * W1_5;
-  const double DV12_5 = W1_5 * W2_5;
-  const double U13_5 = C5 * mU12_4 - S5 * U32_4;
-  const double mU23_5 = S5 * mU12_4 + C5 * U32_4;
-  const double WP2_5 = U13_5 - DV13_5;
-  const double DV22_5 = W2_5 * W2_5;
-  const double DV33_5 = W3_5 * W3_5;
-  const double D23_5 = DV22_5 - DV33_5;
-  const double mU11_5 = DV22_5 + DV33_5;
-  const double U22_5 = U22_4 + D23_5;
-  const double U12_5 = DV12_5 - WP3_5;
-  const double U21_5 = WP3_5 + DV12_5;
-  const double U31_5 = DV13_5 - WP2_5;
-  const double U32_5 = 2.0 * W3_5 * W2_5 + mU23_5;
-  const double VA1_5 = r5 * mU12_4 + VP1_4;
-  const double mVA2_5 = r5 * U22_4 + mVP2_4;
-  const double VA3_5 = VA2_4 - r5 * U32_4;
-  const double VP1_5 = C5 * VA1_5 + S5 * VA3_5;
-  const double VP2_5 = C5 * VA3_5 - S5 * VA1_5;
+  const double W2_5 = C5 * W3_4 + S5 * WP2_4_part_8;
+  const double WP2_5_part = mW2_4 * WP2_4_part_8;
+  const double WP2_5_part_5 = S5 * W3_4 - C5 * WP2_4_part_8;
+  const double W3_4_W3_4 = W3_4 * W3_4;
+  const double mW2_4_mW2_4 = mW2_4 * mW2_4;
+  const double WP2_5_part_4 = WP2_5_part - WP2_5_part_3;
+  const double T3_2_part_5 = WP2_5_part + WP2_5_part_3;
+  const double WP2_5_part_6 = W3_5 * WP2_5_part_5;
+  const double WP2_5 = -S5 * U32_4 - C5 * WP2_5_part_4 - WP2_5_part_6;
+  const double T3_2_part_4 = WP2_5 - WP2_5_part_6;
+  const double WP2_5_plus_ddq_6 = ddq[5] + WP2_5;
+  const double U32_5 = C5 * U32_4 + 2.0 * W3_5 * W2_5 - S5 * WP2_5_part_4;
+  const double mVA2_5_part = W3_3_W3_3 - W2_3_W2_3;
+  const double T3_2_part_10 = W2_3_W2_3 + W3_3_W3_3 - mVA2_5_part_2;
+  const double mVA2_5_part_3 = W3_4_W3_4 + mVA2_5_part + mVA2_5_part_2 - mW2_4_mW2_4;
+  const double T3_2_part_7 = W3_4_W3_4 + mW2_4_mW2_4;
+  const double mVA2_5_part_6 = VP2_2 + r3 * mVA2_5_part_2;
+  const double mVA2_5_part_5 = r3 * WP2_5_part_2 + mVA2_5_part_4;
+  const double mVA2_5_part_7 = S4 * mVA2_5_part_5 + C4 * mVA2_5_part_6;
+  const double AN3_7_part = S4 * mVA2_5_part_6 - C4 * mVA2_5_part_5;
+  const double mVA2_5 = -r5 * mVA2_5_part_3 - mVA2_5_part_7;
 
   /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
   const double W3_6 = dq[5] + W2_5;
-  const double W1_6 = C6 * W1_5 - S6 * W3_5;
-  const double mW2_6 = C6 * W3_5 + S6 * W1_5;
-  const double WP3_6 = ddq[5] + WP2_5;
-  const double DV13_6 = W3_6 * W1_6;
-  const double mDV12_6 = W1_6 * mW2_6;
-  const double U13_6 = C6 * U12_5 - S6 * U32_5;
-  const double mU23_6 = S6 * U12_5 + C6 * U32_5;
-  const double WP2_6 = U13_6 - DV13_6;
-  const double DV22_6 = mW2_6 * mW2_6;
-  const double DV33_6 = W3_6 * W3_6;
-  const double D23_6 = DV22_6 - DV33_6;
-  const double mU11_6 = DV22_6 + DV33_6;
-  const double U22_6 = U22_5 + D23_6;
-  const double mU12_6 = WP3_6 + mDV12_6;
-  const double U21_6 = WP3_6 - mDV12_6;
-  const double U31_6 = DV13_6 - WP2_6;
-  const double U32_6 = mU23_6 - 2.0 * W3_6 * mW2_6;
-  const double VP1_6 = C6 * VP1_5 - S6 * mVA2_5;
-  const double mVP2_6 = C6 * mVA2_5 + S6 * VP1_5;
+  const double mW2_6 = C6 * W3_5 + S6 * WP2_5_part_5;
 
   /* forward, link 7: W angular velocity, WP its derivative, VP acceleration of O7, in frame 7 */
   const double W3_7 = dq[6] + mW2_6;
-  const double WP3_7 = ddq[6] - WP2_6;
-  const double ADV33_7 = W3_7 * W3_7;
-  const double AD23_7 = DV33_6 - ADV33_7;
-  const double mAU11_7 = DV33_6 + ADV33_7;
-  const double AU22_7 = U22_6 + AD23_7;
-  const double AU12_7 = DV13_6 - WP3_7;
-  const double AU21_7 = DV13_6 + WP3_7;
-  const double AW3T_7 = 2.0 * W3_7;
-  const double AU31_7 = W1_6 * AW3T_7 - mU12_6;
-  const double AU32_7 = U32_6 + W3_6 * AW3T_7;
 
   /* backward, link 7: F force, N moment of the link about O7; E, T with the links it carries */
-  const double AMX_7 = MX7 * C7 - MY7 * S7;
-  const double AMY_7 = MX7 * S7 + MY7 * C7;
-  const double AF1_7 = AU12_7 * AMY_7 - mAU11_7 * AMX_7;
-  const double AF2_7 = AU21_7 * AMX_7 + AU22_7 * AMY_7;
-  const double AF3_7 = AU31_7 * AMX_7 + AU32_7 * AMY_7;
-  const double AN3_7 = VP2_5 * AMX_7 - VP1_6 * AMY_7;
+  const double S7_MX7_plus_C7_MY7 = MX7 * S7 + MY7 * C7;
+  const double S7_MY7_minus_C7_MX7 = MY7 * S7 - MX7 * C7;
+  const double U32_4_r5_minus_VA2_4 = r5 * U32_4 - VA2_4;
+  const double AN3_7_part_2 = AN3_7_part - r5 * WP2_5_part_4;
+  const double AN3_7_part_3 = S5 * U32_4_r5_minus_VA2_4 - C5 * AN3_7_part_2;
+  const double AN3_7_part_5 = C5 * U32_4_r5_minus_VA2_4 + S5 * AN3_7_part_2;
+  const double AN3_7_part_4 = S6 * mVA2_5 + C6 * AN3_7_part_3;
+  const double AN3_7 = S7_MX7_plus_C7_MY7 * AN3_7_part_4 + S7_MY7_minus_C7_MX7 * AN3_7_part_5;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double mF1_6 = MX6 * mU11_6 + MY6 * mU12_6;
-  const double F2_6 = MY6 * U22_6 + MX6 * U21_6;
-  const double F3_6 = MX6 * U31_6 + MY6 * U32_6;
-  const double E1_6 = AF1_7 - mF1_6;
-  const double E2_6 = F2_6 - AF3_7;
-  const double E3_6 = AF2_7 + F3_6;
-  const double T1_6 = MY6 * VP2_5 + mVP2_6 * AMY_7;
-  const double mT2_6 = MX6 * VP2_5 + AN3_7;
-  const double AMX_7_plus_MX6 = MX6 + AMX_7;
-  const double mT3_6 = MY6 * VP1_6 + mVP2_6 * AMX_7_plus_MX6;
-  const double EB1_6 = C6 * E1_6 - S6 * E2_6;
-  const double EB2_6 = S6 * E1_6 + C6 * E2_6;
+  const double mT3_6_part = MX6 - S7_MY7_minus_C7_MX7;
+  const double mT3_6_part_2 = C6 * mVA2_5 - S6 * AN3_7_part_3;
+  const double mT3_6 = mT3_6_part * mT3_6_part_2 - MY6 * AN3_7_part_4;
+  const double T3_5_part = MY6 * AN3_7_part_5 - S7_MX7_plus_C7_MY7 * mT3_6_part_2;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double F1_5 = MY5 * U12_5 - MX5 * mU11_5;
-  const double F2_5 = MY5 * U22_5 + MX5 * U21_5;
-  const double F3_5 = MX5 * U31_5 + MY5 * U32_5;
-  const double N3_5 = MX5 * VP2_5 - MY5 * VP1_5;
-  const double E1_5 = EB1_6 + F1_5;
-  const double E2_5 = E3_6 + F2_5;
-  const double E3_5 = F3_5 - EB2_6;
-  const double T1_5 = MY5 * mVA2_5 + C6 * T1_6 + S6 * mT2_6;
-  const double mT2_5 = MX5 * mVA2_5 + mT3_6;
-  const double T3_5 = C6 * mT2_6 - S6 * T1_6 + N3_5;
-  const double EB1_5 = C5 * E1_5 - S5 * E2_5;
-  const double EB2_5 = S5 * E1_5 + C5 * E2_5;
+  const double T3_5_part_2 = AN3_7 - MX6 * AN3_7_part_5;
+  const double T3_5 = MY5 * AN3_7_part_3 - MX5 * AN3_7_part_5 + S6 * T3_5_part + C6 * T3_5_part_2;
+  const double T3_4_part = C6 * T3_5_part - MY5 * mVA2_5 - S6 * T3_5_part_2;
+  const double mVA2_5_MX5_plus_mT3_6 = MX5 * mVA2_5 + mT3_6;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double mF1_4 = MX4 * mU11_4 + MY4 * mU12_4;
-  const double F2_4 = MY4 * U22_4 + MX4 * U21_4;
-  const double F3_4 = MX4 * U31_4 + MY4 * U32_4;
-  const double mN3_4 = MY4 * VP1_4 + MX4 * mVP2_4;
-  const double E1_4 = EB1_5 - mF1_4;
-  const double E2_4 = F2_4 - E3_5;
-  const double E3_4 = EB2_5 + F3_4;
-  const double T1_4 = MY4 * VA2_4 + C5 * T1_5 + S5 * mT2_5 - r5 * EB2_5;
-  const double mT2_4 = MX4 * VA2_4 + T3_5;
-  const double T3_4 = S5 * T1_5 - C5 * mT2_5 + r5 * EB1_5 - mN3_4;
-  const double EB1_4 = C4 * E1_4 - S4 * E2_4;
-
-  /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double N1_3 = JYZ_3 * D23_3 - MY3 * VP2_2 + JXZ_3 * U21_3;
-  const double N2_3 = MX3 * VP2_2 + JXZ_3 * D31_3 - JYZ_3 * U12_3;
-  const double mN3_3 = JYZ_3 * mU13_3 + JXZ_3 * U23_3 + MY3 * VP1_3 + MX3 * mVP2_3;
-  const double T1_3 = C4 * T1_4 - r3 * E3_4 + S4 * mT2_4 + N1_3;
-  const double T2_3 = T3_4 + r3 * EB1_4 + N2_3;
-  const double mT3_3 = S4 * T1_4 - C4 * mT2_4 + mN3_3;
-
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double N3_2 = MX2 * VP2_2 - MY2 * VP1_2;
-  const double mT1_2 = MY2 * VP2_1 - C3 * T1_3 + S3 * T2_3;
-  const double T2_2 = MX2 * VP2_1 + mT3_3;
-  const double T3_2 = S3 * T1_3 + C3 * T2_3 + N3_2;
+  const double T3_4_part_2 = W2_5 * WP2_5_part_5;
+  const double T3_4_part_10 = S6 * W3_5 - C6 * WP2_5_part_5;
+  const double W2_5_W2_5 = W2_5 * W2_5;
+  const double W3_5_W3_5 = W3_5 * W3_5;
+  const double T3_4_part_3 = T3_4_part_2 + WP2_4_minus_ddq_5;
+  const double T3_4_part_7 = WP2_4_minus_ddq_5 - T3_4_part_2;
+  const double T3_4_part_4 = 2.0 * W3_6;
+  const double W3_6_W3_6 = W3_6 * W3_6;
+  const double T3_4_part_5 = C6 * U32_5 + S6 * T3_4_part_3 - mW2_6 * T3_4_part_4;
+  const double T3_4_part_6 = W2_5_W2_5 - mVA2_5_part_3 - W3_5_W3_5;
+  const double T3_4_part_25 = W2_5_W2_5 + W3_5_W3_5;
+  const double W3_7_W3_7 = W3_7 * W3_7;
+  const double mW2_6_mW2_6 = mW2_6 * mW2_6;
+  const double T3_4_part_14 = mW2_6 * T3_4_part_10;
+  const double T3_4_part_8 = T3_4_part_6 + mW2_6_mW2_6;
+  const double T3_4_part_21 = mW2_6_mW2_6 + W3_6_W3_6;
+  const double T3_4_part_9 = T3_4_part_8 - W3_7_W3_7;
+  const double T3_4_part_16 = T3_4_part_8 - W3_6_W3_6;
+  const double T3_4_part_23 = W3_7_W3_7 + W3_6_W3_6;
+  const double T3_4_part_11 = S6 * U32_5 - C6 * T3_4_part_3;
+  const double T3_4_part_12 = T3_4_part_4 * T3_4_part_10 - T3_4_part_11;
+  const double T3_4_part_13 = MY6 * T3_4_part_5 - ddq[6] * S7_MY7_minus_C7_MX7 + MY5 * T3_4_part_6
+      - MX5 * T3_4_part_7 + S7_MX7_plus_C7_MY7 * T3_4_part_9 - mT3_6_part * T3_4_part_12;
+  const double T3_4_part_17 = W3_7 * T3_4_part_4 + T3_4_part_5;
+  const double T3_4_part_22 = ddq[6] + T3_4_part_11;
+  const double T3_4_part_15 = WP2_5_plus_ddq_6 + T3_4_part_14;
+  const double T3_4_part_18 = WP2_5_plus_ddq_6 - T3_4_part_14;
+  const double T3_4_part_24 = MY6 * T3_4_part_18 + MX6 * T3_4_part_21
+      + S7_MX7_plus_C7_MY7 * T3_4_part_22 - S7_MY7_minus_C7_MX7 * T3_4_part_23;
+  const double T3_4_part_19 = 2.0 * W3_7 * T3_4_part_10 + T3_4_part_18;
+  const double T3_4_part_20 = MX6 * T3_4_part_15 + MY6 * T3_4_part_16
+      - S7_MX7_plus_C7_MY7 * T3_4_part_17 - S7_MY7_minus_C7_MX7 * T3_4_part_19;
+  const double T3_2_part_6 = MY5 * U32_5 + MY4 * mVA2_5_part_3 - C6 * T3_4_part_20
+      + S6 * T3_4_part_24 - MX5 * T3_2_part_4 - MX4 * T3_2_part_5;
+  const double T3_4_part_26 = MY5 * T3_4_part_3 - S6 * T3_4_part_20 - C6 * T3_4_part_24
+      - MX5 * T3_4_part_25;
+  const double T3_4_part_27 = C5 * T3_4_part_26 - S5 * T3_4_part_13;
+  const double mT3_3_part = C5 * T3_4_part_13 + S5 * T3_4_part_26;
+  const double T3_4 = MX4 * mVA2_5_part_7 - MY4 * AN3_7_part - S5 * T3_4_part
+      - C5 * mVA2_5_MX5_plus_mT3_6 + r5 * T3_4_part_27;
+  const double mT3_3_part_2 = MY4 * VA2_4 - C5 * T3_4_part + S5 * mVA2_5_MX5_plus_mT3_6
+      - r5 * mT3_3_part;
+  const double T3_2_part_8 = MY4 * WP2_5_part_4 + T3_4_part_27 - MX4 * T3_2_part_7;
+  const double T3_2_part_9 = S4 * T3_2_part_6 + C4 * T3_2_part_8;
+  const double T3_2_part_11 = MX3 * VP2_2 + JYZ_3 * WP2_4_part_7 + T3_4 + r3 * T3_2_part_9
+      + JXZ_3 * T3_2_part_10;
+  const double VA2_4_MX4_plus_T3_5 = MX4 * VA2_4 + T3_5;
+  const double T3_2_part_3 = MY3 * VP2_2 + JYZ_3 * mVA2_5_part + r3 * mT3_3_part
+      - C4 * mT3_3_part_2 - S4 * VA2_4_MX4_plus_T3_5 - U32_4 * r3_MY4 - JXZ_3 * T3_2_part
+      - r3_MX4 * T3_2_part_2;
+  const double mT3_3 = MX3 * VA2_4_part - JXZ_3 * WP2_4_part_3 + JYZ_3 * WP2_5_part_2
+      - MY3 * mVA2_5_part_4 + S4 * mT3_3_part_2 - C4 * VA2_4_MX4_plus_T3_5;
+  const double T3_2 = N3_2 - S3 * T3_2_part_3 + C3 * T3_2_part_11;
+  const double T3_1_part_2 = C3 * T3_2_part_3 + S3 * T3_2_part_11;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = MX1 * VP2_1 - MY1 * VP1_1;
-  const double T3_1 = C2 * T2_2 - S2 * mT1_2 + N3_1;
+  const double T3_1_part = S2 * GZ_MY2 + C2 * GZ_MX2 + GY_MX1;
+  const double T3_1 = C2 * mT3_3 - S1 * GY_MY1 - C1 * T3_1_part - S2 * T3_1_part_2;
 
   tau[0] = T3_1;
   tau[1] = T3_2;
@@ -748,7 +686,9 @@ void sarcos_grla_gravity(const double *q, double *tau) {
   sarcos_grla_pack sine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(7 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
   sarcos_grla_sincos7(q[0], q[1], q[2], q[3], q[4], q[5], q[6], sine1, cosine1);
   const double S1 = SARCOS_GRLA_AT(sine1, 0);
+  const double VP1_1 = GY * S1;
   const double C1 = SARCOS_GRLA_AT(cosine1, 0);
+  const double VP2_1 = GY * C1;
   const double S2 = SARCOS_GRLA_AT(sine1, 1);
   const double C2 = SARCOS_GRLA_AT(cosine1, 1);
   const double S3 = SARCOS_GRLA_AT(sine1, 2);
@@ -763,8 +703,6 @@ void sarcos_grla_gravity(const double *q, double *tau) {
   const double C7 = SARCOS_GRLA_AT(cosine1, 6);
 
   /* VP acceleration of a standing link, -g, in its frame */
-  const double VP1_1 = GY * S1;
-  const double VP2_1 = GY * C1;
   const double VP1_2 = GZ * S2 + C2 * VP1_1;
   const double VP2_2 = GZ * C2 - S2 * VP1_1;
   const double VP1_3 = C3 * VP1_2 - S3 * VP2_1;
@@ -779,41 +717,37 @@ void sarcos_grla_gravity(const double *q, double *tau) {
   const double AMS1_7 = MX7 * C7 - MY7 * S7;
   const double AMS2_7 = MX7 * S7 + MY7 * C7;
   const double mT3_7 = mVP2_5 * AMS1_7 + VP1_6 * AMS2_7;
+  const double MS1_6 = MX6 + AMS1_7;
+  const double MS2_5 = MY5 + AMS2_7;
 
   /* link 6: MS first moments with the links it carries */
-  const double MS1_6 = MX6 + AMS1_7;
   const double AMS1_6 = C6 * MS1_6 - MY6 * S6;
   const double AMS2_6 = MY6 * C6 + S6 * MS1_6;
   const double T3_6 = VP2_4 * AMS1_6 - VP1_5 * AMS2_6;
+  const double MS1_5 = MX5 + AMS1_6;
+  const double MS2_4 = MY4 + AMS2_6;
 
   /* link 5: MS first moments with the links it carries */
-  const double MS1_5 = MX5 + AMS1_6;
-  const double MS2_5 = MY5 + AMS2_7;
   const double AMS1_5 = C5 * MS1_5 - S5 * MS2_5;
   const double AMS2_5 = S5 * MS1_5 + C5 * MS2_5;
   const double mT3_5 = mVP2_3 * AMS1_5 + VP1_4 * AMS2_5;
+  const double MS1_4 = MX4 + AMS1_5;
+  const double MS2_3 = MY3 + AMS2_5;
 
   /* link 4: MS first moments with the links it carries */
-  const double MS1_4 = MX4 + AMS1_5;
-  const double MS2_4 = MY4 + AMS2_6;
   const double AMS1_4 = C4 * MS1_4 - S4 * MS2_4;
   const double AMS2_4 = S4 * MS1_4 + C4 * MS2_4;
   const double T3_4 = VP2_2 * AMS1_4 - VP1_3 * AMS2_4;
+  const double MS1_3 = MX3 + AMS1_4;
+  const double MS2_2 = MY2 + AMS2_4;
 
   /* link 3: MS first moments with the links it carries */
-  const double MS1_3 = MX3 + AMS1_4;
-  const double MS2_3 = MY3 + AMS2_5;
   const double AMS1_3 = C3 * MS1_3 - S3 * MS2_3;
   const double AMS2_3 = S3 * MS1_3 + C3 * MS2_3;
   const double mT3_3 = VP2_1 * AMS1_3 + VP1_2 * AMS2_3;
-
-  /* link 2: MS first moments with the links it carries */
   const double MS1_2 = MX2 + AMS1_3;
-  const double MS2_2 = MY2 + AMS2_4;
   const double AMS1_2 = C2 * MS1_2 - S2 * MS2_2;
   const double T3_2 = VP2_2 * MS1_2 - VP1_2 * MS2_2;
-
-  /* link 1: MS first moments with the links it carries */
   const double MS1_1 = MX1 + AMS1_2;
   const double MS2_1 = MY1 - AMS2_3;
   const double T3_1 = VP2_1 * MS1_1 - VP1_1 * MS2_1;
@@ -829,7 +763,7 @@ void sarcos_grla_gravity(const double *q, double *tau) {
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[7] rad   dq[7] rad/s   tau[7] N m, out
- * 167 mul, 129 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 165 mul, 125 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double MX4 = 0.4624; /* kg m, sarcos_grla.robot:27 */
   const double MY4 = -23.1605; /* kg m, grouped */
@@ -843,6 +777,8 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double r5 = 0.762; /* m, sarcos_grla.robot:22 */
   const double JXZ_3 = 2.2378642;
   const double JYZ_3 = -3.43162612;
+  const double r3_MY4 = 20.3534474;
+  const double r3_MX4 = 0.40635712;
 
   /* sines and cosines of the joint angles */
   sarcos_grla_pack sine1[(6 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK], cosine1[(6 + SARCOS_GRLA_PACK - 1) / SARCOS_GRLA_PACK];
@@ -860,173 +796,146 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double S7 = SARCOS_GRLA_AT(sine1, 5);
   const double C7 = SARCOS_GRLA_AT(cosine1, 5);
 
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double W1_2 = dq[0] * S2;
-  const double W2_2 = dq[0] * C2;
-  const double DV13_2 = dq[1] * W1_2;
-  const double DV12_2 = W1_2 * W2_2;
-  const double D23_2 = W2_2 * W2_2 - dq[1] * dq[1];
-  const double U22_2 = D23_2 - dq[0] * dq[0];
-  const double U32_2 = 2.0 * dq[1] * W2_2;
-
   /* forward, link 3: W angular velocity, WP its derivative, VP acceleration of O3, in frame 3 */
-  const double W3_3 = dq[2] - W2_2;
-  const double W1_3 = dq[1] * S3 + C3 * W1_2;
-  const double W2_3 = dq[1] * C3 - S3 * W1_2;
-  const double DV12_3 = W1_3 * W2_3;
-  const double mU13_3 = C3 * DV12_2 + S3 * U32_2;
-  const double U23_3 = S3 * DV12_2 - C3 * U32_2;
-  const double mWP2_3 = W3_3 * W1_3 + mU13_3;
-  const double DV22_3 = W2_3 * W2_3;
-  const double DV33_3 = W3_3 * W3_3;
-  const double D23_3 = DV22_3 - DV33_3;
-  const double mU11_3 = DV22_3 + DV33_3;
-  const double U22_3 = U22_2 + D23_3;
-  const double D31_3 = U22_2 + mU11_3;
-  const double U12_3 = DV12_3 - DV13_2;
-  const double U21_3 = DV13_2 + DV12_3;
-  const double U32_3 = 2.0 * W3_3 * W2_3 - U23_3;
+  const double C2_dq_1 = dq[0] * C2;
+  const double W3_3 = dq[2] - C2_dq_1;
+  const double S2_dq_1 = dq[0] * S2;
+  const double W2_3_part = S3 * S2_dq_1;
+  const double C3_dq_2 = dq[1] * C3;
+  const double W2_3 = C3_dq_2 - W2_3_part;
+  const double WP2_4_part = 2.0 * C3_dq_2 - W2_3_part;
+  const double WP2_4_part_2 = C2_dq_1 * WP2_4_part;
 
   /* forward, link 4: W angular velocity, WP its derivative, VP acceleration of O4, in frame 4 */
   const double W3_4 = dq[3] + W2_3;
-  const double W1_4 = C4 * W1_3 - S4 * W3_3;
-  const double mW2_4 = C4 * W3_3 + S4 * W1_3;
-  const double DV13_4 = W3_4 * W1_4;
-  const double mDV12_4 = W1_4 * mW2_4;
-  const double U13_4 = C4 * U12_3 - S4 * U32_3;
-  const double mU23_4 = S4 * U12_3 + C4 * U32_3;
-  const double WP2_4 = U13_4 - DV13_4;
-  const double DV22_4 = mW2_4 * mW2_4;
-  const double DV33_4 = W3_4 * W3_4;
-  const double D23_4 = DV22_4 - DV33_4;
-  const double mU11_4 = DV22_4 + DV33_4;
-  const double U22_4 = U22_3 + D23_4;
-  const double U12_4 = mWP2_3 - mDV12_4;
-  const double mU21_4 = mWP2_3 + mDV12_4;
-  const double U31_4 = DV13_4 - WP2_4;
-  const double U32_4 = mU23_4 - 2.0 * W3_4 * mW2_4;
-  const double mVA1_4 = r3 * mU13_3;
-  const double VA2_4 = r3 * U23_3;
-  const double VA3_4 = r3 * U22_2;
-  const double mVP1_4 = C4 * mVA1_4 + S4 * VA3_4;
-  const double VP2_4 = S4 * mVA1_4 - C4 * VA3_4;
+  const double S3_dq_2 = dq[1] * S3;
+  const double mW2_4_part = C3 * S2_dq_1;
+  const double WP2_4_part_4 = dq[1] * S2_dq_1;
+  const double mW2_4_part_2 = S3_dq_2 + mW2_4_part;
+  const double mWP2_5_part_2 = 2.0 * S3_dq_2 + mW2_4_part;
+  const double mWP2_5_part_3 = C2_dq_1 * mWP2_5_part_2;
+  const double VA2_5_part_2 = dq[0] * dq[0] + dq[1] * dq[1] - C2_dq_1 * C2_dq_1;
+  const double mW2_4 = C4 * W3_3 + S4 * mW2_4_part_2;
+  const double WP2_4_part_3 = 2.0 * W3_3 * W2_3 + WP2_4_part_2;
+  const double WP2_4_part_5 = W2_3 * mW2_4_part_2;
+  const double W2_3_W2_3 = W2_3 * W2_3;
+  const double WP2_4_part_6 = WP2_4_part_5 - WP2_4_part_4;
+  const double T3_2_part = WP2_4_part_4 + WP2_4_part_5;
+  const double WP2_4_part_7 = S4 * W3_3 - C4 * mW2_4_part_2;
+  const double mWP2_5_part_4 = W3_3 * mW2_4_part_2 + mWP2_5_part_3;
+  const double W3_3_W3_3 = W3_3 * W3_3;
+  const double WP2_4_part_8 = W3_4 * WP2_4_part_7;
+  const double WP2_4 = C4 * WP2_4_part_6 - S4 * WP2_4_part_3 + WP2_4_part_8;
+  const double U32_4 = C4 * WP2_4_part_3 - 2.0 * W3_4 * mW2_4 + S4 * WP2_4_part_6;
+  const double T3_2_part_2 = WP2_4_part_8 + WP2_4;
 
   /* forward, link 5: W angular velocity, WP its derivative, VP acceleration of O5, in frame 5 */
   const double W3_5 = dq[4] + mW2_4;
-  const double W1_5 = S5 * W3_4 + C5 * W1_4;
-  const double W2_5 = C5 * W3_4 - S5 * W1_4;
-  const double DV13_5 = W3_5 * W1_5;
-  const double DV12_5 = W1_5 * W2_5;
-  const double mU13_5 = C5 * U12_4 + S5 * U32_4;
-  const double U23_5 = S5 * U12_4 - C5 * U32_4;
-  const double mWP2_5 = DV13_5 + mU13_5;
-  const double DV22_5 = W2_5 * W2_5;
-  const double DV33_5 = W3_5 * W3_5;
-  const double D23_5 = DV22_5 - DV33_5;
-  const double mU11_5 = DV22_5 + DV33_5;
-  const double U22_5 = U22_4 + D23_5;
-  const double U12_5 = WP2_4 + DV12_5;
-  const double U21_5 = DV12_5 - WP2_4;
-  const double U31_5 = DV13_5 + mWP2_5;
-  const double U32_5 = 2.0 * W3_5 * W2_5 - U23_5;
-  const double mVA1_5 = r5 * U12_4 + mVP1_4;
-  const double VA2_5 = VP2_4 - r5 * U22_4;
-  const double VA3_5 = VA2_4 - r5 * U32_4;
-  const double VP1_5 = S5 * VA3_5 - C5 * mVA1_5;
-  const double VP2_5 = S5 * mVA1_5 + C5 * VA3_5;
+  const double W2_5 = C5 * W3_4 + S5 * WP2_4_part_7;
+  const double mWP2_5_part = mW2_4 * WP2_4_part_7;
+  const double mWP2_5_part_6 = S5 * W3_4 - C5 * WP2_4_part_7;
+  const double W3_4_W3_4 = W3_4 * W3_4;
+  const double mW2_4_mW2_4 = mW2_4 * mW2_4;
+  const double mWP2_5_part_5 = mWP2_5_part + mWP2_5_part_4;
+  const double T3_2_part_5 = mWP2_5_part - mWP2_5_part_4;
+  const double mWP2_5_part_7 = W3_5 * mWP2_5_part_6;
+  const double mWP2_5 = S5 * U32_4 + C5 * mWP2_5_part_5 + mWP2_5_part_7;
+  const double T3_2_part_4 = mWP2_5_part_7 + mWP2_5;
+  const double U32_5 = C5 * U32_4 + 2.0 * W3_5 * W2_5 - S5 * mWP2_5_part_5;
+  const double VA2_5_part = W3_3_W3_3 - W2_3_W2_3;
+  const double T3_2_part_10 = W3_3_W3_3 + W2_3_W2_3 - VA2_5_part_2;
+  const double VA2_5_part_3 = W3_4_W3_4 - mW2_4_mW2_4 + VA2_5_part + VA2_5_part_2;
+  const double T3_2_part_7 = W3_4_W3_4 + mW2_4_mW2_4;
+  const double VA2_5_part_5 = r3 * VA2_5_part_2;
+  const double VA2_5_part_4 = r3 * mWP2_5_part_3;
+  const double VA2_5_part_6 = S4 * VA2_5_part_4 + C4 * VA2_5_part_5;
+  const double AN3_7_part = S4 * VA2_5_part_5 - C4 * VA2_5_part_4;
+  const double VA2_5 = r5 * VA2_5_part_3 + VA2_5_part_6;
 
   /* forward, link 6: W angular velocity, WP its derivative, VP acceleration of O6, in frame 6 */
   const double W3_6 = dq[5] + W2_5;
-  const double W1_6 = C6 * W1_5 - S6 * W3_5;
-  const double mW2_6 = C6 * W3_5 + S6 * W1_5;
-  const double DV13_6 = W3_6 * W1_6;
-  const double mDV12_6 = W1_6 * mW2_6;
-  const double U13_6 = C6 * U12_5 - S6 * U32_5;
-  const double mU23_6 = S6 * U12_5 + C6 * U32_5;
-  const double WP2_6 = U13_6 - DV13_6;
-  const double DV22_6 = mW2_6 * mW2_6;
-  const double DV33_6 = W3_6 * W3_6;
-  const double D23_6 = DV22_6 - DV33_6;
-  const double mU11_6 = DV22_6 + DV33_6;
-  const double U22_6 = U22_5 + D23_6;
-  const double U12_6 = mWP2_5 - mDV12_6;
-  const double mU21_6 = mWP2_5 + mDV12_6;
-  const double U31_6 = DV13_6 - WP2_6;
-  const double U32_6 = mU23_6 - 2.0 * W3_6 * mW2_6;
-  const double VP1_6 = S6 * VA2_5 + C6 * VP1_5;
-  const double VP2_6 = C6 * VA2_5 - S6 * VP1_5;
+  const double mW2_6 = C6 * W3_5 + S6 * mWP2_5_part_6;
 
   /* forward, link 7: W angular velocity, WP its derivative, VP acceleration of O7, in frame 7 */
   const double W3_7 = dq[6] + mW2_6;
-  const double ADV33_7 = W3_7 * W3_7;
-  const double AD23_7 = DV33_6 - ADV33_7;
-  const double mAU11_7 = DV33_6 + ADV33_7;
-  const double AU22_7 = U22_6 + AD23_7;
-  const double AU12_7 = DV13_6 + WP2_6;
-  const double AW3T_7 = 2.0 * W3_7;
-  const double AU31_7 = U12_6 + W1_6 * AW3T_7;
-  const double AU32_7 = U32_6 + W3_6 * AW3T_7;
 
   /* backward, link 7: F force, N moment of the link about O7; E, T with the links it carries */
-  const double AMX_7 = MX7 * C7 - MY7 * S7;
-  const double AMY_7 = MX7 * S7 + MY7 * C7;
-  const double AF1_7 = AU12_7 * AMY_7 - mAU11_7 * AMX_7;
-  const double AF3_7 = AU31_7 * AMX_7 + AU32_7 * AMY_7;
-  const double AN3_7 = VP2_5 * AMX_7 - VP1_6 * AMY_7;
+  const double AN3_7_part_2 = r5 * mWP2_5_part_5 - AN3_7_part;
+  const double AN3_7_part_3 = r3 * WP2_4_part_2 + r5 * U32_4;
+  const double AN3_7_part_4 = S5 * AN3_7_part_2 - C5 * AN3_7_part_3;
+  const double AN3_7_part_5 = C5 * AN3_7_part_2 + S5 * AN3_7_part_3;
+  const double S7_MY7_minus_C7_MX7 = MY7 * S7 - MX7 * C7;
+  const double S7_MX7_plus_C7_MY7 = MX7 * S7 + MY7 * C7;
+  const double AN3_7_part_6 = S6 * VA2_5 - C6 * AN3_7_part_5;
+  const double AN3_7 = -AN3_7_part_4 * S7_MY7_minus_C7_MX7 - S7_MX7_plus_C7_MY7 * AN3_7_part_6;
 
   /* backward, link 6: F force, N moment of the link about O6; E, T with the links it carries */
-  const double F1_6 = MY6 * U12_6 - MX6 * mU11_6;
-  const double F2_6 = MY6 * U22_6 - MX6 * mU21_6;
-  const double E1_6 = AF1_7 + F1_6;
-  const double E2_6 = F2_6 - AF3_7;
-  const double T1_6 = MY6 * VP2_5 - VP2_6 * AMY_7;
-  const double mT2_6 = MX6 * VP2_5 + AN3_7;
-  const double AMX_7_plus_MX6 = MX6 + AMX_7;
-  const double T3_6 = VP2_6 * AMX_7_plus_MX6 - MY6 * VP1_6;
-  const double EB1_6 = C6 * E1_6 - S6 * E2_6;
-  const double EB2_6 = S6 * E1_6 + C6 * E2_6;
+  const double T3_6_part = C6 * VA2_5 + S6 * AN3_7_part_5;
+  const double T3_6_part_2 = MX6 - S7_MY7_minus_C7_MX7;
+  const double T3_6 = T3_6_part * T3_6_part_2 - MY6 * AN3_7_part_6;
+  const double T3_5_part = MY6 * AN3_7_part_4 - S7_MX7_plus_C7_MY7 * T3_6_part;
 
   /* backward, link 5: F force, N moment of the link about O5; E, T with the links it carries */
-  const double F1_5 = MY5 * U12_5 - MX5 * mU11_5;
-  const double F2_5 = MY5 * U22_5 + MX5 * U21_5;
-  const double F3_5 = MX5 * U31_5 + MY5 * U32_5;
-  const double N3_5 = MX5 * VP2_5 - MY5 * VP1_5;
-  const double E1_5 = EB1_6 + F1_5;
-  const double E2_5 = MY6 * U32_6 + AU22_7 * AMY_7 + U31_6 * AMX_7_plus_MX6 + F2_5;
-  const double E3_5 = F3_5 - EB2_6;
-  const double T1_5 = C6 * T1_6 - MY5 * VA2_5 + S6 * mT2_6;
-  const double T2_5 = MX5 * VA2_5 + T3_6;
-  const double T3_5 = C6 * mT2_6 - S6 * T1_6 + N3_5;
-  const double EB1_5 = C5 * E1_5 - S5 * E2_5;
-  const double EB2_5 = S5 * E1_5 + C5 * E2_5;
+  const double T3_5_part_2 = MX6 * AN3_7_part_4 + AN3_7;
+  const double T3_5 = MX5 * AN3_7_part_4 + MY5 * AN3_7_part_5 - S6 * T3_5_part + C6 * T3_5_part_2;
+  const double T3_4_part = C6 * T3_5_part - MY5 * VA2_5 + S6 * T3_5_part_2;
+  const double VA2_5_MX5_plus_T3_6 = MX5 * VA2_5 + T3_6;
 
   /* backward, link 4: F force, N moment of the link about O4; E, T with the links it carries */
-  const double F1_4 = MY4 * U12_4 - MX4 * mU11_4;
-  const double F2_4 = MY4 * U22_4 - MX4 * mU21_4;
-  const double F3_4 = MX4 * U31_4 + MY4 * U32_4;
-  const double N3_4 = MY4 * mVP1_4 + MX4 * VP2_4;
-  const double E1_4 = EB1_5 + F1_4;
-  const double E2_4 = F2_4 - E3_5;
-  const double E3_4 = EB2_5 + F3_4;
-  const double T1_4 = MY4 * VA2_4 + C5 * T1_5 - S5 * T2_5 - r5 * EB2_5;
-  const double mT2_4 = MX4 * VA2_4 + T3_5;
-  const double T3_4 = S5 * T1_5 + C5 * T2_5 + r5 * EB1_5 + N3_4;
-  const double EB1_4 = C4 * E1_4 - S4 * E2_4;
+  const double T3_4_part_2 = W2_5 * mWP2_5_part_6;
+  const double T3_4_part_8 = S6 * W3_5 - C6 * mWP2_5_part_6;
+  const double W3_5_W3_5 = W3_5 * W3_5;
+  const double W2_5_W2_5 = W2_5 * W2_5;
+  const double T3_4_part_3 = WP2_4 + T3_4_part_2;
+  const double T3_4_part_7 = WP2_4 - T3_4_part_2;
+  const double T3_4_part_4 = 2.0 * W3_6;
+  const double W3_6_W3_6 = W3_6 * W3_6;
+  const double T3_4_part_5 = mW2_6 * T3_4_part_4 - C6 * U32_5 - S6 * T3_4_part_3;
+  const double T3_4_part_6 = VA2_5_part_3 + W3_5_W3_5 - W2_5_W2_5;
+  const double T3_4_part_22 = W3_5_W3_5 + W2_5_W2_5;
+  const double T3_4_part_9 = S6 * U32_5 - C6 * T3_4_part_3;
+  const double T3_4_part_10 = T3_4_part_4 * T3_4_part_8 - T3_4_part_9;
+  const double T3_4_part_17 = W3_7 * T3_4_part_4 - T3_4_part_5;
+  const double W3_7_W3_7 = W3_7 * W3_7;
+  const double mW2_6_mW2_6 = mW2_6 * mW2_6;
+  const double T3_4_part_15 = mW2_6 * T3_4_part_8;
+  const double T3_4_part_11 = T3_4_part_6 - mW2_6_mW2_6;
+  const double T3_4_part_12 = W3_7_W3_7 + T3_4_part_11;
+  const double T3_4_part_13 = -MY6 * T3_4_part_5 - MY5 * T3_4_part_6 - MX5 * T3_4_part_7
+      - T3_6_part_2 * T3_4_part_10 - S7_MX7_plus_C7_MY7 * T3_4_part_12;
+  const double T3_4_part_14 = -T3_4_part_11 - W3_6_W3_6;
+  const double T3_4_part_16 = mWP2_5 - T3_4_part_15;
+  const double T3_4_part_18 = mWP2_5 + T3_4_part_15;
+  const double T3_4_part_21 = S7_MY7_minus_C7_MX7 * W3_7_W3_7 - S7_MX7_plus_C7_MY7 * T3_4_part_9
+      - MX6 * mW2_6_mW2_6 - T3_6_part_2 * W3_6_W3_6 + MY6 * T3_4_part_18;
+  const double T3_4_part_19 = 2.0 * W3_7 * T3_4_part_8 - T3_4_part_18;
+  const double T3_4_part_20 = MX6 * T3_4_part_16 - MY6 * T3_4_part_14
+      + S7_MX7_plus_C7_MY7 * T3_4_part_17 + S7_MY7_minus_C7_MX7 * T3_4_part_19;
+  const double T3_2_part_6 = MY5 * U32_5 + MY4 * VA2_5_part_3 + C6 * T3_4_part_20
+      - S6 * T3_4_part_21 + MX5 * T3_2_part_4 - MX4 * T3_2_part_5;
+  const double T3_4_part_23 = MY5 * T3_4_part_3 + S6 * T3_4_part_20 + C6 * T3_4_part_21
+      - MX5 * T3_4_part_22;
+  const double T3_4_part_24 = S5 * T3_4_part_13 - C5 * T3_4_part_23;
+  const double mT3_3_part = C5 * T3_4_part_13 + S5 * T3_4_part_23;
+  const double T3_4 = MX4 * VA2_5_part_6 - MY4 * AN3_7_part + S5 * T3_4_part
+      + C5 * VA2_5_MX5_plus_T3_6 - r5 * T3_4_part_24;
+  const double mT3_3_part_2 = S5 * VA2_5_MX5_plus_T3_6 - C5 * T3_4_part + r5 * mT3_3_part
+      - WP2_4_part_2 * r3_MY4;
+  const double T3_2_part_8 = T3_4_part_24 - MY4 * mWP2_5_part_5 + MX4 * T3_2_part_7;
+  const double T3_2_part_9 = S4 * T3_2_part_6 - C4 * T3_2_part_8;
+  const double T3_2_part_11 = T3_4 - JYZ_3 * WP2_4_part_6 + r3 * T3_2_part_9 + JXZ_3 * T3_2_part_10;
 
   /* backward, link 3: F force, N moment of the link about O3; E, T with the links it carries */
-  const double N1_3 = JYZ_3 * D23_3 + JXZ_3 * U21_3;
-  const double N2_3 = JXZ_3 * D31_3 - JYZ_3 * U12_3;
-  const double mN3_3 = JYZ_3 * mU13_3 + JXZ_3 * U23_3;
-  const double T1_3 = C4 * T1_4 - r3 * E3_4 + S4 * mT2_4 + N1_3;
-  const double T2_3 = T3_4 + r3 * EB1_4 + N2_3;
-  const double mT3_3 = S4 * T1_4 - C4 * mT2_4 + mN3_3;
+  const double mT3_3_part_3 = T3_5 - WP2_4_part_2 * r3_MX4;
+  const double T3_2_part_3 = JYZ_3 * VA2_5_part + r3 * mT3_3_part - U32_4 * r3_MY4
+      + C4 * mT3_3_part_2 - S4 * mT3_3_part_3 - JXZ_3 * T3_2_part - r3_MX4 * T3_2_part_2;
+  const double mT3_3 = JYZ_3 * mWP2_5_part_3 - JXZ_3 * WP2_4_part_2 - S4 * mT3_3_part_2
+      - C4 * mT3_3_part_3;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double T1_2 = C3 * T1_3 - S3 * T2_3;
-  const double T3_2 = S3 * T1_3 + C3 * T2_3;
-
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = C2 * mT3_3 + S2 * T1_2;
+  const double T3_2 = C3 * T3_2_part_11 - S3 * T3_2_part_3;
+  const double T3_1_part = C3 * T3_2_part_3 + S3 * T3_2_part_11;
+  const double T3_1 = C2 * mT3_3 - S2 * T3_1_part;
 
   tau[0] = T3_1;
   tau[1] = T3_2;

@@ -40,12 +40,12 @@ extern const double sarcos_grla_chi_values[];
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
- * 190 mul, 156 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 190 mul, 152 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double *tau);
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
- * 190 mul, 156 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 190 mul, 152 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, double *tau);
 
 /* tau = g(q): the torque that holds the arm still.
@@ -55,7 +55,7 @@ void sarcos_grla_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[7] rad   dq[7] rad/s   tau[7] N m, out
- * 167 mul, 129 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 165 mul, 125 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void sarcos_grla_coriolis(const double *q, const double *dq, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.

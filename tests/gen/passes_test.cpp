@@ -64,6 +64,13 @@ TEST_F(PassesTest, StandInOfOtherSignLeavesItsOtherReadsAlone) {
   expect_operations(5);  // t = c * d - b; e - t - t * a
 }
 
+TEST_F(PassesTest, OtherReadsOfASumThatIsFoundNegatedKeepTheirSign) {
+  const GiNaC::ex s = trace_.assign("s", input_[4] - input_[2] * input_[3]);
+  trace_.output("y", 0, s);
+  trace_.output("y", 1, input_[0] * s + input_[2] * input_[3] - input_[4] + input_[5]);
+  expect_operations(5);  // s = e - c * d; a * s - s + f
+}
+
 TEST_F(PassesTest, LongProductsAreSharedAcrossStatements) {
   trace_.output("y", 0, input_[0] * input_[1] * input_[2] + input_[3]);
   trace_.output("y", 1, input_[2] * input_[1] * input_[0] - input_[4]);

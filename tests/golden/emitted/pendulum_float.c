@@ -163,11 +163,7 @@ void pendulum_id(const float *q, const float *dq, const float *ddq, float *tau) 
   pendulum_pack sine1[(1 + PENDULUM_PACK - 1) / PENDULUM_PACK], cosine1[(1 + PENDULUM_PACK - 1) / PENDULUM_PACK];
   pendulum_sincos1((pendulum_angle)q[0], sine1, cosine1);
   const float S1 = (float)PENDULUM_AT(sine1, 0);
-
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
   const float AN3_1 = ZZ1 * ddq[0] - GX * S1;
-
-  /* joint torques */
   const float tau_1 = FV1 * dq[0] + AN3_1;
 
   tau[0] = tau_1;
@@ -183,8 +179,6 @@ void pendulum_gravity(const float *q, float *tau) {
   pendulum_pack sine1[(1 + PENDULUM_PACK - 1) / PENDULUM_PACK], cosine1[(1 + PENDULUM_PACK - 1) / PENDULUM_PACK];
   pendulum_sincos1((pendulum_angle)q[0], sine1, cosine1);
   const float S1 = (float)PENDULUM_AT(sine1, 0);
-
-  /* VP acceleration of a standing link, -g, in its frame */
   const float mVP2_1 = GX * S1;
 
   tau[0] = -mVP2_1;

@@ -229,7 +229,7 @@ static PLANAR2R_NOINLINE void planar2r_sincos2(double x0, double x1, planar2r_pa
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   chi[11] see enum planar2r_chi   tau[2] N m, out
- * 28 mul, 20 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
+ * 24 mul, 18 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
 void planar2r_id(const double *q, const double *dq, const double *ddq, const double *chi,
                  double *tau) {
   const double d2 = 0.5; /* m, planar2r.robot:13 */
@@ -239,40 +239,30 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, const dou
   planar2r_pack sine1[(2 + PLANAR2R_PACK - 1) / PLANAR2R_PACK], cosine1[(2 + PLANAR2R_PACK - 1) / PLANAR2R_PACK];
   planar2r_sincos2(q[0], q[1], sine1, cosine1);
   const double S1 = PLANAR2R_AT(sine1, 0);
+  const double S1_GY = GY * S1;
   const double C1 = PLANAR2R_AT(cosine1, 0);
+  const double C1_GY = GY * C1;
   const double S2 = PLANAR2R_AT(sine1, 1);
   const double C2 = PLANAR2R_AT(cosine1, 1);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-  const double VP1_1 = GY * S1;
-  const double VP2_1 = GY * C1;
-
   /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
   const double DQ_2 = dq[0] + dq[1];
-  const double WP3_2 = ddq[0] + ddq[1];
-  const double DV33_2 = DQ_2 * DQ_2;
-  const double VA1_2 = VP1_1 - d2 * DV33_1;
-  const double VA2_2 = d2 * ddq[0] + VP2_1;
-  const double VP1_2 = C2 * VA1_2 + S2 * VA2_2;
-  const double VP2_2 = C2 * VA2_2 - S2 * VA1_2;
-
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double mF1_2 = chi[PLANAR2R_MY2] * WP3_2 + chi[PLANAR2R_MX2] * DV33_2;
-  const double F2_2 = chi[PLANAR2R_MX2] * WP3_2 - chi[PLANAR2R_MY2] * DV33_2;
-  const double N3_2 = chi[PLANAR2R_ZZ2] * WP3_2 - chi[PLANAR2R_MY2] * VP1_2
-      + chi[PLANAR2R_MX2] * VP2_2;
-  const double FA2_2 = C2 * F2_2 - S2 * mF1_2;
-
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = chi[PLANAR2R_ZZR1] * ddq[0] - chi[PLANAR2R_MY1] * VP1_1
-      + chi[PLANAR2R_MXR1] * VP2_1;
-  const double T3_1 = N3_2 + d2 * FA2_2 + N3_1;
 
   /* joint torques */
-  const double tau_1 = chi[PLANAR2R_FV1] * dq[0] + chi[PLANAR2R_FS1] * planar2r_sign(dq[0]) + T3_1;
+  const double S2_MX2_plus_C2_MY2 = chi[PLANAR2R_MX2] * S2 + chi[PLANAR2R_MY2] * C2;
+  const double S2_MY2_minus_C2_MX2 = chi[PLANAR2R_MY2] * S2 - chi[PLANAR2R_MX2] * C2;
+  const double ddq_1_plus_ddq_2 = ddq[0] + ddq[1];
+  const double tau_1_part = DQ_2 * DQ_2 * S2_MX2_plus_C2_MY2
+      + ddq_1_plus_ddq_2 * S2_MY2_minus_C2_MX2;
+  const double tau_1_part_2 = d2 * dq[0] * dq[0] - S1_GY;
+  const double tau_1_part_3 = d2 * ddq[0] + C1_GY;
+  const double tau_1_part_4 = chi[PLANAR2R_ZZ2] * ddq_1_plus_ddq_2
+      + S2_MX2_plus_C2_MY2 * tau_1_part_2 - S2_MY2_minus_C2_MX2 * tau_1_part_3;
+  const double tau_1 = chi[PLANAR2R_FV1] * dq[0] + chi[PLANAR2R_FS1] * planar2r_sign(dq[0])
+      + chi[PLANAR2R_ZZR1] * ddq[0] - d2 * tau_1_part - chi[PLANAR2R_MY1] * S1_GY
+      + chi[PLANAR2R_MXR1] * C1_GY + tau_1_part_4;
   const double tau_2 = chi[PLANAR2R_FV2] * dq[1] + chi[PLANAR2R_FS2] * planar2r_sign(dq[1])
-      + chi[PLANAR2R_IA2] * ddq[1] + N3_2;
+      + chi[PLANAR2R_IA2] * ddq[1] + tau_1_part_4;
 
   tau[0] = tau_1;
   tau[1] = tau_2;
@@ -290,15 +280,11 @@ void planar2r_gravity(const double *q, const double *chi, double *tau) {
   planar2r_sincos2(q[0], Q1_2, sine1, cosine1);
   const double S1 = PLANAR2R_AT(sine1, 0);
   const double C1 = PLANAR2R_AT(cosine1, 0);
+  const double AMS1_1 = chi[PLANAR2R_MXR1] * C1 - chi[PLANAR2R_MY1] * S1;
   const double S1_2 = PLANAR2R_AT(sine1, 1);
   const double C1_2 = PLANAR2R_AT(cosine1, 1);
-
-  /* link 2: MS first moments with the links it carries */
   const double AMS1_2 = chi[PLANAR2R_MX2] * C1_2 - chi[PLANAR2R_MY2] * S1_2;
   const double T3_2 = GY * AMS1_2;
-
-  /* link 1: MS first moments with the links it carries */
-  const double AMS1_1 = chi[PLANAR2R_MXR1] * C1 - chi[PLANAR2R_MY1] * S1;
   const double T3_1 = T3_2 + GY * AMS1_1;
 
   tau[0] = T3_1;
@@ -307,7 +293,7 @@ void planar2r_gravity(const double *q, const double *chi, double *tau) {
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad   dq[2] rad/s   chi[11] see enum planar2r_chi   tau[2] N m, out
- * 7 mul, 3 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 8 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_coriolis(const double *q, const double *dq, const double *chi, double *tau) {
   const double d2 = 0.5; /* m, planar2r.robot:13 */
 
@@ -316,19 +302,16 @@ void planar2r_coriolis(const double *q, const double *dq, const double *chi, dou
   planar2r_sincos1(q[1], sine1, cosine1);
   const double S2 = PLANAR2R_AT(sine1, 0);
   const double C2 = PLANAR2R_AT(cosine1, 0);
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double DQ_2 = dq[0] + dq[1];
+  const double S2_MX2_plus_C2_MY2 = chi[PLANAR2R_MX2] * S2 + chi[PLANAR2R_MY2] * C2;
 
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double S2_MX2_plus_C2_MY2 = chi[PLANAR2R_MX2] * S2 + chi[PLANAR2R_MY2] * C2;
-  const double N3_2_part = d2 * S2_MX2_plus_C2_MY2;
-  const double N3_2 = dq[0] * dq[0] * N3_2_part;
+  const double N3_2 = d2 * dq[0] * dq[0] * S2_MX2_plus_C2_MY2;
 
   /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = N3_2 - DQ_2 * DQ_2 * N3_2_part;
+  const double dq_1_plus_dq_2_d2 = dq[0] + d2 * dq[1];
+  const double mT3_1 = dq[1] * S2_MX2_plus_C2_MY2 * dq_1_plus_dq_2_d2;
 
-  tau[0] = T3_1;
+  tau[0] = -mT3_1;
   tau[1] = N3_2;
 }
 

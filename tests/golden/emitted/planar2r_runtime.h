@@ -37,7 +37,7 @@ extern const double planar2r_chi_values[];
 /* tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler [KD02,
  * ch. 9].
  *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   chi[11] see enum planar2r_chi   tau[2] N m, out
- * 28 mul, 20 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
+ * 24 mul, 18 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
 void planar2r_id(const double *q, const double *dq, const double *ddq, const double *chi,
                  double *tau);
 
@@ -48,7 +48,7 @@ void planar2r_gravity(const double *q, const double *chi, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad   dq[2] rad/s   chi[11] see enum planar2r_chi   tau[2] N m, out
- * 7 mul, 3 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 8 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void planar2r_coriolis(const double *q, const double *dq, const double *chi, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.

@@ -203,20 +203,22 @@ static RP_NOINLINE void rp_sincos1(double x0, rp_pack *s, rp_pack *c) {
  * ch. 9].
  *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   ddq[2] rad/s^2 (m/s^2 at 1)
  *   tau[2] N m (N at 1), out
- * 24 mul, 18 add, 1 sin/cos, 2 sgn.  Reads every input before writing tau. */
+ * 18 mul, 16 add, 1 sin/cos, 2 sgn.  Reads every input before writing tau. */
 void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double ZZR1 = 1.22162646970298; /* kg m^2, grouped */
-  const double MX1 = 0.086795103; /* kg m, rp.robot:19 */
-  const double MY1 = 0.327062208; /* kg m, rp.robot:20 */
   const double FV1 = 1.6381; /* N m s/rad, rp.robot:31 */
   const double FS1 = 1.5972; /* N m, rp.robot:30 */
   const double MX2 = 1.193591871; /* kg m, rp.robot:19 */
   const double MZ2 = 1.187908904; /* kg m, rp.robot:21 */
   const double M2 = 5.6267; /* kg, rp.robot:18 */
-  const double IA2 = 0.12254; /* kg, rp.robot:29 */
   const double FV2 = 2.9324; /* N s/m, rp.robot:31 */
   const double FS2 = 1.5073; /* N, rp.robot:30 */
-  const double GY = 9.81; /* m/s^2, rp.robot:36 */
+  const double GY_M2 = 55.197927;
+  const double GY_MZ2_minus_GY_MY1 = 8.44490608776;
+  const double GY_MX2_plus_MX1 = 12.56059621494;
+  const double K_M2 = 11.2534;
+  const double K_MZ2 = 2.375817808;
+  const double M2_plus_IA2 = 5.74924;
 
   /* sines and cosines of the joint angles */
   rp_pack sine1[(1 + RP_PACK - 1) / RP_PACK], cosine1[(1 + RP_PACK - 1) / RP_PACK];
@@ -224,30 +226,18 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double S1 = RP_AT(sine1, 0);
   const double C1 = RP_AT(cosine1, 0);
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-  const double VP1_1 = GY * S1;
-  const double VP2_1 = GY * C1;
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double DQ2_2 = 2.0 * dq[1];
-  const double VA1_2 = q[1] * ddq[0] + VP1_1;
-  const double VA2_2 = q[1] * DV33_1 + VP2_1;
-  const double AVP1_2 = dq[0] * DQ2_2 + VA1_2;
-  const double AVP3_2 = ddq[1] - VA2_2;
-
-  /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = MZ2 * ddq[0] - MX2 * DV33_1 + M2 * AVP1_2;
-  const double mF3_2 = MX2 * ddq[0] + MZ2 * DV33_1 - M2 * AVP3_2;
-  const double N2_2 = MZ2 * AVP1_2 - MX2 * AVP3_2;
-
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double N3_1 = ZZR1 * ddq[0] - MY1 * VP1_1 + MX1 * VP2_1;
-  const double T3_1 = q[1] * F1_2 + N2_2 + N3_1;
-
   /* joint torques */
-  const double tau_1 = FV1 * dq[0] + FS1 * rp_sign(dq[0]) + T3_1;
-  const double tau_2 = FV2 * dq[1] + FS2 * rp_sign(dq[1]) + IA2 * ddq[1] - mF3_2;
+  const double tau_1_part = q[1] * GY_M2 + GY_MZ2_minus_GY_MY1;
+  const double q_2_K_M2_plus_K_MZ2 = q[1] * K_M2 + K_MZ2;
+  const double tau_1_part_2 = FV1 + dq[1] * q_2_K_M2_plus_K_MZ2;
+  const double q_2_M2 = M2 * q[1];
+  const double tau_1_part_3 = K_MZ2 + q_2_M2;
+  const double tau_1_part_4 = ZZR1 + q[1] * tau_1_part_3;
+  const double tau_1 = FS1 * rp_sign(dq[0]) - MX2 * ddq[1] + S1 * tau_1_part + C1 * GY_MX2_plus_MX1
+      + dq[0] * tau_1_part_2 + ddq[0] * tau_1_part_4;
+  const double tau_2_part = MZ2 + q_2_M2;
+  const double tau_2 = FV2 * dq[1] + FS2 * rp_sign(dq[1]) - MX2 * ddq[0] - C1 * GY_M2
+      - dq[0] * dq[0] * tau_2_part + ddq[1] * M2_plus_IA2;
 
   tau[0] = tau_1;
   tau[1] = tau_2;
@@ -255,13 +245,11 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad (m at 1)   tau[2] N m (N at 1), out
- * 5 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 4 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void rp_gravity(const double *q, double *tau) {
-  const double M2 = 5.6267; /* kg, rp.robot:18 */
-  const double GY = 9.81; /* m/s^2, rp.robot:36 */
-  const double MS1_1 = 1.280386974;
-  const double MZ2_minus_MY1 = 0.860846696;
   const double GY_M2 = 55.197927;
+  const double GY_MZ2_minus_MY1 = 8.44490608776;
+  const double GY_MS1_1 = 12.56059621494;
 
   /* sines and cosines of the joint angles */
   rp_pack sine1[(1 + RP_PACK - 1) / RP_PACK], cosine1[(1 + RP_PACK - 1) / RP_PACK];
@@ -270,11 +258,8 @@ void rp_gravity(const double *q, double *tau) {
   const double C1 = RP_AT(cosine1, 0);
 
   /* link 1: MS first moments with the links it carries */
-  const double mMS2_1 = M2 * q[1] + MZ2_minus_MY1;
-  const double AMS1_1 = MS1_1 * C1 + S1 * mMS2_1;
-  const double T3_1 = GY * AMS1_1;
-
-  /* joint torques */
+  const double q_2_GY_M2_plus_GY_MZ2_minus_MY1 = q[1] * GY_M2 + GY_MZ2_minus_MY1;
+  const double T3_1 = S1 * q_2_GY_M2_plus_GY_MZ2_minus_MY1 + C1 * GY_MS1_1;
   const double mtau_2 = C1 * GY_M2;
 
   tau[0] = T3_1;
@@ -283,27 +268,16 @@ void rp_gravity(const double *q, double *tau) {
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   tau[2] N m (N at 1), out
- * 11 mul, 4 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 5 mul, 1 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void rp_coriolis(const double *q, const double *dq, double *tau) {
-  const double MX2 = 1.193591871; /* kg m, rp.robot:19 */
   const double MZ2 = 1.187908904; /* kg m, rp.robot:21 */
   const double M2 = 5.6267; /* kg, rp.robot:18 */
 
-  /* forward, link 1: W angular velocity, WP its derivative, VP acceleration of O1, in frame 1 */
-  const double DV33_1 = dq[0] * dq[0];
-
-  /* forward, link 2: W angular velocity, WP its derivative, VP acceleration of O2, in frame 2 */
-  const double DQ2_2 = 2.0 * dq[1];
-  const double VA2_2 = q[1] * DV33_1;
-  const double AVP1_2 = dq[0] * DQ2_2;
-
   /* backward, link 2: F force, N moment of the link about O2; E, T with the links it carries */
-  const double F1_2 = M2 * AVP1_2 - MX2 * DV33_1;
-  const double mF3_2 = MZ2 * DV33_1 + M2 * VA2_2;
-  const double N2_2 = MX2 * VA2_2 + MZ2 * AVP1_2;
-
-  /* backward, link 1: F force, N moment of the link about O1; E, T with the links it carries */
-  const double T3_1 = q[1] * F1_2 + N2_2;
+  const double q_2_M2_plus_MZ2 = MZ2 + M2 * q[1];
+  const double mF3_2_part = dq[0] * q_2_M2_plus_MZ2;
+  const double mF3_2 = dq[0] * mF3_2_part;
+  const double T3_1 = 2.0 * dq[1] * mF3_2_part;
 
   tau[0] = T3_1;
   tau[1] = -mF3_2;

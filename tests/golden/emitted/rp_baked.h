@@ -38,17 +38,17 @@ extern const double rp_chi_values[];
  * ch. 9].
  *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   ddq[2] rad/s^2 (m/s^2 at 1)
  *   tau[2] N m (N at 1), out
- * 24 mul, 18 add, 1 sin/cos, 2 sgn.  Reads every input before writing tau. */
+ * 18 mul, 16 add, 1 sin/cos, 2 sgn.  Reads every input before writing tau. */
 void rp_id(const double *q, const double *dq, const double *ddq, double *tau);
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad (m at 1)   tau[2] N m (N at 1), out
- * 5 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 4 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void rp_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   tau[2] N m (N at 1), out
- * 11 mul, 4 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
+ * 5 mul, 1 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
 void rp_coriolis(const double *q, const double *dq, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
