@@ -58,11 +58,13 @@ function(dyngen_add_robot target)
   if(NOT EXISTS "${robot}" OR IS_DIRECTORY "${robot}")
     message(FATAL_ERROR "${where}: ROBOT: there is no file '${robot}'")
   endif()
-  set(functions id id_rigid gravity coriolis friction mass_matrix fd regressor base_regressor
-    gravity_regressor energy_regressor power)
-  set(batch_functions ${functions})
-  list(TRANSFORM batch_functions APPEND _batch)
-  _dyngen_check_choice(FUNCTIONS arg_FUNCTIONS all ${functions} ${batch_functions})
+  # fk_3 is fk of link 3; id_batch is id over many samples
+  set(functions ${arg_FUNCTIONS})
+  list(TRANSFORM functions REPLACE "_batch$" "")
+  list(TRANSFORM functions REPLACE "^(fk|jacobian)_[1-9][0-9]*$" "\\1")
+  _dyngen_check_choice(FUNCTIONS functions all id id_rigid gravity coriolis friction mass_matrix fd
+    regressor base_regressor gravity_regressor energy_regressor power
+    id_dq_pos id_dq id_ddq id_derivatives fk jacobian)
   _dyngen_check_choice(PARAMETERS arg_PARAMETERS baked runtime)
   _dyngen_check_choice(SCALAR arg_SCALAR double float)
   _dyngen_check_choice(TRIG arg_TRIG inline libm)
