@@ -9,6 +9,7 @@ dyngen_add_robot(<target> ROBOT file
   [GRAVITY file|runtime]          # default: file
   [WRENCH] [PAYLOAD]              # arguments of the functions: a wrench, a body on the last link
   [NO_REGROUP]                    # keep the standard parameters
+  [FOLD]                          # with PARAMETERS runtime: functions read what <prefix>_fold makes of chi
   [CPP_WRAPPER]                   # <target>.hpp too: the functions over Eigen's types, C++20
   [OUTPUT_DIR dir]                # in the build tree; default: dyngen/<target>
   [GENERATOR exe]                 # a program or a target that runs on this machine
@@ -31,7 +32,7 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.20...3.25)
 
 function(dyngen_add_robot target)
-  set(flags WRENCH PAYLOAD NO_REGROUP CPP_WRAPPER)
+  set(flags WRENCH PAYLOAD NO_REGROUP FOLD CPP_WRAPPER)
   set(one_value ROBOT PREFIX PARAMETERS SCALAR TRIG GRAVITY OUTPUT_DIR GENERATOR CHECKED_IN)
   cmake_parse_arguments(PARSE_ARGV 1 arg "${flags}" "${one_value}" "FUNCTIONS")
   set(where "dyngen_add_robot(${target})")

@@ -28,6 +28,7 @@ struct CodeOptions {
   bool gravity = false;  ///< gravity[3]: the base's acceleration -g in frame 0, m/s^2
   bool wrench = false;   ///< wrench[6]: on the last link
   bool payload = false;  ///< payload[10]: a body on the last link
+  bool fold = false;     ///< folded[] in place of chi[], and a function that computes it of chi
 };
 
 /// One entry of chi.
@@ -75,9 +76,14 @@ struct CodeModel {
   std::vector<bool> coordinate_revolute;
   bool takes_chi = false;  ///< the functions have an argument chi: some entry of it is read
   CodeOptions options;
+  std::vector<std::string>
+      folded;  ///< with the option fold, when functions are written: its entries
   /// The form in which the functions of the recursion are written: empty until the first of them
   /// looks for it; copies share it.
   std::shared_ptr<RneaForm> rnea_form = std::make_shared<RneaForm>();
+
+  /// The functions read folded in place of chi.
+  [[nodiscard]] bool folds() const { return options.fold && takes_chi; }
 
   [[nodiscard]] int size() const { return static_cast<int>(links.size()); }
   [[nodiscard]] const CodeLink& link(int j) const { return links[static_cast<std::size_t>(j - 1)]; }

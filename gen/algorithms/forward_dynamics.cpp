@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "gen/algorithms/determinacy.h"
 #include "gen/algorithms/frames.h"
 #include "gen/algorithms/mass_matrix.h"
 #include "gen/algorithms/rnea.h"
@@ -51,10 +52,12 @@ std::vector<ex> write_net_torque(Trace& trace, const CodeModel& code) {
 }  // namespace
 
 std::string why_no_forward_dynamics(const CodeModel& code) {
-  const std::vector<int> joints = weightless_joints(code);
-  if (joints.empty()) return {};
-  return fmt::format("joint {} moves neither mass nor rotor: its acceleration is not determined",
-                     joints.front());
+  const int joint = undetermined_joint(code);
+  if (joint == 0) return {};
+  return fmt::format(
+      "joint {}, with the joints that it carries, has a motion that moves neither "
+      "mass nor rotor: accelerations are not determined",
+      joint);
 }
 
 void write_forward_dynamics(Trace& trace, const CodeModel& code) {

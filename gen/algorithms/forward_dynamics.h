@@ -19,8 +19,8 @@ namespace dyngen {
 /// @pre why_no_forward_dynamics() is empty. Where the numbers make M singular, ddq is not finite.
 void write_forward_dynamics(Trace& trace, const CodeModel& code);
 
-/// Why a robot's accelerations are not determined: a joint moves neither mass nor rotor. Empty if
-/// they are.
+/// Why a robot's accelerations are not determined: some motion moves neither mass nor rotor. Empty
+/// if they are.
 std::string why_no_forward_dynamics(const CodeModel& code);
 
 }  // namespace dyngen

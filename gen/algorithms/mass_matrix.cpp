@@ -31,22 +31,6 @@ UpperTriangle write_mass_elements(Trace& trace, const CodeModel& code,
   return M;
 }
 
-std::vector<int> weightless_joints(const CodeModel& code) {
-  Trace trace(&code.inputs);
-  CodeModel named = code;
-  named.links = with_named_parameters(trace, code);
-  DraftLeaves leaves(trace);
-  const CompositeRobot robot(leaves, named, write_frames(trace, named));
-  Draft draft(leaves);
-  const auto elements = draft_mass_elements(draft, robot, first_choices(robot));
-  std::vector<int> result;
-  for (int j = 1; j <= code.size(); ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    if (code.link(j).coordinate >= 0 && elements[at][at].is_zero()) result.push_back(j);
-  }
-  return result;
-}
-
 void write_mass_matrix(Trace& trace, const CodeModel& code, const std::string& array) {
   const UpperTriangle M = write_mass_elements(trace, code, write_frames(trace, code));
   const std::size_t n = M.size();

@@ -20,10 +20,6 @@ using UpperTriangle = std::vector<std::vector<GiNaC::ex>>;
 UpperTriangle write_mass_elements(Trace& trace, const CodeModel& code,
                                   const std::vector<LinkFrame>& frames);
 
-/// Links whose joint moves neither mass nor rotor, so that the mass matrix is singular whatever the
-/// values of the parameters.
-std::vector<int> weightless_joints(const CodeModel& code);
-
 /// Writes an output array: n x n, row-major, both triangles (kg m^2; kg m and kg where joints are
 /// prismatic).
 void write_mass_matrix(Trace& trace, const CodeModel& code, const std::string& array);

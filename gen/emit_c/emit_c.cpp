@@ -60,6 +60,21 @@ std::string chi_enum(const CodeModel& code, const EmitOptions& options) {
   return text + "};\n";
 }
 
+/// What the functions read in place of chi.
+std::string folded_enum(const CodeModel& code, const EmitOptions& options) {
+  if (!code.folds()) return {};
+  const std::string upper = upper_case(options.prefix);
+  std::string text = fmt::format("\n#define {0}_NFOLDED {1} /* what {2}_fold() makes of chi */\n",
+                                 upper, code.folded.size(), options.prefix);
+  if (code.folded.empty()) return text;
+  text += fmt::format("\n/* Places in folded. */\nenum {}_folded {{\n", options.prefix);
+  for (std::size_t i = 0; i < code.folded.size(); ++i) {
+    text += fmt::format("  {}_{} = {}{}\n", upper, code.folded[i], i,
+                        i + 1 < code.folded.size() ? "," : "");
+  }
+  return text + "};\n";
+}
+
 std::string chi_values(const CodeModel& code, const EmitOptions& options) {
   const CSpelling spelling(options, code.inputs);
   std::string text =
@@ -121,6 +136,7 @@ std::string make_header(const CodeModel& code, const std::vector<RobotFunction>&
       "#define {0}_NBETA {3} /* base parameters */\n",
       upper, code.coordinate_names.size(), code.chi.size(), code.beta.size());
   text += chi_enum(code, options);
+  text += folded_enum(code, options);
   text += fmt::format(
       "\n/* Names, each table ends with a null pointer. */\n"
       "extern const char *const {0}_joint_names[];\nextern const char *const {0}_chi_names[];\n"

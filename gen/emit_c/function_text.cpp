@@ -32,6 +32,10 @@ std::string argument_legend(const CodeModel& code, const FunctionSpec& spec,
   const auto joints = [&](const char* revolute, const char* prismatic) {
     return array_legend(code, name, revolute, prismatic);
   };
+  if (name == "folded") {
+    return fmt::format("folded[{}] see enum {}_folded{}", argument.size(), options.prefix,
+                       argument.output ? ", out" : "");
+  }
   if (argument.output) {
     const auto output = std::find_if(spec.outputs.begin(), spec.outputs.end(),
                                      [&](const OutputSpec& entry) { return entry.array == name; });
@@ -114,7 +118,8 @@ std::string function_definition(const CodeModel& code, const RobotFunction& func
   text += body.constants() + body.statements();
   if (!text.ends_with("{\n")) text += "\n";
   for (const Argument& argument : all) {
-    if (!argument.output && !body.reads(argument.name)) {
+    const bool used = argument.output ? argument.size() > 0 : body.reads(argument.name);
+    if (!used) {
       text += fmt::format("  (void){};\n", argument.name);
     }
   }

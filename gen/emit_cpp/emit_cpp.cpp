@@ -73,6 +73,8 @@ std::string extent_text(Extent extent) {
       return "NCHI";
     case Extent::kBeta:
       return "NBETA";
+    case Extent::kFolded:
+      return "NFOLDED";
   }
   return {};
 }
@@ -86,12 +88,14 @@ OutputType output_type(const OutputSpec& output, const CodeModel& code, Scalar s
   if (output.rows == Extent::kFour && output.columns == Extent::kFour) return {"Isometry", true};
   if (output.rows == Extent::kJoints && output.columns == Extent::kOne) return {"Vector"};
   const std::string rows = extent_text(output.rows);
+  if (output.rows == Extent::kFolded) return {"Folded"};
   if (output.columns == Extent::kOne) return {fmt::format("Matrix<{}>", rows)};
   return {fmt::format("Matrix<{}, {}>", rows, extent_text(output.columns))};
 }
 
 std::string input_type(const Argument& argument, const CodeModel& code) {
   if (argument.name == "chi") return "Chi";
+  if (argument.name == "folded") return "Folded";
   const int joints = extent_size(Extent::kJoints, code);
   if (!argument.shared && argument.size() == joints && argument.name != "wrench") return "Vector";
   return fmt::format("Matrix<{}>", argument.size());
@@ -320,6 +324,12 @@ std::string emit_cpp(const CodeModel& code, const std::vector<RobotFunction>& fu
         "/// What Eigen does not take on the stack.\n"
         "using LargeMatrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, "
         "Eigen::RowMajor>;\n";
+  }
+  if (code.folds()) {
+    text += fmt::format(
+        "/// What fold() makes of chi for the other functions, in the order of enum {0}_folded.\n"
+        "inline constexpr int NFOLDED = {1}_NFOLDED;\nusing Folded = Matrix<NFOLDED>;\n",
+        options.prefix, upper_case(options.prefix));
   }
   std::vector<std::string> chi_names;
   for (const ChiEntry& entry : code.chi) chi_names.push_back(entry.name);

@@ -1,258 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gen/functions/functions.h"
 
-#include <fmt/format.h>
+#include <utility>
 
-#include <algorithm>
-#include <charconv>
-
-#include "gen/algorithms/derivatives.h"
-#include "gen/algorithms/energy.h"
-#include "gen/algorithms/forward_dynamics.h"
-#include "gen/algorithms/gravity.h"
-#include "gen/algorithms/gravity_regressor.h"
-#include "gen/algorithms/jacobian.h"
-#include "gen/algorithms/mass_matrix.h"
-#include "gen/algorithms/pose.h"
-#include "gen/algorithms/regressor.h"
-#include "gen/algorithms/rnea.h"
 #include "gen/diagnostic/assert.h"
+#include "gen/passes/fold.h"
 #include "gen/passes/optimise.h"
 #include "gen/passes/schedule.h"
 
 namespace dyngen {
 namespace {
 
-void write_id(Trace& trace, const CodeModel& code) { write_rnea(trace, code, RneaTerms{}); }
-
-void write_id_rigid(Trace& trace, const CodeModel& code) {
-  RneaTerms terms;
-  terms.friction = false;
-  write_rnea(trace, code, terms);
+/// With as few operations as the passes find, in the order that compilers like.
+Trace finished(const Trace& plain, const SearchOptions& options) {
+  Trace trace = optimised(plain, options);
+  trace.drop_dead_code();  // what cancels leaves sines behind
+  return scheduled(trace);
 }
-
-void write_coriolis(Trace& trace, const CodeModel& code) {
-  RneaTerms terms;
-  terms.motion = {.velocity = true, .acceleration = false, .gravity = false};
-  terms.rotor = terms.friction = terms.wrench = false;
-  write_rnea(trace, code, terms);
-}
-
-void write_id_dq_pos(Trace& trace, const CodeModel& code) {
-  write_derivatives(trace, code, {.position = "D"});
-}
-
-void write_id_dq(Trace& trace, const CodeModel& code) {
-  write_derivatives(trace, code, {.velocity = "D"});
-}
-
-void write_id_ddq(Trace& trace, const CodeModel& code) { write_mass_matrix(trace, code, "D"); }
-
-void write_id_derivatives(Trace& trace, const CodeModel& code) {
-  write_derivatives(trace, code, {.position = "D_q", .velocity = "D_dq", .acceleration = "D_ddq"});
-}
-
-OutputSpec joint_square(std::string_view array, std::string_view unit) {
-  return {.array = array, .columns = Extent::kJoints, .unit = unit};
-}
-
-constexpr ExtraInputs kAll = {.gravity = true, .wrench = true, .payload = true};
-
-OutputSpec joint_torque() { return {.array = "tau"}; }
 
 }  // namespace
-
-int extent_size(Extent extent, const CodeModel& code) {
-  switch (extent) {
-    case Extent::kOne:
-      return 1;
-    case Extent::kThree:
-      return 3;
-    case Extent::kFour:
-      return 4;
-    case Extent::kSix:
-      return 6;
-    case Extent::kJoints:
-      return static_cast<int>(code.coordinate_names.size());
-    case Extent::kChi:
-      return static_cast<int>(code.chi.size());
-    case Extent::kBeta:
-      return static_cast<int>(code.beta.size());
-  }
-  return 0;
-}
-
-const std::vector<FunctionSpec>& function_catalogue() {
-  static const std::vector<FunctionSpec> kCatalogue = {
-      {"id",
-       {"q", "dq", "ddq"},
-       {joint_torque()},
-       kAll,
-       "tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler "
-       "[KD02, ch. 9].",
-       write_id},
-      {"id_rigid",
-       {"q", "dq", "ddq"},
-       {joint_torque()},
-       kAll,
-       "tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.",
-       write_id_rigid},
-      {"gravity",
-       {"q"},
-       {joint_torque()},
-       {.gravity = true, .payload = true},
-       "tau = g(q): the torque that holds the arm still.",
-       write_gravity_torque},
-      {"coriolis",
-       {"q", "dq"},
-       {joint_torque()},
-       {.payload = true},
-       "tau = c(q, dq): Coriolis and centrifugal torque.",
-       write_coriolis},
-      {"friction",
-       {"dq"},
-       {joint_torque()},
-       {},
-       "tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.",
-       write_friction},
-      {"mass_matrix",
-       {"q"},
-       {{.array = "M", .rows = Extent::kJoints, .columns = Extent::kJoints, .unit = "kg m^2"}},
-       {.payload = true},
-       "M = M(q): the inertia matrix of the joints, rotor inertia on its diagonal; by composite "
-       "bodies.",
-       [](Trace& trace, const CodeModel& code) { write_mass_matrix(trace, code, "M"); }},
-      {.name = "fd",
-       .inputs = {"q", "dq", "tau"},
-       .outputs = {{.array = "ddq", .unit = "rad/s^2 (m/s^2 where a joint slides)"}},
-       .reads = kAll,
-       .summary = "ddq = M(q)^-1 (tau - c(q, dq) - g(q) - friction): forward dynamics.",
-       .write = write_forward_dynamics,
-       .why_absent = why_no_forward_dynamics},
-      {"regressor",
-       {"q", "dq", "ddq"},
-       {{.array = "Y", .columns = Extent::kChi, .unit = "torque per unit parameter"}},
-       {.gravity = true},
-       "tau = Y chi: regressor of inverse dynamics; columns of lengths are 0.",
-       write_regressor},
-      {"base_regressor",
-       {"q", "dq", "ddq"},
-       {{.array = "Y", .columns = Extent::kBeta, .unit = "torque per unit parameter"}},
-       {.gravity = true},
-       "tau = Y beta: regressor of inverse dynamics in the base parameters.",
-       write_base_regressor},
-      {"gravity_regressor",
-       {"q"},
-       {{.array = "Y", .columns = Extent::kBeta, .unit = "torque per unit parameter"}},
-       {.gravity = true},
-       "g(q) = Y beta: regressor of the torque that holds the arm still.",
-       write_gravity_regressor},
-      {"energy_regressor",
-       {"q", "dq"},
-       {{.array = "H", .rows = Extent::kBeta, .unit = "J per unit parameter"}},
-       {.gravity = true},
-       "E = H beta: kinetic and potential energy, of the rotors too; no accelerations.",
-       write_energy_regressor},
-      {"power",
-       {"dq"},
-       {{.array = "P", .rows = Extent::kBeta, .unit = "W per unit parameter"}},
-       {},
-       "P beta: power that is not stored; dq . tau = d(H beta)/dt + P beta.",
-       write_power},
-      {"id_dq_pos",
-       {"q", "dq", "ddq"},
-       {joint_square("D", "torque per rad or m")},
-       kAll,
-       "D_ij = d tau_i / d q_j: derivatives of id by the positions.",
-       write_id_dq_pos},
-      {"id_dq",
-       {"q", "dq"},
-       {joint_square("D", "torque per rad/s or m/s")},
-       {.payload = true},
-       "D_ij = d tau_i / d dq_j: derivatives of id by the velocities; sign(dq) has none.",
-       write_id_dq},
-      {"id_ddq",
-       {"q"},
-       {joint_square("D", "torque per rad/s^2 or m/s^2")},
-       {.payload = true},
-       "D_ij = d tau_i / d ddq_j: derivatives of id by the accelerations, the mass matrix.",
-       write_id_ddq},
-      {"id_derivatives",
-       {"q", "dq", "ddq"},
-       {joint_square("D_q", "torque per rad or m"), joint_square("D_dq", "torque per rad/s or m/s"),
-        joint_square("D_ddq", "torque per rad/s^2 or m/s^2")},
-       kAll,
-       "Derivatives of id by q, dq and ddq, which share much of their work: D_ij = d tau_i / d "
-       "x_j.",
-       write_id_derivatives},
-      {.name = "fk",
-       .inputs = {"q"},
-       .outputs = {{"T", Extent::kFour, Extent::kFour, "m (last column)"}},
-       .reads = {},
-       .summary = "T: pose of the link's frame in frame 0.",
-       .write_of_link = write_pose},
-      {.name = "jacobian",
-       .inputs = {"q"},
-       .outputs = {{"J", Extent::kSix, Extent::kJoints, "m, 1 (m/s, rad/s per joint rate)"}},
-       .reads = {},
-       .summary = "v = J dq: velocity vx vy vz of the link's origin and angular velocity wx wy wz, "
-                  "in the axes of frame 0.",
-       .write_of_link = write_jacobian},
-  };
-  return kCatalogue;
-}
-
-std::string FunctionName::text() const {
-  return link == 0 ? std::string(spec->name) : fmt::format("{}_{}", spec->name, link);
-}
-
-FunctionName parse_function_name(std::string_view name) {
-  for (const FunctionSpec& spec : function_catalogue()) {
-    if (spec.name == name) return {&spec, 0};
-    if (!spec.of_link() || name.size() < spec.name.size() + 2 || !name.starts_with(spec.name) ||
-        name[spec.name.size()] != '_') {
-      continue;
-    }
-    const std::string_view digits = name.substr(spec.name.size() + 1);
-    int link = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), link);
-    // the one spelling of a number: no sign, no zero in front
-    const bool whole = error == std::errc() && end == digits.data() + digits.size();
-    if (whole && digits[0] >= '1') return {&spec, link};
-  }
-  return {};
-}
-
-const FunctionSpec* find_function(std::string_view name) { return parse_function_name(name).spec; }
-
-std::string catalogue_names() {
-  std::string names;
-  for (const FunctionSpec& spec : function_catalogue()) {
-    names += (names.empty() ? "" : ", ") + std::string(spec.name);
-    if (spec.of_link()) names += fmt::format(", {}_LINK", spec.name);
-  }
-  return names;
-}
-
-std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code) {
-  std::vector<Argument> result;
-  const int joints = extent_size(Extent::kJoints, code);
-  const auto add = [&](std::string_view name, int size, bool shared) {
-    result.push_back({.name = std::string(name), .rows = size, .shared = shared});
-  };
-  for (const std::string_view name : spec.inputs) add(name, joints, false);
-  if (code.options.gravity && spec.reads.gravity) add("gravity", 3, true);
-  if (code.options.wrench && spec.reads.wrench) add("wrench", 6, false);
-  if (code.options.payload && spec.reads.payload) add("payload", kInertialCount, true);
-  if (code.takes_chi) add("chi", static_cast<int>(code.chi.size()), true);
-  for (const OutputSpec& output : spec.outputs) {
-    result.push_back({.name = std::string(output.array),
-                      .rows = extent_size(output.rows, code),
-                      .columns = extent_size(output.columns, code),
-                      .output = true});
-  }
-  return result;
-}
 
 RobotFunction write_plain_function(const FunctionName& name, const CodeModel& code) {
   const FunctionSpec& spec = *name.spec;
@@ -271,9 +37,27 @@ RobotFunction write_plain_function(const FunctionName& name, const CodeModel& co
 
 RobotFunction write_function(const FunctionName& name, const CodeModel& code,
                              const SearchOptions& options) {
-  Trace trace = optimised(write_plain_function(name, code).trace, options);
-  trace.drop_dead_code();  // what cancels leaves sines behind
-  return {.spec = name.spec, .name = name.text(), .trace = scheduled(trace)};
+  RobotFunction function = write_plain_function(name, code);
+  function.trace = finished(function.trace, options);
+  return function;
+}
+
+std::vector<RobotFunction> write_folded_functions(const std::vector<FunctionName>& names,
+                                                  CodeModel& code, const SearchOptions& options) {
+  DYNGEN_ASSERT(code.folds(), "the functions read chi");
+  std::vector<RobotFunction> functions;
+  std::vector<Trace> plain;
+  for (const FunctionName& name : names) {
+    functions.push_back(write_plain_function(name, code));
+    plain.push_back(functions.back().trace);
+  }
+  FoldedFunctions folded = fold_parameters(plain, code.inputs, options);
+  code.folded = std::move(folded.names);
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    functions[i].trace = finished(folded.functions[i], options);
+  }
+  functions.push_back({.spec = &fold_spec(), .name = "fold", .trace = std::move(folded.fold)});
+  return functions;
 }
 
 }  // namespace dyngen

@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "gen/diagnostic/diagnostic.h"
 #include "gen/emit_cpp/emit_cpp.h"
 
 namespace dyngen {
@@ -63,14 +64,15 @@ std::vector<WantedFunction> wanted_functions(const GeneratorOptions& options) {
 }
 
 /// True if the robot has no such function, and all were asked for.
-/// @throws std::invalid_argument  if it was asked for by its name
+/// @throws ModelError  if it was asked for by its name
 bool is_absent(const FunctionName& name, const CodeModel& code, const GeneratorOptions& options) {
   if (name.spec->why_absent == nullptr) return false;
   const std::string reason = name.spec->why_absent(code);
   if (reason.empty()) return false;
   for (const std::string& text : options.functions) {
     if (parse_function_name(without_batch(text)).spec != name.spec) continue;
-    throw std::invalid_argument(fmt::format("--functions: '{}': {}", text, reason));
+    throw ModelError(
+        fmt::format("{}: error: --functions: '{}': {}\n", code.file_name, text, reason));
   }
   return true;
 }
@@ -84,6 +86,10 @@ void GeneratorOptions::validate() const {
           fmt::format("--functions: unknown function '{}'; expected {}, one of them with {}, or {}",
                       name, catalogue_names(), kBatchEnding, kAllFunctions));
     }
+  }
+  if (fold && parameters != ParameterMode::kRuntime) {
+    throw std::invalid_argument(
+        "--fold: the file's numbers stand in the code already; expected --parameters runtime");
   }
   if (!prefix.empty() && !is_c_identifier(prefix)) {
     throw std::invalid_argument(fmt::format(
@@ -114,23 +120,33 @@ CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& optio
                          {.parameters = options.parameters,
                           .gravity = options.gravity,
                           .wrench = options.wrench,
-                          .payload = options.payload});
+                          .payload = options.payload,
+                          .fold = options.fold});
 }
 
-std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options) {
+std::vector<RobotFunction> write_functions(CodeModel& code, const GeneratorOptions& options) {
+  std::vector<WantedFunction> all = wanted_functions(options);
+  std::erase_if(all, [&](const auto& wanted) { return is_absent(wanted.name, code, options); });
   std::vector<RobotFunction> functions;
-  for (const WantedFunction& wanted : wanted_functions(options)) {
-    if (is_absent(wanted.name, code, options)) continue;
-    functions.push_back(write_function(wanted.name, code, options.search));
-    functions.back().scalar = wanted.scalar;
-    functions.back().batch = wanted.batch;
+  if (code.folds()) {
+    std::vector<FunctionName> names;
+    for (const WantedFunction& wanted : all) names.push_back(wanted.name);
+    functions = write_folded_functions(names, code, options.search);
+  } else {
+    for (const WantedFunction& wanted : all) {
+      functions.push_back(write_function(wanted.name, code, options.search));
+    }
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    functions[i].scalar = all[i].scalar;
+    functions[i].batch = all[i].batch;
   }
   return functions;
 }
 
 CText generate(const RobotModel& model, const GeneratorOptions& options) {
   options.validate(model);
-  const CodeModel code = make_code_model(model, options);
+  CodeModel code = make_code_model(model, options);
   EmitOptions emit;
   emit.prefix = options.prefix.empty() ? model.name : options.prefix;
   emit.scalar = options.scalar;

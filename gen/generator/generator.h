@@ -24,6 +24,7 @@ struct GeneratorOptions {
   bool gravity = false;      ///< gravity is an argument; the file's is ignored
   bool wrench = false;       ///< a wrench on the last link is an argument
   bool payload = false;      ///< the parameters of a body on the last link are an argument
+  bool fold = false;         ///< what parameters alone give is worked out in a function of its own
   bool cpp_wrapper = false;  ///< a C++ header too
   Scalar scalar = Scalar::kDouble;
   Trig trig = Trig::kInline;
@@ -44,7 +45,9 @@ SymbolicRobot make_symbolic(const RobotModel& model, const GeneratorOptions& opt
 CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& options);
 
 /// The functions of the options, in the catalogue's order.
-std::vector<RobotFunction> write_functions(const CodeModel& code, const GeneratorOptions& options);
+/// @throws ModelError  if the robot has no such function (a mass matrix that is always singular)
+/// @param code  with the option fold it gets the names of what is folded
+std::vector<RobotFunction> write_functions(CodeModel& code, const GeneratorOptions& options);
 
 /// The whole road from the checked robot to C text. @throws std::invalid_argument  as
 /// validate()

@@ -211,14 +211,14 @@ class Folding {
                        fold_.node(value[0].factors[0]).kind == Node::Kind::kInput;
     const std::string name = name_of(value);
     SymbolInfo info;
-    info.name = "folded_" + name;
+    info.name = "F_" + name;
     info.kind = SymbolKind::kParameter;
     info.array = "folded";
     info.index = static_cast<int>(entries_.size());
     info.shared = true;
     if (plain) info.unit = inputs_.info(fold_.node(value[0].factors[0]).leaf).unit;
     symbols_.push_back(inputs_.add(std::move(info)));
-    names.push_back(symbols_.back().get_name().substr(std::string("folded_").size()));
+    names.push_back(symbols_.back().get_name());
     entries_.push_back(plain ? value[0].factors[0]
                              : fold_.add({.name = name, .terms = value, .place = next_place_++}));
   }

@@ -14,7 +14,7 @@ namespace dyngen {
 struct FoldedFunctions {
   std::vector<Trace> functions;    ///< in the order in which they were given
   Trace fold;                      ///< folded from chi, once per change of the parameters
-  std::vector<std::string> names;  ///< of the entries of folded: "MX3", "ZZR3_minus_XXR3"
+  std::vector<std::string> names;  ///< of the entries of folded: "F_MX3", "F_ZZR3_minus_XXR3"
 };
 
 /// Takes all that depends on chi and numbers alone out of functions: sums and products of
@@ -24,9 +24,7 @@ struct FoldedFunctions {
 /// No function needs more operations than before. The functions are best optimised() after.
 ///
 /// @param functions  of one robot; their table of inputs is the next argument
-/// @param inputs     gets the symbols of folded, under the names with "folded_" before; must
-/// outlive
-///                   the result
+/// @param inputs     gets the symbols of folded; must outlive the result
 /// @param options    for the function fold itself
 FoldedFunctions fold_parameters(const std::vector<Trace>& functions, SymbolTable& inputs,
                                 const SearchOptions& options = {});

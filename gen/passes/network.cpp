@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -62,14 +63,14 @@ std::string constant_name(const Network& network, int id) {
   return name.empty() ? "K" : name;
 }
 
-Term term_of(Network& network, std::vector<int> rest, const ex& value, const std::string& name) {
+/// @param settled  the number of the term
+Term term_of(Network& network, std::vector<int> rest, const ex& settled, const std::string& name) {
   Term term;
   term.factors = std::move(rest);
-  if (value.is_equal(1)) return term;
-  term.negative = value.is_equal(-1);
+  if (settled.is_equal(1)) return term;
+  term.negative = settled.is_equal(-1);
   if (term.negative) return term;
   // a number and its negation are one constant
-  const ex settled = rational_or_float(value);
   term.negative = !network.constants.contains(value_key(settled)) &&
                   (network.constants.contains(value_key(-settled)) || number_sign(settled) < 0);
   const int id = network.constant(term.negative ? ex(-settled) : settled, name);
@@ -146,11 +147,15 @@ std::vector<Term> normalised(Network& network, std::vector<Term> terms) {
     ex value = 0;
     std::string name;
     bool named = false;
+    std::optional<Term> alone;  ///< the only term, if it has one constant at most
   };
   std::map<std::vector<int>, Sum> sums;
   for (const Term& term : terms) {
     const SplitTerm parts = split(network, term);
+    const bool first = !sums.contains(parts.rest);
     Sum& sum = sums[parts.rest];
+    sum.alone.reset();
+    if (first && parts.constants.size() <= 1) sum.alone = term;
     std::string name;
     for (const int id : parts.constants) {
       name += (name.empty() ? "" : "_") + constant_name(network, id);
@@ -162,6 +167,10 @@ std::vector<Term> normalised(Network& network, std::vector<Term> terms) {
   }
   std::vector<Term> result;
   for (auto& [rest, sum] : sums) {
+    if (sum.alone) {
+      result.push_back(*sum.alone);
+      continue;
+    }
     const ex value = rational_or_float(sum.value);
     if (is_zero_number(value)) continue;
     result.push_back(term_of(network, rest, value, sum.named ? sum.name : std::string()));

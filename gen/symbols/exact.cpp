@@ -20,8 +20,14 @@ GiNaC::numeric approximate(const GiNaC::ex& value) {
 
 // 60 digits less what sums of some hundred terms lose; a number that is no short fraction comes
 // within 1e-30 of one with this denominator, far from the tolerance.
-constexpr const char* kTolerance = "1/1000000000000000000000000000000000000000000";
-constexpr const char* kLargestDenominator = "1000000000000000";
+const cln::cl_RA& tolerance_of_fractions() {
+  static const cln::cl_RA kTolerance("1/1000000000000000000000000000000000000000000");
+  return kTolerance;
+}
+const cln::cl_I& largest_denominator() {
+  static const cln::cl_I kLargest("1000000000000000");
+  return kLargest;
+}
 
 std::string with_point(std::string text) {
   if (text.find_first_of(".eE") == std::string::npos) text += ".0";
@@ -55,7 +61,7 @@ int number_sign(const GiNaC::ex& value) {
 GiNaC::ex settle_number(const GiNaC::ex& value) {
   if (!GiNaC::is_a<GiNaC::numeric>(value) || value.info(GiNaC::info_flags::rational)) return value;
   const cln::cl_R number = cln::the<cln::cl_R>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N());
-  const cln::cl_R tolerance = cln::abs(number) * cln::cl_RA(kTolerance) + cln::cl_RA(kTolerance);
+  const cln::cl_R tolerance = (cln::abs(number) + 1) * tolerance_of_fractions();
   // convergents of the continued fraction
   cln::cl_R rest = number;
   cln::cl_I p0 = 0, q0 = 1, p1 = 1, q1 = 0;
@@ -67,9 +73,8 @@ GiNaC::ex settle_number(const GiNaC::ex& value) {
     q0 = q1;
     p1 = p2;
     q1 = q2;
-    if (q1 > cln::cl_I(kLargestDenominator)) return value;
-    const cln::cl_RA fraction = cln::cl_RA(p1) / q1;
-    if (cln::abs(number - fraction) < tolerance) return GiNaC::numeric(fraction);
+    if (q1 > largest_denominator()) return value;
+    if (cln::abs(number * q1 - p1) < tolerance * q1) return GiNaC::numeric(cln::cl_RA(p1) / q1);
     rest = 1 / (rest - cln::cl_R(whole));
   }
 }

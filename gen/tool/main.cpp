@@ -67,7 +67,7 @@ int run(const ToolOptions& options) {
   }
   if (options.explain) print(explain(model));
   if (options.count) {
-    const CodeModel code = make_code_model(model, options.generator);
+    CodeModel code = make_code_model(model, options.generator);
     print(count_table(code, write_functions(code, options.generator)));
   }
   return kDone;

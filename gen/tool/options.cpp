@@ -118,6 +118,10 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   bool keep_standard = false;
   app.add_flag("--no-regroup", keep_standard,
                "Keep the standard parameters; by default they are regrouped to base parameters");
+  app.add_flag(
+      "--fold", options.generator.fold,
+      "Functions read folded[] in place of chi[]: what depends on parameters alone, worked "
+      "out by one more function, fold, when chi has changed (with --parameters runtime)");
   std::string gravity = "file";
   app.add_option("--gravity", gravity,
                  "file: the file's (default); runtime: an argument gravity[3], m/s^2: the "
@@ -129,6 +133,12 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_flag("--payload", options.generator.payload,
                "An argument payload[10]: XX XY XZ YY YZ ZZ MX MY MZ M of a body on the last link, "
                "in its frame");
+  app.add_option("--search", options.generator.search.work,
+                 "How much work to spend on fewer operations, for each function (default: " +
+                     std::to_string(SearchOptions().work) +
+                     ", about half a second; 0: shared subexpressions only)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("WORK");
   app.add_flag("--cpp-wrapper", options.generator.cpp_wrapper,
                "Write a C++20 header beside the C one (.hpp): the functions over Eigen's types");
   app.add_option("--depfile", options.depfile, "Write a Make rule that names the robot file")

@@ -131,7 +131,7 @@ CountedRobot count(RobotModel model, Case which) {
     if (function.in(which)) options.functions.emplace_back(function.name);
   }
   options.parameters = which == Case::kFile ? ParameterMode::kBaked : ParameterMode::kRuntime;
-  const CodeModel code = make_code_model(model, options);
+  CodeModel code = make_code_model(model, options);
   CountedRobot result{model.name, model.coordinate_count, code.beta.size(), {}};
   for (const RobotFunction& function : write_functions(code, options)) {
     result.counts[function.spec->name] = function.trace.count();

@@ -20,7 +20,7 @@ Program id_program(const std::string& file) {
   const RobotModel model = build_model(read_robot_file(DYNGEN_SOURCE_DIR "/" + file));
   GeneratorOptions options;
   options.functions = {"id"};
-  const CodeModel code = make_code_model(model, options);
+  CodeModel code = make_code_model(model, options);
   return lower(write_functions(code, options).front().trace);
 }
 

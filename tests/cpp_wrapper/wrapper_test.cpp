@@ -17,7 +17,7 @@ namespace {
 constexpr int kBatch = 11;  // samples: no multiple of what a register holds
 
 /// The same for the batches, of kBatch samples; arrays as the C functions have them.
-std::string batch_shim_text(const CodeModel& code, const GeneratorOptions& options) {
+std::string batch_shim_text(CodeModel code, const GeneratorOptions& options) {
   std::string text;
   for (const RobotFunction& function : write_functions(code, options)) {
     if (!function.batch) continue;
@@ -59,7 +59,7 @@ std::string batch_shim_text(const CodeModel& code, const GeneratorOptions& optio
 
 /// Two C functions for each of the model's, of the same signature: wrapped_ calls the wrapper and
 /// writes its results row by row, direct_ calls the C function.
-std::string shim_text(const CodeModel& code, const GeneratorOptions& options) {
+std::string shim_text(CodeModel code, const GeneratorOptions& options) {
   std::string text =
       "#include \"model.hpp\"\n"
       "namespace {\n"
@@ -161,8 +161,10 @@ class Wrapped {
         out.emplace_back(static_cast<std::size_t>(argument.size() * samples), T(-77));
         continue;
       }
-      const std::vector<double>& values =
-          argument.name == "chi" ? chi : sample.input(argument.name);
+      const std::vector<double> folded(static_cast<std::size_t>(argument.size()), 0.7);
+      const std::vector<double>& values = argument.name == "chi"      ? chi
+                                          : argument.name == "folded" ? folded
+                                                                      : sample.input(argument.name);
       std::vector<T>& array = in.emplace_back();
       for (const double value : values) {
         for (int k = 0; k < samples; ++k) array.push_back(static_cast<T>(value + 0.1 * k));
@@ -239,6 +241,10 @@ std::vector<WrapperCase> cases() {
   arguments.functions = {kAllFunctions};  // batches too
   GeneratorOptions single;
   single.scalar = Scalar::kFloat;
+  GeneratorOptions folded;
+  folded.parameters = ParameterMode::kRuntime;
+  folded.fold = true;
+  folded.functions = {"id", "id_batch", "id_derivatives", "fk"};
   GeneratorOptions standard;
   standard.regroup = false;
   const RobotModel tree = parse_model(
@@ -248,7 +254,8 @@ std::vector<WrapperCase> cases() {
   return {pendulum(),
           {"PrismaticWithAllArguments", read_model("tests/robots/rp.robot"), arguments},
           {"PumaFloat", read_model("robots/puma560.robot"), single},
-          {"TreeOfUnknowns", tree, standard}};
+          {"TreeOfUnknowns", tree, standard},
+          {"TreeFolded", tree, folded}};
 }
 
 class CppWrapper : public testing::TestWithParam<std::tuple<WrapperCase, std::string>> {};

@@ -99,6 +99,11 @@ file(WRITE ${WORK}/large.robot "number_link 2\nd 0 1\nm 1 1e39\nZZ 1 1\ngy 9.81\
 refuse(1 "too large for float" ARGUMENTS large.robot -o out/x.c --scalar float
   SAYS "large.robot: error: ZZR1" "too large for float")
 
+# A function that the robot has not.
+file(WRITE ${WORK}/weightless.robot "number_link 2\nd 0 1\nZZ 1 0\ngy 9.81\nstop\n")
+refuse(1 "nothing moved" ARGUMENTS weightless.robot -o out/x.c --functions id,fd
+  SAYS "weightless.robot: error: --functions: 'fd': joint 2" "neither mass nor rotor")
+
 # Wrong usage: exit 2.
 file(WRITE ${WORK}/robot.c "number_link 1\nZZ 1\ngy 9.81\nstop\n")
 refuse(2 "the robot file as output" ARGUMENTS robot.c -o robot.c SAYS "same file")
@@ -118,6 +123,8 @@ refuse(2 "frame of no link" ARGUMENTS ${robot} -o out/x.c --functions id,fk_7
 refuse(2 "wrong scalar" ARGUMENTS ${robot} -o out/x.c --scalar half SAYS --scalar half double float)
 refuse(2 "wrong parameters" ARGUMENTS ${robot} -o out/x.c --parameters hot
   SAYS --parameters hot baked runtime)
+refuse(2 "nothing to fold" ARGUMENTS ${robot} -o out/x.c --fold SAYS --fold "--parameters runtime")
+refuse(2 "search backwards" ARGUMENTS ${robot} -o out/x.c --search -1 SAYS --search)
 refuse(2 "wrong trig" ARGUMENTS ${robot} -o out/x.c --trig table SAYS --trig table inline libm)
 refuse(2 "wrong prefix" ARGUMENTS ${robot} -o out/x.c --prefix 2arm SAYS --prefix "'2arm'")
 refuse(2 "wrong ending" ARGUMENTS ${robot} -o out/x.txt SAYS "out/x.txt" ".cpp")

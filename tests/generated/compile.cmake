@@ -6,7 +6,7 @@ string(REPLACE "," ";" WARNINGS "${WARNINGS}")
 foreach(parameters IN ITEMS baked runtime)
   foreach(scalar IN ITEMS double float)
     set(source ${WORK}/${parameters}_${scalar}.c)
-    run(text 0 ${DYNGEN} ${ROBOT} -o ${source} --parameters ${parameters} --scalar ${scalar})
+    run(text 0 ${DYNGEN} ${ROBOT} --search 0 -o ${source} --parameters ${parameters} --scalar ${scalar})
     foreach(compiler IN LISTS COMPILERS)
       foreach(language IN ITEMS "-std=c99" "-xc++;-std=c++20")
         # -O1: some warnings come from the optimiser's view of the code
@@ -21,7 +21,7 @@ endforeach()
 
 # The same with the sines and cosines of the C library.
 foreach(scalar IN ITEMS double float)
-  run(text 0 ${DYNGEN} ${ROBOT} -o ${WORK}/libm.c --trig libm --scalar ${scalar})
+  run(text 0 ${DYNGEN} ${ROBOT} --search 0 -o ${WORK}/libm.c --trig libm --scalar ${scalar})
   foreach(compiler IN LISTS COMPILERS)
     run(text 0 ${compiler} -std=c99 -O1 ${WARNINGS} -Werror -c ${WORK}/libm.c -o ${WORK}/code.o)
   endforeach()
@@ -29,7 +29,7 @@ endforeach()
 
 # Each function alone: nothing in the file that only the others need.
 foreach(function IN ITEMS id gravity coriolis friction)
-  run(text 0 ${DYNGEN} ${ROBOT} -o ${WORK}/alone.c --functions ${function})
+  run(text 0 ${DYNGEN} ${ROBOT} --search 0 -o ${WORK}/alone.c --functions ${function})
   foreach(compiler IN LISTS COMPILERS)
     run(text 0 ${compiler} -std=c99 ${WARNINGS} -Werror -c ${WORK}/alone.c -o ${WORK}/code.o)
   endforeach()

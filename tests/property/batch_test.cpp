@@ -34,6 +34,8 @@ std::vector<BatchCase> cases() {
   GeneratorOptions runtime = baked;
   runtime.parameters = ParameterMode::kRuntime;
   runtime.gravity = runtime.wrench = runtime.payload = true;
+  GeneratorOptions folded = few;
+  folded.fold = true;
   GeneratorOptions standard = runtime;
   standard.regroup = false;
   GeneratorOptions single = baked, single_runtime = runtime, libm = baked;
@@ -47,6 +49,7 @@ std::vector<BatchCase> cases() {
           {"scara_float", "robots/scara.robot", single, plain},
           {"rp_float_runtime", "tests/robots/rp.robot", single_runtime, plain},
           {"puma560_runtime", "robots/puma560.robot", few, plain},
+          {"puma560_folded", "robots/puma560.robot", folded, plain},
           {"sarcos_avx2", "robots/sarcos_grla.robot", few, avx},
           {"scara_float_avx2", "robots/scara.robot", single, avx}};
 }
@@ -82,6 +85,7 @@ class BatchModel {
     const std::string scalar = options.scalar == Scalar::kDouble ? "double" : "float";
     std::string calls;
     for (const RobotFunction& function : functions_) {
+      if (!function.batch) continue;
       const std::size_t count = arguments(*function.spec, code_).size();
       calls += fmt::format(
           "\nvoid call_{0}(size_t n, {1} **a);\nvoid call_{0}_batch(size_t n, {1} **a);\n"
@@ -129,6 +133,7 @@ void compare(const BatchModel& model, const std::vector<double>& chi) {
   std::mt19937_64 random(17);
   constexpr T kUntouched = T(-77.25);
   for (const RobotFunction& function : model.functions()) {
+    if (!function.batch) continue;
     const std::vector<Argument> all = arguments(*function.spec, model.code());
     for (const std::size_t n : kSampleCounts) {
       SCOPED_TRACE(fmt::format("{}, {} samples", function.spec->name, n));

@@ -3,6 +3,7 @@
 // program computes, in single precision too.
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,10 @@ std::vector<CatalogueCase> cases() {
   arguments.gravity = arguments.wrench = arguments.payload = true;
   GeneratorOptions standard = arguments;
   standard.regroup = false;
-  return {{"puma560_baked", "robots/puma560.robot", baked},
+  GeneratorOptions folded = runtime;
+  folded.fold = true;
+  return {{"scara_folded", "robots/scara.robot", folded},
+          {"puma560_baked", "robots/puma560.robot", baked},
           {"panda_runtime", "robots/panda.robot", runtime},
           {"rp_baked", "tests/robots/rp.robot", baked},
           {"stanford_arguments", "robots/stanford.robot", arguments},
@@ -70,6 +74,55 @@ TEST_P(Catalogue, SinglePrecisionAgreesToSinglePrecision) {
     if (spec.name != "fd") options.functions.emplace_back(spec.name);
   }
   expect_equal(options, 1e-4);
+}
+
+TEST(Folding, GivesTheSameNumbersWithFewerOperations) {
+  for (const char* robot : {"robots/panda.robot", "robots/scara.robot", "tests/robots/rp.robot"}) {
+    const RobotModel model = read_model(robot);
+    for (const bool arguments : {false, true}) {
+      GeneratorOptions options;
+      options.parameters = ParameterMode::kRuntime;
+      options.gravity = options.wrench = options.payload = arguments;
+      GeneratorOptions fold = options;
+      fold.fold = true;
+      const RobotModel values = with_random_values(model, 3);
+      const EvaluatedModel plain(model, values, options), folded(model, values, fold);
+      EXPECT_EQ(folded.functions().back().name, "fold");
+      for (const RobotFunction& function : plain.functions()) {
+        for (const OutputSpec& output : function.spec->outputs) {
+          RelativeError error;
+          error.add(1e-3, 1e-3);
+          for (const MotionSample& sample : random_samples(model.coordinate_count, 5, 9)) {
+            const std::string array(output.array);
+            error.add(folded.call(function.name, sample, array),
+                      plain.call(function.name, sample, array));
+          }
+          EXPECT_LT(error.value(), 1e-9) << robot << " " << function.name;
+        }
+      }
+      EXPECT_LE(folded.count("id").total(), plain.count("id").total()) << robot;
+      EXPECT_GT(folded.count("fold").total(), 0) << robot;
+    }
+  }
+}
+
+TEST(Folding, OfNumbersInTheCodeIsRefused) {
+  GeneratorOptions options;
+  options.fold = true;
+  EXPECT_THROW(options.validate(), std::invalid_argument);
+}
+
+TEST(Folding, OfFunctionsThatReadNoParameterMakesAnEmptyArray) {
+  GeneratorOptions options;
+  options.fold = true;
+  options.parameters = ParameterMode::kRuntime;
+  options.functions = {"fk"};
+  const CText text = generate(read_model("robots/planar2r.robot"), options);
+  EXPECT_NE(text.header.find("#define PLANAR2R_NFOLDED 0"), std::string::npos);
+  EXPECT_NE(text.source.find("void planar2r_fold(const double *chi, double *folded) {\n"
+                             "  (void)chi;\n  (void)folded;\n}"),
+            std::string::npos)
+      << text.source;
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, Catalogue, testing::ValuesIn(cases()),

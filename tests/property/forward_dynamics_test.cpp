@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "gen/algorithms/determinacy.h"
+#include "gen/diagnostic/diagnostic.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/physical_robot.h"
 #include "tests/support/relative_error.h"
@@ -122,27 +124,39 @@ TEST(ForwardDynamics, DividesOnceForEachJoint) {
   GeneratorOptions options;
   options.functions = {"fd"};
   options.parameters = ParameterMode::kRuntime;
-  const CodeModel code = make_code_model(model, options);
+  CodeModel code = make_code_model(model, options);
   EXPECT_EQ(write_functions(code, options)[0].trace.count().divisions, 6);
 }
 
 TEST(ForwardDynamics, RobotWithAJointThatMovesNothingHasNone) {
   RobotModel model = read_model("robots/planar2r.robot");
+  model.file_name = "planar2r.robot";
   for (Quantity& parameter : model.joints[1].chi) parameter = Quantity{};
   const auto functions_of = [&](const std::vector<std::string>& functions) {
     GeneratorOptions options;
     options.functions = functions;
-    return write_functions(make_code_model(model, options), options);
+    CodeModel code = make_code_model(model, options);
+    return write_functions(code, options);
   };
   for (const RobotFunction& function : functions_of({})) EXPECT_NE(function.name, "fd");
   try {
     functions_of({"id", "fd"});
     FAIL() << "no message";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "--functions: 'fd': joint 2 moves neither mass nor rotor: its acceleration is not "
-                 "determined");
+  } catch (const ModelError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "planar2r.robot: error: --functions: 'fd': joint 2, with the joints that it carries, has "
+        "a motion that moves neither mass nor rotor: accelerations are not determined\n");
   }
+}
+
+TEST(ForwardDynamics, RobotWithAMotionThatMovesNothingHasNone) {
+  // two slides along one direction, and a mass on the second alone
+  const RobotModel model = parse_model("NUMBER_LINK 2\nsigma 1 1\nd 0 0.3\nm 0 2\ngz 9.81\nstop\n");
+  GeneratorOptions options;
+  const CodeModel code = make_code_model(model, options);
+  EXPECT_EQ(undetermined_joint(code), 1);
+  EXPECT_EQ(undetermined_joint(make_code_model(read_model("robots/puma560.robot"), options)), 0);
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ TEST_P(MassMatrixCount, IsWithinTheLimit) {
   GeneratorOptions options;
   options.functions = {"mass_matrix"};
   options.parameters = ParameterMode::kRuntime;
-  const CodeModel code = make_code_model(model, options);
+  CodeModel code = make_code_model(model, options);
   EXPECT_LE(write_functions(code, options)[0].trace.count().total(), GetParam().operations);
 }
 

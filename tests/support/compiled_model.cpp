@@ -15,7 +15,7 @@ void call_pointers(void* function, const std::vector<void*>& p, std::index_seque
 }
 
 void call_pointers(void* function, const std::vector<void*>& p) {
-  switch (p.size()) {
+  switch (p.size()) {  // from fold(chi, folded) to id_derivatives with every argument
     case 2:
       return call_pointers(function, p, std::make_index_sequence<2>());
     case 3:
@@ -32,14 +32,17 @@ void call_pointers(void* function, const std::vector<void*>& p) {
       return call_pointers(function, p, std::make_index_sequence<8>());
     case 9:
       return call_pointers(function, p, std::make_index_sequence<9>());
+    case 10:
+      return call_pointers(function, p, std::make_index_sequence<10>());
     default:
       throw std::runtime_error("call_pointers(): unexpected number of arguments");
   }
 }
 
+/// @param parameters  chi or folded
 template <class T>
 std::vector<double> call_as(void* function, const std::vector<Argument>& all,
-                            const MotionSample& sample, const std::vector<double>& chi,
+                            const MotionSample& sample, const std::vector<double>& parameters,
                             const std::string& output) {
   std::vector<std::vector<T>> arrays;
   std::vector<void*> pointers;
@@ -50,7 +53,8 @@ std::vector<double> call_as(void* function, const std::vector<Argument>& all,
       arrays.emplace_back(static_cast<std::size_t>(all[i].size()), T(-77));
       if (output.empty() ? wanted == all.size() : name == output) wanted = i;
     } else {
-      const std::vector<double>& values = name == "chi" ? chi : sample.input(name);
+      const bool own = name == "chi" || name == "folded";
+      const std::vector<double>& values = own ? parameters : sample.input(name);
       arrays.emplace_back(values.begin(), values.end());
     }
     pointers.push_back(arrays.back().data());
@@ -73,7 +77,9 @@ CompiledModel::CompiledModel(const RobotModel& model, const GeneratorOptions& op
     : prefix_(options.prefix.empty() ? model.name : options.prefix),
       library_(compile(model, options, prefix_)),
       code_(make_code_model(model, options)),
-      single_(options.scalar == Scalar::kFloat) {}
+      single_(options.scalar == Scalar::kFloat) {
+  if (options.fold) write_functions(code_, with_short_search(options));  // for the names of folded
+}
 
 void* CompiledModel::symbol(const std::string& name) const {
   return library_.symbol(prefix_ + "_" + name);
@@ -82,12 +88,15 @@ void* CompiledModel::symbol(const std::string& name) const {
 std::vector<double> CompiledModel::call(const std::string& function, const MotionSample& sample,
                                         const std::vector<double>& chi,
                                         const std::string& output) const {
-  const FunctionSpec* spec = find_function(function);
+  const bool is_fold = function == fold_spec().name;
+  const FunctionSpec* spec = is_fold ? &fold_spec() : find_function(function);
   if (spec == nullptr) throw std::runtime_error("no function " + function);
   void* address = symbol(function);
   const std::vector<Argument> all = arguments(*spec, code_);
-  return single_ ? call_as<float>(address, all, sample, chi, output)
-                 : call_as<double>(address, all, sample, chi, output);
+  const std::vector<double> parameters =
+      code_.folds() && !is_fold ? call("fold", sample, chi) : chi;
+  return single_ ? call_as<float>(address, all, sample, parameters, output)
+                 : call_as<double>(address, all, sample, parameters, output);
 }
 
 std::vector<double> CompiledModel::call_in_place(const std::string& function,

@@ -282,6 +282,7 @@ std::vector<double> EvaluatedModel::call(const std::string& function, const Moti
   const std::size_t at = place(function);
   std::vector<InputArray> inputs;
   std::vector<OutputArray> outputs;
+  std::vector<double> folded;
   std::map<std::string, std::vector<double>> values;
   std::string wanted = output;
   const std::vector<Argument> all = arguments(*functions_[at].spec, code_);
@@ -291,6 +292,9 @@ std::vector<double> EvaluatedModel::call(const std::string& function, const Moti
       std::vector<double>& array = values[argument.name];
       array.assign(static_cast<std::size_t>(argument.size()), std::nan(""));
       outputs.push_back({argument.name, array});
+    } else if (argument.name == "folded") {
+      folded = call("fold", sample);
+      inputs.push_back({argument.name, folded});
     } else {
       inputs.push_back(
           {argument.name, argument.name == "chi" ? chi_ : sample.input(argument.name)});
