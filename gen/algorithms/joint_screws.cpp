@@ -121,7 +121,7 @@ std::vector<LinkScrews> write_joint_screws(Trace& trace, const CodeModel& code,
     for (JointScrew& screw : own.joints) {
       Anchored& anchored = b_anchored[at][screw.joint];
       screw.b = carrier.carry("B", screw.joint, screw.b, cross(screw.a, frame.P), anchored);
-      if (anchored) screw.b_below = *anchored;
+      screw.b_below = anchored;
       if (!screw.leads()) continue;
       const JointScrew* low = at_anchor.find(screw.joint);
       screw.a = low != nullptr ? carrier.turn("A", screw.joint, frame.from_anchor, low->a)
@@ -134,6 +134,7 @@ std::vector<LinkScrews> write_joint_screws(Trace& trace, const CodeModel& code,
       for (JointScrew& screw : own.joints) {
         if (screw.leader != j) continue;
         screw.b = carrier.assign("B", screw.joint, screw.b);
+        screw.b_below.reset();
         b_anchored[at].erase(screw.joint);
       }
       joint.a = {0, 0, 1};

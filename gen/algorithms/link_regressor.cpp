@@ -130,7 +130,7 @@ class RowWriter {
       if (!wants(first_moment(k))) continue;
       Vector3 force = column(motion_.U, k);
       const Vector3* b = &screw_.b;
-      if (link_.force_below && screw_.joint != link_.link) {
+      if (link_.force_below && screw_.b_below) {
         const std::string parameter(kChiNames[index(first_moment(k))]);
         const std::string help = fmt::format("FA{}_{}", parameter, link_.link);
         force = to_parent(trace_, help, link_.frame->rotation, force);
@@ -138,7 +138,7 @@ class RowWriter {
           force[i] =
               trace_.assign(fmt::format("FB{}{}_{}", i + 1, parameter, link_.link), force[i]);
         }
-        b = &screw_.b_below;
+        b = &*screw_.b_below;
       }
       set(first_moment(k), lever[k] + dot(*b, force));
     }

@@ -7,6 +7,7 @@
 
 #include "gen/emit_c/body_text.h"
 #include "gen/emit_c/c_spelling.h"
+#include "gen/emit_c/function_text.h"
 
 namespace dyngen {
 namespace {
@@ -132,6 +133,15 @@ std::string batch_definition(const CodeModel& code, const RobotFunction& functio
   text += wrap_arguments(
       fmt::format("    {}_{}_lanes({}_LANES{});\n", options.prefix, function.name, upper, last));
   return text + take + "  }\n}\n";
+}
+
+std::string batch_forwarding_definition(const CodeModel& code, const RobotFunction& function,
+                                        const EmitOptions& options) {
+  std::string text = batch_comment(code, function, options);
+  text += wrap_arguments(batch_signature(code, function, options) + " {\n");
+  text += wrap_arguments(fmt::format("  {}_{}_batch(n, {});\n", options.prefix, function.twin,
+                                     passed_arguments(code, function)));
+  return text + "}\n";
 }
 
 }  // namespace dyngen

@@ -24,4 +24,8 @@ bool writes_constant(const CodeModel& code, const RobotFunction& function,
 std::string batch_definition(const CodeModel& code, const RobotFunction& function,
                              const EmitOptions& options);
 
+/// <prefix>_<name>_batch alone, with a body that calls the twin's.
+std::string batch_forwarding_definition(const CodeModel& code, const RobotFunction& function,
+                                        const EmitOptions& options);
+
 }  // namespace dyngen

@@ -174,10 +174,21 @@ std::string make_source(const CodeModel& code, const std::vector<RobotFunction>&
   if (code.takes_chi || !code.chi.empty()) text += chi_values(code, options) + "\n";
   text += helpers(code, functions, options);
   for (std::size_t i = 0; i < functions.size(); ++i) {
+    const RobotFunction& function = functions[i];
+    const auto twin =
+        std::find_if(functions.begin(), functions.end(),
+                     [&](const RobotFunction& other) { return other.name == function.twin; });
+    const bool found = twin != functions.end();
     if (i > 0) text += "\n";
-    if (functions[i].scalar) text += function_definition(code, functions[i], options);
-    if (functions[i].scalar && functions[i].batch) text += "\n";
-    if (functions[i].batch) text += batch_definition(code, functions[i], options);
+    if (function.scalar) {
+      text += found && twin->scalar ? forwarding_definition(code, function, options)
+                                    : function_definition(code, function, options);
+    }
+    if (function.scalar && function.batch) text += "\n";
+    if (function.batch) {
+      text += found && twin->batch ? batch_forwarding_definition(code, function, options)
+                                   : batch_definition(code, function, options);
+    }
   }
   return text;
 }

@@ -130,4 +130,21 @@ std::string function_definition(const CodeModel& code, const RobotFunction& func
   return text + "}\n";
 }
 
+std::string passed_arguments(const CodeModel& code, const RobotFunction& function) {
+  std::string text;
+  for (const Argument& argument : arguments(*function.spec, code)) {
+    text += (text.empty() ? "" : ", ") + argument.name;
+  }
+  return text;
+}
+
+std::string forwarding_definition(const CodeModel& code, const RobotFunction& function,
+                                  const EmitOptions& options) {
+  std::string text = function_comment(code, function, options);
+  text += wrap_arguments(signature(code, function, options) + " {\n");
+  text += wrap_arguments(fmt::format("  {}_{}({});\n", options.prefix, function.twin,
+                                     passed_arguments(code, function)));
+  return text + "}\n";
+}
+
 }  // namespace dyngen

@@ -22,4 +22,11 @@ std::string signature(const CodeModel& code, const RobotFunction& function,
 std::string function_definition(const CodeModel& code, const RobotFunction& function,
                                 const EmitOptions& options);
 
+/// The same with a body that calls the twin.
+std::string forwarding_definition(const CodeModel& code, const RobotFunction& function,
+                                  const EmitOptions& options);
+
+/// "q, dq, ddq, Y": the arguments as they are passed on.
+std::string passed_arguments(const CodeModel& code, const RobotFunction& function);
+
 }  // namespace dyngen

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gen/functions/functions.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "gen/diagnostic/assert.h"
 #include "gen/passes/fold.h"
 #include "gen/passes/optimise.h"
 #include "gen/passes/schedule.h"
+#include "gen/program/program.h"
 
 namespace dyngen {
 namespace {
@@ -16,6 +19,35 @@ Trace finished(const Trace& plain, const SearchOptions& options) {
   Trace trace = optimised(plain, options);
   trace.drop_dead_code();  // what cancels leaves sines behind
   return scheduled(trace);
+}
+
+std::string output_name(const RobotFunction& function) {
+  return std::string(function.spec->outputs[0].array);
+}
+
+/// Notes which functions are others under another name: the regressor in base parameters where chi
+/// holds nothing else, the derivative by accelerations.
+void find_twins(std::vector<RobotFunction>& functions, const CodeModel& code) {
+  const auto inputs_of = [&](const RobotFunction& function) {
+    std::vector<std::string> names;
+    for (const Argument& argument : arguments(*function.spec, code)) {
+      if (!argument.output) names.push_back(argument.name);
+    }
+    return names;
+  };
+  std::vector<Program> programs;
+  for (const RobotFunction& function : functions) programs.push_back(lower(function.trace));
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    RobotFunction& function = functions[i];
+    if (function.spec->outputs.size() != 1) continue;
+    for (std::size_t k = 0; k < i && function.twin.empty(); ++k) {
+      const RobotFunction& other = functions[k];
+      const bool same = other.twin.empty() && other.spec->outputs.size() == 1 &&
+                        inputs_of(other) == inputs_of(function) &&
+                        same_steps(programs[k], programs[i]);
+      if (same) function.twin = other.name;
+    }
+  }
 }
 
 }  // namespace
@@ -35,28 +67,36 @@ RobotFunction write_plain_function(const FunctionName& name, const CodeModel& co
   return function;
 }
 
-RobotFunction write_function(const FunctionName& name, const CodeModel& code,
-                             const SearchOptions& options) {
-  RobotFunction function = write_plain_function(name, code);
-  function.trace = finished(function.trace, options);
-  return function;
-}
-
-std::vector<RobotFunction> write_folded_functions(const std::vector<FunctionName>& names,
-                                                  CodeModel& code, const SearchOptions& options) {
-  DYNGEN_ASSERT(code.folds(), "the functions read chi");
+std::vector<RobotFunction> write_functions(const std::vector<FunctionName>& names, CodeModel& code,
+                                           const SearchOptions& options, const Progress& progress) {
   std::vector<RobotFunction> functions;
-  std::vector<Trace> plain;
-  for (const FunctionName& name : names) {
-    functions.push_back(write_plain_function(name, code));
-    plain.push_back(functions.back().trace);
+  for (const FunctionName& name : names) functions.push_back(write_plain_function(name, code));
+  find_twins(functions, code);
+  std::optional<Trace> fold;
+  if (code.folds()) {
+    std::vector<Trace> plain;
+    for (RobotFunction& function : functions) plain.push_back(std::move(function.trace));
+    FoldedFunctions folded = fold_parameters(plain, code.inputs, options);
+    code.folded = std::move(folded.names);
+    fold = std::move(folded.fold);
+    for (std::size_t i = 0; i < functions.size(); ++i) {
+      functions[i].trace = std::move(folded.functions[i]);
+    }
   }
-  FoldedFunctions folded = fold_parameters(plain, code.inputs, options);
-  code.folded = std::move(folded.names);
   for (std::size_t i = 0; i < functions.size(); ++i) {
-    functions[i].trace = finished(folded.functions[i], options);
+    RobotFunction& function = functions[i];
+    if (progress) progress(function.name, i, functions.size());
+    if (function.twin.empty()) {
+      function.trace = finished(function.trace, options);
+      continue;
+    }
+    const RobotFunction& twin =
+        *std::find_if(functions.begin(), functions.end(),
+                      [&](const RobotFunction& other) { return other.name == function.twin; });
+    function.trace = twin.trace;
+    function.trace.rename_output(output_name(twin), output_name(function));
   }
-  functions.push_back({.spec = &fold_spec(), .name = "fold", .trace = std::move(folded.fold)});
+  if (fold) functions.push_back({.spec = &fold_spec(), .name = "fold", .trace = std::move(*fold)});
   return functions;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,22 +18,24 @@ struct RobotFunction {
   Trace trace;
   bool scalar = true;  ///< is to be emitted for one sample
   bool batch = false;  ///< is to be emitted for many samples
+  std::string twin{};  ///< an earlier function with the same steps into another array
 };
 
 /// Writes a function of the robot as its algorithm does; what the outputs do not need is gone.
 RobotFunction write_plain_function(const FunctionName& name, const CodeModel& code);
 
-/// Writes a function of the robot with as few operations as the passes find.
-/// @param name  of the catalogue, and of a link that the robot has
-RobotFunction write_function(const FunctionName& name, const CodeModel& code,
-                             const SearchOptions& options = {});
+/// Told before each function: its name, its place from 0, how many there are.
+using Progress = std::function<void(const std::string& name, std::size_t place, std::size_t all)>;
 
-/// Writes functions that read the array "folded" in place of "chi", and behind them the function
-/// fold that computes it: what depends on parameters alone is worked out once for each change of
-/// them.
-/// @param code  of the option fold, with chi; gets the names of folded
-std::vector<RobotFunction> write_folded_functions(const std::vector<FunctionName>& names,
-                                                  CodeModel& code,
-                                                  const SearchOptions& options = {});
+/// Writes functions of the robot with as few operations as the passes find.
+///
+/// With the option fold they read the array "folded" in place of "chi", and behind them stands the
+/// function fold that computes it: what depends on parameters alone is worked out once for each
+/// change of them.
+/// @param names  of the catalogue, and of links that the robot has
+/// @param code   with the option fold it gets the names of folded
+std::vector<RobotFunction> write_functions(const std::vector<FunctionName>& names, CodeModel& code,
+                                           const SearchOptions& options = {},
+                                           const Progress& progress = {});
 
 }  // namespace dyngen

@@ -127,16 +127,9 @@ CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& optio
 std::vector<RobotFunction> write_functions(CodeModel& code, const GeneratorOptions& options) {
   std::vector<WantedFunction> all = wanted_functions(options);
   std::erase_if(all, [&](const auto& wanted) { return is_absent(wanted.name, code, options); });
-  std::vector<RobotFunction> functions;
-  if (code.folds()) {
-    std::vector<FunctionName> names;
-    for (const WantedFunction& wanted : all) names.push_back(wanted.name);
-    functions = write_folded_functions(names, code, options.search);
-  } else {
-    for (const WantedFunction& wanted : all) {
-      functions.push_back(write_function(wanted.name, code, options.search));
-    }
-  }
+  std::vector<FunctionName> names;
+  for (const WantedFunction& wanted : all) names.push_back(wanted.name);
+  std::vector<RobotFunction> functions = write_functions(names, code, options.search, options.progress);
   for (std::size_t i = 0; i < all.size(); ++i) {
     functions[i].scalar = all[i].scalar;
     functions[i].batch = all[i].batch;

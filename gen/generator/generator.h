@@ -29,6 +29,7 @@ struct GeneratorOptions {
   Scalar scalar = Scalar::kDouble;
   Trig trig = Trig::kInline;
   SearchOptions search;     ///< how long to look for fewer operations
+  Progress progress;        ///< told of each function; may be empty
   std::string prefix;       ///< empty: the robot's name
   std::string header_name;  ///< what the source includes
 

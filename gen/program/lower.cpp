@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
+#include <algorithm>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -162,6 +164,15 @@ Program lower(const Trace& trace) {
   }
   reuse_registers(lowering.program);
   return std::move(lowering.program);
+}
+
+bool same_steps(const Program& a, const Program& b) {
+  const auto same_element = [](const Program::Result& x, const Program::Result& y) {
+    return x.index == y.index && x.reg == y.reg;
+  };
+  return a.inputs == b.inputs && a.constants == b.constants && a.instructions == b.instructions &&
+         std::equal(a.results.begin(), a.results.end(), b.results.begin(), b.results.end(),
+                    same_element);
 }
 
 }  // namespace dyngen

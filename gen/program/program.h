@@ -18,6 +18,8 @@ struct Instruction {
   int target = 0;
   int a = 0;
   int b = 0;  ///< of the operations with two operands
+
+  bool operator==(const Instruction&) const = default;
 };
 
 /// A function as a flat list of operations: evaluated without a compiler, over many samples at
@@ -31,10 +33,14 @@ struct Program {
     int index = 0;
     int reg = 0;
     bool shared = false;  ///< one value for all samples
+
+    bool operator==(const Input&) const = default;
   };
   struct Constant {
     double value = 0;
     int reg = 0;
+
+    bool operator==(const Constant&) const = default;
   };
   struct Result {
     std::string array;  ///< "tau", "M"
@@ -47,6 +53,10 @@ struct Program {
   std::vector<Result> results;
   int register_count = 0;
 };
+
+/// True if both write the same elements in the same steps; the names of the output arrays may
+/// differ.
+bool same_steps(const Program& a, const Program& b);
 
 /// Lowers a function; registers are used again when their value is not needed any more.
 Program lower(const Trace& trace);

@@ -13,6 +13,7 @@
 #include "gen/robot_file/robot_file.h"
 #include "gen/tool/options.h"
 #include "gen/tool/output_files.h"
+#include "gen/tool/progress_line.h"
 
 namespace dyngen {
 namespace {
@@ -48,13 +49,32 @@ bool report_misuse(const GeneratorOptions& options, const RobotModel& model) {
   }
 }
 
+/// The options with a line of progress. @param line  must outlive them
+GeneratorOptions with_progress(GeneratorOptions options, ProgressLine& line) {
+  options.progress = [&line](const std::string& name, std::size_t place, std::size_t all) {
+    line.show(name, place, all);
+  };
+  return options;
+}
+
+CText generated_text(const RobotModel& model, const GeneratorOptions& options) {
+  ProgressLine line;
+  return generate(model, with_progress(options, line));
+}
+
+std::string counted(const RobotModel& model, const GeneratorOptions& options) {
+  CodeModel code = make_code_model(model, options);
+  ProgressLine line;
+  return count_table(code, write_functions(code, with_progress(options, line)));
+}
+
 int run(const ToolOptions& options) {
   const RobotFile file = read_robot_file(options.robot);
   const RobotModel model = build_model(file);
   if (report_misuse(options.generator, model)) return kUsage;
   print_warnings(file, model);
   if (!options.output.empty()) {
-    const CText text = generate(model, options.generator);
+    const CText text = generated_text(model, options.generator);
     std::vector<OutputFile> files = {{options.output, text.source},
                                      {options.header(), text.header}};
     if (options.generator.cpp_wrapper) files.push_back({options.wrapper(), text.wrapper});
@@ -66,10 +86,7 @@ int run(const ToolOptions& options) {
     write_files(files);
   }
   if (options.explain) print(explain(model));
-  if (options.count) {
-    CodeModel code = make_code_model(model, options.generator);
-    print(count_table(code, write_functions(code, options.generator)));
-  }
+  if (options.count) print(counted(model, options.generator));
   return kDone;
 }
 

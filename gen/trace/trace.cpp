@@ -198,6 +198,12 @@ void Trace::output(const std::string& array, int index, const ex& value) {
   outputs_.push_back({array, index, result});
 }
 
+void Trace::rename_output(const std::string& from, const std::string& to) {
+  for (Output& output : outputs_) {
+    if (output.array == from) output.array = to;
+  }
+}
+
 Trace Trace::without_statements() const {
   Trace empty(symbols_.parent());
   empty.sections_ = sections_;

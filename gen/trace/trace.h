@@ -60,6 +60,9 @@ class Trace {
 
   void output(const std::string& array, int index, const GiNaC::ex& value);
 
+  /// The output array of this name gets another one.
+  void rename_output(const std::string& from, const std::string& to);
+
   /// Makes the outputs so far intermediate results of a longer program. @return them
   std::vector<Output> take_outputs() { return std::exchange(outputs_, {}); }
 

@@ -306,7 +306,7 @@ TEST(CppWrapperText, ItIsWrittenOnlyOnRequest) {
 TEST(CppWrapperText, ResultsTooLargeForTheStackAreOnTheHeap) {
   const CodeModel small = make_code_model(pendulum().model, {});
   const std::vector<RobotFunction> functions = {
-      write_function(parse_function_name("gravity_regressor"), small)};
+      write_plain_function(parse_function_name("gravity_regressor"), small)};
   const auto declares = [&](std::size_t size, Scalar scalar, const std::string& result,
                             const std::string& end) {
     CodeModel code = small;

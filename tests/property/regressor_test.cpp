@@ -112,6 +112,21 @@ TEST_P(RegressorOfFile, LengthsOfTheRunTime) {
   EXPECT_LT(product_error(symbolic, values_, numeric_robot(values_), 5), kTolerance);
 }
 
+// The axis of joint 8 is along those of joints 5 and 6 in every position, across a slide.
+TEST(Regressor, AxesAlongTheLastOneKeepTheirColumns) {
+  const RobotModel model = parse_model(
+      "name along\nnumber_link 8\nsigma 0 0 0 0 0 0 1 0\n"
+      "al pi/3 -pi/2 0 pi/3 pi/3 0 pi/2 pi/2\nth pi/3 0 0 pi/3 0 0 0 0\n"
+      "d -0.489 0.44 0 0.027 0.292 0 0 -0.431\nr -0.119 0.427 0.144 0 0 -0.792 0 -0.473\n"
+      "XX 0 -1.06 -1.002 0 0 0 0 0.918\nXY -0.135 0 0 -1.636 0 0 -1.452 0\n"
+      "XZ 0 0 0 -0.92 1.098 0 0 0\nYY 0 -0.994 0 0 0 -0.062 -1.612 0\n"
+      "YZ -0.176 -0.21 0 0 0.615 0.499 0 0\nZZ 0.611 0 -0.869 0 0 0.605 0 -1.734\n"
+      "mX 0 0 0 0 0 0.048 -1.987 -0.299\nmY 0.913 0 0.834 0.571 -0.363 0 0 -1.855\n"
+      "mZ -1.223 -0.731 -1.006 -0.841 0 0 0 0\nm 0.652 0 0 0 0 0 0 1.621\n"
+      "IA 0 0 0 0.175 0 0 0.154 0\ngz 0\nstop\n");
+  EXPECT_LT(product_error(model, model, numeric_robot(model), 5), kTolerance);
+}
+
 /// The judge's torque of one parameter alone; with gravity, without other links.
 std::vector<double> unit_torque(const RobotModel& model, NumericRobot robot, const Column& column,
                                 const MotionSample& sample) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace dyngen {
+
+/// One line on the terminal (standard error) that says what is being written, from the first second
+/// on. Where standard error is no terminal there is none.
+class ProgressLine {
+ public:
+  ProgressLine();
+  /// Takes the line away.
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const std::string& name, std::size_t place, std::size_t all);
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  bool terminal_ = false;
+  bool shown_ = false;
+};
+
+}  // namespace dyngen
