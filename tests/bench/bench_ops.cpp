@@ -6,6 +6,7 @@
 // Exit code 1 if a robot with known others needs more operations (mul + add) than the best of them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -29,6 +30,8 @@ enum class Case {
   kRigid,       ///< ten unknown inertial parameters per link, no rotor, no friction: the others'
                 ///< convention
   kWithDrives,  ///< the same with IA, FV, FS unknown
+  kSymmetric,   ///< as kRigid, products of inertia are zero
+  kFolded,      ///< as kRigid, with --fold: what parameters alone give is worked out apart
   kFile,        ///< the robot file as it stands, its numbers baked in
 };
 
@@ -58,6 +61,8 @@ constexpr Other kOthers[] = {
     {"panda", "id", Case::kRigid, "SymPyBotics", 375, 292},
     {"panda", "gravity", Case::kRigid, "better of both", 64, 38},
     {"sarcos_grla", "gravity", Case::kFile, "thesis, needed part", 74, 46},
+    {"puma560", "id", Case::kSymmetric, "OpenSYMORO", 202, 147},
+    {"rx90", "id", Case::kSymmetric, "OpenSYMORO", 170, 117},
     {"puma560", "base_regressor", Case::kRigid, "OpenSYMORO", 0, 0, 1071},
     {"rx90", "base_regressor", Case::kRigid, "SymPyBotics", 0, 0, 843},
     {"ur10e", "base_regressor", Case::kRigid, "better of both", 0, 0, 986},
@@ -97,22 +102,27 @@ std::string all_others(std::string_view robot, std::string_view function, Case c
 /// A function that is counted, and in which conventions.
 struct CountedFunction {
   std::string_view name, title;
-  bool with_drives;  ///< (b) differs from (a) in more than some additions
-  bool as_in_file;
+  std::vector<Case> cases{Case::kRigid};
 
   [[nodiscard]] bool in(Case which) const {
-    return which == Case::kRigid || (which == Case::kWithDrives ? with_drives : as_in_file);
+    return std::find(cases.begin(), cases.end(), which) != cases.end();
   }
 };
-constexpr CountedFunction kFunctions[] = {
-    {"id", "Inverse dynamics", true, true},
-    {"gravity", "Gravity", false, true},
-    {"mass_matrix", "Mass matrix", false, false},
-    {"fd", "Forward dynamics (one division for each joint besides)", false, false},
-    {"base_regressor", "Regressor in base parameters", false, false},
-    {"gravity_regressor", "Regressor of gravity", false, false},
-    {"energy_regressor", "Regressor of energy", false, false},
-};
+const std::vector<CountedFunction>& counted_functions() {
+  using enum Case;
+  static const std::vector<CountedFunction> kFunctions = {
+      {"id", "Inverse dynamics", {kRigid, kWithDrives, kSymmetric, kFolded, kFile}},
+      {"gravity", "Gravity", {kRigid, kFile}},
+      {"mass_matrix", "Mass matrix"},
+      {"fd", "Forward dynamics (one division for each joint besides)"},
+      {"base_regressor", "Regressor in base parameters"},
+      {"gravity_regressor", "Regressor of gravity"},
+      {"energy_regressor", "Regressor of energy"},
+      {"id_derivatives", "Derivatives of inverse dynamics by q, dq and ddq"},
+      {"fold", "What is worked out once for each change of the parameters", {kFolded}},
+  };
+  return kFunctions;
+}
 
 struct CountedRobot {
   std::string name;
@@ -121,16 +131,30 @@ struct CountedRobot {
   std::map<std::string_view, OperationCount> counts;  ///< by function
 };
 
-CountedRobot count(RobotModel model, Case which) {
-  if (which == Case::kRigid) model = with_unknown_parameters(model, Unknown::kInertial);
-  if (which == Case::kWithDrives) {
-    model = with_unknown_parameters(model, Unknown::kInertialAndDrive);
+RobotModel in_convention(const RobotModel& model, Case which) {
+  switch (which) {
+    case Case::kRigid:
+    case Case::kFolded:
+      return with_unknown_parameters(model, Unknown::kInertial);
+    case Case::kWithDrives:
+      return with_unknown_parameters(model, Unknown::kInertialAndDrive);
+    case Case::kSymmetric:
+      return with_unknown_parameters(model, Unknown::kSymmetric);
+    case Case::kFile:
+      break;
   }
+  return model;
+}
+
+CountedRobot count(const RobotModel& file, Case which) {
+  const RobotModel model = in_convention(file, which);
   GeneratorOptions options;
-  for (const CountedFunction& function : kFunctions) {
-    if (function.in(which)) options.functions.emplace_back(function.name);
+  for (const CountedFunction& function : counted_functions()) {
+    const bool named = find_function(function.name) != nullptr;  // fold comes by itself
+    if (function.in(which) && named) options.functions.emplace_back(function.name);
   }
   options.parameters = which == Case::kFile ? ParameterMode::kBaked : ParameterMode::kRuntime;
+  options.fold = which == Case::kFolded;
   CodeModel code = make_code_model(model, options);
   CountedRobot result{model.name, model.coordinate_count, code.beta.size(), {}};
   for (const RobotFunction& function : write_functions(code, options)) {
@@ -198,6 +222,8 @@ constexpr Convention kConventions[] = {
      "(a) rigid bodies, all ten inertial parameters of every link unknown, no rotor, no friction"},
     {Case::kWithDrives, "(b) as (a), with IA, FV and FS of every joint unknown"},
     {Case::kFile, "(c) the robot file as it stands, its numbers baked in"},
+    {Case::kSymmetric, "(d) as (a), with symmetric links: products of inertia are zero"},
+    {Case::kFolded, "(e) as (a), what depends on parameters alone worked out apart (--fold)"},
 };
 
 int run(const std::vector<std::filesystem::path>& paths, bool markdown) {
@@ -207,7 +233,7 @@ int run(const std::vector<std::filesystem::path>& paths, bool markdown) {
   for (const Convention& convention : kConventions) {
     std::vector<CountedRobot> robots;
     for (const RobotModel& model : models) robots.push_back(count(model, convention.which));
-    for (const CountedFunction& function : kFunctions) {
+    for (const CountedFunction& function : counted_functions()) {
       if (!function.in(convention.which)) continue;
       Comparison comparison(function.name, convention.which);
       for (const CountedRobot& robot : robots) comparison.add(robot);

@@ -25,7 +25,10 @@ RobotModel with_unknown_parameters(RobotModel model, Unknown unknown) {
       const int line = quantity.line;
       quantity = Quantity{};
       quantity.line = line;
-      quantity.unknown = k < kInertialCount || (drive && k != index(Chi::kOFF));
+      const auto kind = static_cast<Chi>(k);
+      const bool product = kind == Chi::kXY || kind == Chi::kXZ || kind == Chi::kYZ;
+      const bool inertial = k < kInertialCount && !(product && unknown == Unknown::kSymmetric);
+      quantity.unknown = inertial || (drive && k != index(Chi::kOFF));
     }
   }
   return model;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <kdl/chain.hpp>
 #include <kdl/chaindynparam.hpp>
+#include <kdl/chainfdsolver_recursive_newton_euler.hpp>
 #include <kdl/chainidsolver_recursive_newton_euler.hpp>
 #include <memory>
 #include <string>
@@ -56,37 +58,50 @@ struct Kdl {
                 -robot.base_acceleration[2]),
         id(chain, gravity),
         dynamics(chain, gravity),
+        fd(chain, gravity),
         no_wrenches(robot.size(), KDL::Wrench::Zero()),
-        tau(static_cast<unsigned>(robot.size())),
+        result(static_cast<unsigned>(robot.size())),
+        mass(static_cast<unsigned>(robot.size())),
         q(arrays(states.q, states.joints)),
         dq(arrays(states.dq, states.joints)),
-        ddq(arrays(states.ddq, states.joints)) {}
+        ddq(arrays(states.ddq, states.joints)),
+        tau(arrays(states.tau, states.joints)) {}
 
   void copy(double* out) const {
-    for (unsigned j = 0; j < tau.rows(); ++j) out[j] = tau(j);
+    for (unsigned j = 0; j < result.rows(); ++j) out[j] = result(j);
   }
 
   KDL::Chain chain;  // the solvers keep a reference
   KDL::Vector gravity;
   KDL::ChainIdSolver_RNE id;
   KDL::ChainDynParam dynamics;
+  KDL::ChainFdSolver_RNE fd;
   KDL::Wrenches no_wrenches;
-  KDL::JntArray tau;
-  std::vector<KDL::JntArray> q, dq, ddq;
+  KDL::JntArray result;
+  KDL::JntSpaceInertiaMatrix mass;
+  std::vector<KDL::JntArray> q, dq, ddq, tau;
 };
 
 }  // namespace
 
 Peer make_kdl_peer(const test::NumericRobot& robot, const States& states) {
   const auto kdl = std::make_shared<Kdl>(robot, states);
-  Peer peer;
-  peer.id = [kdl](std::size_t k, double* tau) {
-    kdl->id.CartToJnt(kdl->q[k], kdl->dq[k], kdl->ddq[k], kdl->no_wrenches, kdl->tau);
-    kdl->copy(tau);
+  Peer peer{.name = "KDL", .calls = {}};
+  peer.calls["id"] = [kdl](std::size_t k, double* out) {
+    kdl->id.CartToJnt(kdl->q[k], kdl->dq[k], kdl->ddq[k], kdl->no_wrenches, kdl->result);
+    kdl->copy(out);
   };
-  peer.gravity = [kdl](std::size_t k, double* tau) {
-    kdl->dynamics.JntToGravity(kdl->q[k], kdl->tau);
-    kdl->copy(tau);
+  peer.calls["gravity"] = [kdl](std::size_t k, double* out) {
+    kdl->dynamics.JntToGravity(kdl->q[k], kdl->result);
+    kdl->copy(out);
+  };
+  peer.calls["mass_matrix"] = [kdl](std::size_t k, double* out) {
+    kdl->dynamics.JntToMass(kdl->q[k], kdl->mass);
+    std::copy_n(kdl->mass.data.data(), kdl->mass.data.size(), out);
+  };
+  peer.calls["fd"] = [kdl](std::size_t k, double* out) {
+    kdl->fd.CartToJnt(kdl->q[k], kdl->dq[k], kdl->tau[k], kdl->no_wrenches, kdl->result);
+    kdl->copy(out);
   };
   return peer;
 }

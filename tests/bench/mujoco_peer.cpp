@@ -87,16 +87,41 @@ struct Mujoco {
   Mujoco(const Mujoco&) = delete;
   Mujoco& operator=(const Mujoco&) = delete;
 
-  /// What mj_inverse() does for a robot without contacts, springs and motors, and no more.
-  void id(std::size_t k, double* tau) const {
+  void set(std::size_t k) const {
     const std::size_t n = states.joints;
     std::copy_n(states.q.data() + k * n, n, data->qpos);
     std::copy_n(states.dq.data() + k * n, n, data->qvel);
-    std::copy_n(states.ddq.data() + k * n, n, data->qacc);
+  }
+  void place() const {
     mj_kinematics(model, data);
     mj_comPos(model, data);
+  }
+  /// What mj_inverse() does for a robot without contacts, springs and motors, and no more.
+  void id(std::size_t k, double* tau) const {
+    set(k);
+    std::copy_n(states.ddq.data() + states.at(k), states.joints, data->qacc);
+    place();
     mj_comVel(model, data);
     mj_rne(model, data, 1, tau);
+  }
+  void mass_matrix(std::size_t k, double* M) const {
+    set(k);
+    place();
+    mj_crb(model, data);
+    mj_fullM(model, M, data->qM);
+  }
+  /// What mj_forward() does for such a robot.
+  void fd(std::size_t k, double* ddq) const {
+    set(k);
+    place();
+    mj_crb(model, data);
+    mj_factorM(model, data);
+    mj_comVel(model, data);
+    mj_rne(model, data, 0, data->qfrc_bias);
+    for (std::size_t j = 0; j < states.joints; ++j) {
+      ddq[j] = states.tau[states.at(k) + j] - data->qfrc_bias[j];
+    }
+    mj_solveM(model, data, ddq, ddq, 1);
   }
 
   mjModel* model;
@@ -108,8 +133,10 @@ struct Mujoco {
 
 Peer make_mujoco_peer(const test::NumericRobot& robot, const States& states) {
   const auto mujoco = std::make_shared<Mujoco>(robot, states);
-  Peer peer;
-  peer.id = [mujoco](std::size_t k, double* tau) { mujoco->id(k, tau); };
+  Peer peer{.name = "MuJoCo", .calls = {}};
+  peer.calls["id"] = [mujoco](std::size_t k, double* out) { mujoco->id(k, out); };
+  peer.calls["mass_matrix"] = [mujoco](std::size_t k, double* out) { mujoco->mass_matrix(k, out); };
+  peer.calls["fd"] = [mujoco](std::size_t k, double* out) { mujoco->fd(k, out); };
   return peer;
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/bench/speed_robots.h"
+#include "tests/bench/speed_states.h"
 
 namespace dyngen::bench {
 namespace {
@@ -43,19 +43,23 @@ std::string benchmark_name(const std::string& robot, const std::string& function
 }
 
 Table speed_table(const KeepingReporter& reporter, const std::vector<std::string>& robots) {
+  const std::vector<std::string> peers = {"KDL", "MuJoCo", "DART"};
   Table table;
-  table.header = {"function", "robot",  "-O2",     "native",     "sin/cos alone", "evaluate",
-                  "KDL",      "MuJoCo", "KDL/-O2", "KDL/native", "MuJoCo/-O2",    "MuJoCo/native"};
-  for (const std::string function : {"id", "gravity"}) {
+  table.header = {"function", "robot", "-O2", "native"};
+  table.header.insert(table.header.end(), peers.begin(), peers.end());
+  for (const std::string& peer : peers) table.header.push_back(peer + "/native");
+  for (const std::string function :
+       {"id", "id_libm", "id_baked", "gravity", "mass_matrix", "base_regressor", "fd",
+        "id_derivatives", "id_batch", "id_batch_float", "sin_cos", "id_evaluated"}) {
     for (const std::string& robot : robots) {
       const auto time = [&](const std::string& who) {
         return reporter.median(benchmark_name(robot, function, who));
       };
-      const double plain = time("dyngen_O2"), native = time("dyngen_native");
-      const double kdl = time("kdl"), mujoco = time("mujoco");
-      table.rows.push_back({function, robot, ns(plain), ns(native), ns(time("sin_cos")),
-                            ns(time("evaluate")), ns(kdl), ns(mujoco), ratio(kdl, plain),
-                            ratio(kdl, native), ratio(mujoco, plain), ratio(mujoco, native)});
+      const double native = time("native");
+      std::vector<std::string> row = {function, robot, ns(time("-O2")), ns(native)};
+      for (const std::string& peer : peers) row.push_back(ns(time(peer)));
+      for (const std::string& peer : peers) row.push_back(ratio(time(peer), native));
+      table.rows.push_back(std::move(row));
     }
   }
   return table;

@@ -1,65 +1,49 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/speed_robots.h"
 
-#include <numbers>
-#include <random>
-
-#include "bench_panda_native.h"
-#include "bench_panda_plain.h"
-#include "bench_puma560_native.h"
-#include "bench_puma560_plain.h"
-#include "bench_ur10e_native.h"
-#include "bench_ur10e_plain.h"
-#include "gen/generator/generator.h"
-#include "gen/robot_file/robot_file.h"
+#include "bench_panda_emitted.h"
+#include "bench_puma560_emitted.h"
+#include "bench_ur10e_emitted.h"
+#include "tests/support/model_bridge.h"
+#include "tests/support/physical_robot.h"
 
 namespace dyngen::bench {
 namespace {
 
-Program id_program(const std::string& file) {
-  const RobotModel model = build_model(read_robot_file(DYNGEN_SOURCE_DIR "/" + file));
+/// The robot with links that could be built: some libraries refuse others.
+test::NumericRobot with_physical_links(const RobotModel& model) {
+  test::NumericRobot robot = test::numeric_robot(test::with_random_values(model, 1));
+  const test::NumericRobot links = test::physical_robot(4, static_cast<int>(robot.size()));
+  for (std::size_t j = 0; j < robot.size(); ++j) {
+    robot.joints[j].inertial = links.joints[j].inertial;
+  }
+  return robot;
+}
+
+SpeedRobot make_robot(const std::string& name, const std::string& oracle, const Emitted& plain,
+                      const Emitted& native) {
+  const RobotModel model = test::read_model("tests/bench/robots/" + name + "_unknown.robot");
+  SpeedRobot robot;
+  robot.name = name;
+  robot.numbers = with_physical_links(model);
   GeneratorOptions options;
+  options.parameters = ParameterMode::kRuntime;
   options.functions = {"id"};
-  CodeModel code = make_code_model(model, options);
-  return lower(write_functions(code, options).front().trace);
+  const test::EvaluatedModel evaluated(model, test::robot_model(robot.numbers), options);
+  robot.chi = evaluated.chi();
+  robot.id = lower(evaluated.functions().front().trace);
+  robot.stored = test::load_oracle(oracle).states;
+  robot.plain = plain;
+  robot.native = native;
+  return robot;
 }
 
 }  // namespace
 
-States random_states(std::size_t joints) {
-  std::mt19937_64 random(20240607);
-  const auto draw = [&](double limit) {
-    std::uniform_real_distribution<double> uniform(-limit, limit);
-    std::vector<double> values(kStates * joints);
-    for (double& value : values) value = uniform(random);
-    return values;
-  };
-  States states;
-  states.joints = joints;
-  states.q = draw(std::numbers::pi);
-  states.dq = draw(3.0);
-  states.ddq = draw(10.0);
-  return states;
-}
-
 std::vector<SpeedRobot> speed_robots() {
-  std::vector<SpeedRobot> robots;
-  robots.push_back({"puma560",
-                    test::load_oracle("puma560_akb_mdh"),
-                    {bench_puma560_plain_id, bench_puma560_plain_gravity},
-                    {bench_puma560_native_id, bench_puma560_native_gravity},
-                    id_program("robots/puma560.robot")});
-  robots.push_back({"ur10e",
-                    test::load_oracle("ur10e"),
-                    {bench_ur10e_plain_id, bench_ur10e_plain_gravity},
-                    {bench_ur10e_native_id, bench_ur10e_native_gravity},
-                    id_program("tests/robots/ur10e_oracle.robot")});
-  robots.push_back({"panda",
-                    test::load_oracle("panda7"),
-                    {bench_panda_plain_id, bench_panda_plain_gravity},
-                    {bench_panda_native_id, bench_panda_native_gravity},
-                    id_program("tests/robots/panda7_oracle.robot")});
-  return robots;
+  return {make_robot("puma560", "puma560_akb_mdh", bench_puma560_plain(), bench_puma560_native()),
+          make_robot("ur10e", "ur10e", bench_ur10e_plain(), bench_ur10e_native()),
+          make_robot("panda", "panda7", bench_panda_plain(), bench_panda_native())};
 }
 
 }  // namespace dyngen::bench

@@ -1,48 +1,15 @@
 // SPDX-License-Identifier: MIT
-// DART: skeletons of bodies; articulated-body and composite inertias by itself. Its headers are
-// slow to compile and stand in this file only.
+// DART: skeletons of bodies; articulated-body and composite inertias by itself.
 #include <dart/dynamics/BodyNode.hpp>
-#include <dart/dynamics/Inertia.hpp>
-#include <dart/dynamics/PrismaticJoint.hpp>
-#include <dart/dynamics/RevoluteJoint.hpp>
-#include <dart/dynamics/Skeleton.hpp>
-#include <dart/dynamics/WeldJoint.hpp>
 #include <memory>
-#include <string>
-#include <utility>
 
-#include "tests/peers/link_frames.h"
+#include "tests/peers/dart_skeleton.h"
 #include "tests/peers/peer.h"
 
 namespace dyngen::test {
 namespace {
 
 namespace dd = dart::dynamics;
-
-/// A body on a joint; names of their own keep DART from announcing those that it invents.
-template <typename Joint>
-std::pair<Joint*, dd::BodyNode*> add(dd::Skeleton& skeleton, dd::BodyNode* parent,
-                                     const std::string& name) {
-  typename Joint::Properties joint;
-  joint.mName = "joint" + name;
-  return skeleton.createJointAndBodyNodePair<Joint>(parent, joint,
-                                                    dd::BodyNode::AspectProperties("link" + name));
-}
-
-std::pair<dd::Joint*, dd::BodyNode*> add(dd::Skeleton& skeleton, dd::BodyNode* parent, int sigma,
-                                         const std::string& name) {
-  if (sigma == 0) {
-    const auto [joint, body] = add<dd::RevoluteJoint>(skeleton, parent, name);
-    joint->setAxis(Eigen::Vector3d::UnitZ());
-    return {joint, body};
-  }
-  if (sigma == 1) {
-    const auto [joint, body] = add<dd::PrismaticJoint>(skeleton, parent, name);
-    joint->setAxis(Eigen::Vector3d::UnitZ());
-    return {joint, body};
-  }
-  return add<dd::WeldJoint>(skeleton, parent, name);
-}
 
 Eigen::VectorXd vector(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
@@ -56,24 +23,8 @@ std::vector<double> list(const Eigen::MatrixXd& matrix) {
   return result;
 }
 
-struct Dart {
-  explicit Dart(const NumericRobot& robot) : skeleton(dd::Skeleton::create("robot")) {
-    const auto& a = robot.base_acceleration;
-    skeleton->setGravity(-Eigen::Vector3d(a[0], a[1], a[2]));
-    for (std::size_t j = 0; j < robot.size(); ++j) {
-      const NumericJoint& numbers = robot.joints[j];
-      dd::BodyNode* const parent =
-          numbers.parent == 0 ? nullptr : bodies[static_cast<std::size_t>(numbers.parent - 1)];
-      const auto [joint, body] = add(*skeleton, parent, numbers.sigma, std::to_string(j + 1));
-      const LinkFrames frames = link_frames(robot, j);
-      joint->setTransformFromParentBodyNode(frames.before);
-      joint->setTransformFromChildBodyNode(frames.after.inverse());
-      const CentralInertia link = central_inertia(numbers);
-      body->setInertia(
-          dd::Inertia(link.mass, Eigen::Vector3d(link.com.data()), central_tensor(link)));
-      bodies.push_back(body);
-    }
-  }
+struct Dart : DartSkeleton {
+  explicit Dart(const NumericRobot& robot) : DartSkeleton(make_dart_skeleton(robot)) {}
 
   void set(const PeerInput& in) const {
     skeleton->setPositions(vector(in.q));
@@ -87,9 +38,6 @@ struct Dart {
   [[nodiscard]] dd::BodyNode* body(int link) const {
     return link == 0 ? bodies.back() : bodies[static_cast<std::size_t>(link - 1)];
   }
-
-  dd::SkeletonPtr skeleton;
-  std::vector<dd::BodyNode*> bodies;
 };
 
 }  // namespace
