@@ -165,6 +165,9 @@ function(dyngen_add_robot target)
   else()  # a project of C++ alone: the code is C++ too
     set_source_files_properties("${source}" PROPERTIES LANGUAGE CXX)
   endif()
+  # gcc packs pairs of scalar products into registers of two, which costs more moves than it saves
+  target_compile_options(${target} PRIVATE
+    $<$<OR:$<COMPILE_LANG_AND_ID:C,GNU>,$<COMPILE_LANG_AND_ID:CXX,GNU>>:-fno-tree-slp-vectorize>)
   if(NOT WIN32)
     target_link_libraries(${target} PUBLIC m)
   endif()
