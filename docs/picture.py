@@ -36,12 +36,14 @@ def code_excerpt():
 
 
 def speed_rows():
-    """(robot, dyngen ns, MuJoCo ns, KDL ns) of inverse dynamics."""
+    """(robot, dyngen ns, MuJoCo ns, KDL ns) of inverse dynamics, numbers in the code."""
     rows = []
     header = None
     for line in (TOP / "docs/benchmarks.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         if cells[:2] == ["function", "robot"]:
+            if header:  # the second table is of other parameters
+                break
             header = cells
         elif header and cells[0] == "id" and len(cells) == len(header):
             row = dict(zip(header, cells))

@@ -30,7 +30,8 @@ enum class Case {
   kRigid,       ///< ten unknown inertial parameters per link, no rotor, no friction: the others'
                 ///< convention
   kWithDrives,  ///< the same with IA, FV, FS unknown
-  kSymmetric,   ///< as kRigid, products of inertia are zero
+  kDiagonal,    ///< as kRigid, products of inertia are zero
+  kSymmetric,   ///< as kDiagonal, and centres of mass are on the joints' axes
   kFolded,      ///< as kRigid, with --fold: what parameters alone give is worked out apart
   kFile,        ///< the robot file as it stands, its numbers baked in
 };
@@ -111,7 +112,7 @@ struct CountedFunction {
 const std::vector<CountedFunction>& counted_functions() {
   using enum Case;
   static const std::vector<CountedFunction> kFunctions = {
-      {"id", "Inverse dynamics", {kRigid, kWithDrives, kSymmetric, kFolded, kFile}},
+      {"id", "Inverse dynamics", {kRigid, kWithDrives, kDiagonal, kSymmetric, kFolded, kFile}},
       {"gravity", "Gravity", {kRigid, kFile}},
       {"mass_matrix", "Mass matrix"},
       {"fd", "Forward dynamics (one division for each joint besides)"},
@@ -138,6 +139,8 @@ RobotModel in_convention(const RobotModel& model, Case which) {
       return with_unknown_parameters(model, Unknown::kInertial);
     case Case::kWithDrives:
       return with_unknown_parameters(model, Unknown::kInertialAndDrive);
+    case Case::kDiagonal:
+      return with_unknown_parameters(model, Unknown::kDiagonal);
     case Case::kSymmetric:
       return with_unknown_parameters(model, Unknown::kSymmetric);
     case Case::kFile:
@@ -222,8 +225,9 @@ constexpr Convention kConventions[] = {
      "(a) rigid bodies, all ten inertial parameters of every link unknown, no rotor, no friction"},
     {Case::kWithDrives, "(b) as (a), with IA, FV and FS of every joint unknown"},
     {Case::kFile, "(c) the robot file as it stands, its numbers baked in"},
-    {Case::kSymmetric, "(d) as (a), with symmetric links: products of inertia are zero"},
-    {Case::kFolded, "(e) as (a), what depends on parameters alone worked out apart (--fold)"},
+    {Case::kDiagonal, "(d) as (a), products of inertia are zero"},
+    {Case::kSymmetric, "(e) as (d), symmetric links: centres of mass are on the joints' axes"},
+    {Case::kFolded, "(f) as (a), what depends on parameters alone worked out apart (--fold)"},
 };
 
 int run(const std::vector<std::filesystem::path>& paths, bool markdown) {

@@ -17,6 +17,17 @@ std::vector<std::filesystem::path> project_robots() {
   return paths;
 }
 
+namespace {
+
+bool is_zero(Chi kind, Unknown unknown) {
+  const bool symmetric = unknown == Unknown::kSymmetric;
+  if (kind == Chi::kMX || kind == Chi::kMY) return symmetric;
+  const bool product = kind == Chi::kXY || kind == Chi::kXZ || kind == Chi::kYZ;
+  return product && (symmetric || unknown == Unknown::kDiagonal);
+}
+
+}  // namespace
+
 RobotModel with_unknown_parameters(RobotModel model, Unknown unknown) {
   for (JointModel& joint : model.joints) {
     const bool drive = unknown == Unknown::kInertialAndDrive && joint.type != JointType::kFixed;
@@ -25,10 +36,8 @@ RobotModel with_unknown_parameters(RobotModel model, Unknown unknown) {
       const int line = quantity.line;
       quantity = Quantity{};
       quantity.line = line;
-      const auto kind = static_cast<Chi>(k);
-      const bool product = kind == Chi::kXY || kind == Chi::kXZ || kind == Chi::kYZ;
-      const bool inertial = k < kInertialCount && !(product && unknown == Unknown::kSymmetric);
-      quantity.unknown = inertial || (drive && k != index(Chi::kOFF));
+      const bool inertial = k < kInertialCount && !is_zero(static_cast<Chi>(k), unknown);
+      quantity.unknown = inertial || (drive && k >= kInertialCount && k != index(Chi::kOFF));
     }
   }
   return model;

@@ -15,7 +15,8 @@ std::vector<std::filesystem::path> project_robots();
 /// Which parameters of every link are made unknown, whatever the file says of them.
 enum class Unknown {
   kInertial,          ///< the ten inertial ones; rotor inertia, friction and offset are taken away
-  kSymmetric,         ///< as kInertial, products of inertia are zero
+  kDiagonal,          ///< as kInertial, products of inertia are zero
+  kSymmetric,         ///< as kDiagonal, and centres of mass are on the joints' axes
   kInertialAndDrive,  ///< also IA, Fs and Fv of the moving joints; offset is taken away
 };
 

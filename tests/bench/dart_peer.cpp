@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+// DART: its headers are slow to compile and stand here and in tests/peers only.
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "tests/bench/peers.h"
-#include "tests/peers/dart_skeleton.h"
+#include "tests/peers/dart_arm.h"
 
 namespace dyngen::bench {
 namespace {
@@ -10,25 +13,22 @@ namespace {
 std::vector<Eigen::VectorXd> vectors(const std::vector<double>& values, std::size_t joints) {
   std::vector<Eigen::VectorXd> result;
   for (std::size_t k = 0; k < kStates; ++k) {
-    result.emplace_back(Eigen::Map<const Eigen::VectorXd>(values.data() + k * joints,
-                                                          static_cast<Eigen::Index>(joints)));
+    result.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(&values[k * joints], static_cast<Eigen::Index>(joints)));
   }
   return result;
 }
 
-struct Dart {
+void copy(const Eigen::VectorXd& from, double* to) { std::copy_n(from.data(), from.size(), to); }
+
+struct Dart : test::DartArm {
   Dart(const test::NumericRobot& robot, const States& states)
-      : skeleton(test::make_dart_skeleton(robot).skeleton),
+      : DartArm(robot),
         q(vectors(states.q, states.joints)),
         dq(vectors(states.dq, states.joints)),
         ddq(vectors(states.ddq, states.joints)),
         tau(vectors(states.tau, states.joints)) {}
 
-  void copy(const Eigen::VectorXd& v, double* out) const {
-    Eigen::Map<Eigen::VectorXd>(out, v.size()) = v;
-  }
-
-  dart::dynamics::SkeletonPtr skeleton;
   std::vector<Eigen::VectorXd> q, dq, ddq, tau;
 };
 
@@ -36,25 +36,29 @@ struct Dart {
 
 Peer make_dart_peer(const test::NumericRobot& robot, const States& states) {
   const auto dart = std::make_shared<Dart>(robot, states);
-  Peer peer{.name = "DART", .calls = {}};
-  peer.calls["id"] = [dart](std::size_t k, double* out) {
+  Peer peer;
+  peer["id"] = [dart](std::size_t k, double* tau) {
     dart->skeleton->setPositions(dart->q[k]);
     dart->skeleton->setVelocities(dart->dq[k]);
     dart->skeleton->setAccelerations(dart->ddq[k]);
     dart->skeleton->computeInverseDynamics();
-    dart->copy(dart->skeleton->getForces(), out);
+    copy(dart->skeleton->getForces(), tau);
   };
-  peer.calls["mass_matrix"] = [dart](std::size_t k, double* out) {
+  peer["gravity"] = [dart](std::size_t k, double* tau) {
     dart->skeleton->setPositions(dart->q[k]);
-    const Eigen::MatrixXd& M = dart->skeleton->getMassMatrix();
-    Eigen::Map<Eigen::MatrixXd>(out, M.rows(), M.cols()) = M;
+    copy(dart->skeleton->getGravityForces(), tau);
   };
-  peer.calls["fd"] = [dart](std::size_t k, double* out) {
+  peer["mass_matrix"] = [dart](std::size_t k, double* M) {
+    dart->skeleton->setPositions(dart->q[k]);
+    const Eigen::MatrixXd& symmetric = dart->skeleton->getMassMatrix();
+    std::copy_n(symmetric.data(), symmetric.size(), M);
+  };
+  peer["fd"] = [dart](std::size_t k, double* ddq) {
     dart->skeleton->setPositions(dart->q[k]);
     dart->skeleton->setVelocities(dart->dq[k]);
     dart->skeleton->setForces(dart->tau[k]);
     dart->skeleton->computeForwardDynamics();
-    dart->copy(dart->skeleton->getAccelerations(), out);
+    copy(dart->skeleton->getAccelerations(), ddq);
   };
   return peer;
 }

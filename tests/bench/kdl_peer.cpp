@@ -57,28 +57,26 @@ struct Kdl {
         gravity(-robot.base_acceleration[0], -robot.base_acceleration[1],
                 -robot.base_acceleration[2]),
         id(chain, gravity),
-        dynamics(chain, gravity),
         fd(chain, gravity),
+        dynamics(chain, gravity),
         no_wrenches(robot.size(), KDL::Wrench::Zero()),
         result(static_cast<unsigned>(robot.size())),
-        mass(static_cast<unsigned>(robot.size())),
+        M(static_cast<int>(robot.size())),
         q(arrays(states.q, states.joints)),
         dq(arrays(states.dq, states.joints)),
         ddq(arrays(states.ddq, states.joints)),
         tau(arrays(states.tau, states.joints)) {}
 
-  void copy(double* out) const {
-    for (unsigned j = 0; j < result.rows(); ++j) out[j] = result(j);
-  }
+  void copy(double* out) const { std::copy_n(result.data.data(), result.rows(), out); }
 
   KDL::Chain chain;  // the solvers keep a reference
   KDL::Vector gravity;
   KDL::ChainIdSolver_RNE id;
-  KDL::ChainDynParam dynamics;
   KDL::ChainFdSolver_RNE fd;
+  KDL::ChainDynParam dynamics;
   KDL::Wrenches no_wrenches;
   KDL::JntArray result;
-  KDL::JntSpaceInertiaMatrix mass;
+  KDL::JntSpaceInertiaMatrix M;
   std::vector<KDL::JntArray> q, dq, ddq, tau;
 };
 
@@ -86,22 +84,22 @@ struct Kdl {
 
 Peer make_kdl_peer(const test::NumericRobot& robot, const States& states) {
   const auto kdl = std::make_shared<Kdl>(robot, states);
-  Peer peer{.name = "KDL", .calls = {}};
-  peer.calls["id"] = [kdl](std::size_t k, double* out) {
+  Peer peer;
+  peer["id"] = [kdl](std::size_t k, double* tau) {
     kdl->id.CartToJnt(kdl->q[k], kdl->dq[k], kdl->ddq[k], kdl->no_wrenches, kdl->result);
-    kdl->copy(out);
+    kdl->copy(tau);
   };
-  peer.calls["gravity"] = [kdl](std::size_t k, double* out) {
+  peer["gravity"] = [kdl](std::size_t k, double* tau) {
     kdl->dynamics.JntToGravity(kdl->q[k], kdl->result);
-    kdl->copy(out);
+    kdl->copy(tau);
   };
-  peer.calls["mass_matrix"] = [kdl](std::size_t k, double* out) {
-    kdl->dynamics.JntToMass(kdl->q[k], kdl->mass);
-    std::copy_n(kdl->mass.data.data(), kdl->mass.data.size(), out);
+  peer["mass_matrix"] = [kdl](std::size_t k, double* M) {
+    kdl->dynamics.JntToMass(kdl->q[k], kdl->M);
+    std::copy_n(kdl->M.data.data(), kdl->M.data.size(), M);  // symmetric
   };
-  peer.calls["fd"] = [kdl](std::size_t k, double* out) {
+  peer["fd"] = [kdl](std::size_t k, double* ddq) {
     kdl->fd.CartToJnt(kdl->q[k], kdl->dq[k], kdl->tau[k], kdl->no_wrenches, kdl->result);
-    kdl->copy(out);
+    kdl->copy(ddq);
   };
   return peer;
 }

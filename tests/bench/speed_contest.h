@@ -1,58 +1,45 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/bench/peers.h"
 #include "tests/bench/speed_robots.h"
-#include "tests/bench/speed_states.h"
 
 namespace dyngen::bench {
 
-/// A robot with its states, who computes what of it, and room for what batches read and write.
-class Contest {
+/// A robot with its states and the peers that are there.
+struct Contest {
+  explicit Contest(SpeedRobot contested);
+
+  SpeedRobot robot;
+  test::NumericRobot rigid;  ///< without rotor inertia, friction and offset: what the peers have
+  States states;
+  Rows<double> batch;
+  Rows<float> batch_float;
+  std::vector<std::pair<std::string, Peer>> peers;
+};
+
+/// `id` as a program, interpreted over all states at once; torques joint by joint.
+class EvaluatedId {
  public:
-  explicit Contest(SpeedRobot robot);
-  Contest(const Contest&) = delete;
-  Contest& operator=(const Contest&) = delete;
-
-  [[nodiscard]] const std::string& name() const { return robot_.name; }
-  /// Of functions of one sample: by function and who ("-O2", "native", "KDL").
-  [[nodiscard]] const std::map<std::string, std::map<std::string, StateCall>>& calls() const {
-    return calls_;
-  }
-  /// Of all samples at once, likewise.
-  [[nodiscard]] const std::map<std::string, std::map<std::string, std::function<void()>>>& sweeps()
-      const {
-    return sweeps_;
-  }
-  /// Enough for the largest output of one sample.
-  [[nodiscard]] std::size_t output_size() const;
-
-  /// Prints by how much results differ. @return false if something differs by more than it may
-  bool verify();
+  explicit EvaluatedId(const Contest& contest);
+  const std::vector<double>& operator()();
 
  private:
-  void add_emitted(const std::string& who, const Emitted& code);
-  void add_sin_cos();
-  bool agree(const std::string& what, const std::vector<double>& actual,
-             const std::vector<double>& expected, double limit) const;
-  /// Outputs of all states, one after the other.
-  [[nodiscard]] std::vector<double> outputs(const StateCall& call, std::size_t size) const;
-  [[nodiscard]] std::vector<double> stored_torques() const;
-  [[nodiscard]] std::vector<double> difference_quotients() const;
-  bool verify_torques();
-  bool verify_matrices();
-  bool verify_batches();
-
-  SpeedRobot robot_;
-  States states_;
-  std::vector<double> q_, dq_, ddq_, tau_;  // joint by joint
-  std::vector<float> q_float_, dq_float_, ddq_float_, chi_float_, tau_float_;
-  std::map<std::string, std::map<std::string, StateCall>> calls_;
-  std::map<std::string, std::map<std::string, std::function<void()>>> sweeps_;
+  const Program& program_;
+  const std::vector<double>& chi_;
+  Rows<double> rows_;
+  std::vector<double> tau_;
 };
+
+/// Prints how far all functions are from the judge, which is written apart from the generator.
+/// @return false if one is too far
+bool verify(const Contest& contest);
+
+/// Registers all functions of all who have them. The contest must live as long as they run.
+void add_benchmarks(const Contest& contest);
 
 }  // namespace dyngen::bench

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/bench/speed_states.h"
-
 namespace dyngen::bench {
 namespace {
 
@@ -22,8 +20,7 @@ std::string ratio(double time, double own) {
 void KeepingReporter::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.error_occurred || run.run_type != Run::RT_Iteration) continue;
-    const double seconds = run.cpu_accumulated_time / static_cast<double>(run.iterations);
-    times_[run.run_name.function_name].push_back(1e9 * seconds / static_cast<double>(kStates));
+    times_[run.run_name.function_name].push_back(1e9 / run.counters.at("items_per_second"));
   }
   ConsoleReporter::ReportRuns(runs);
 }
@@ -43,23 +40,19 @@ std::string benchmark_name(const std::string& robot, const std::string& function
 }
 
 Table speed_table(const KeepingReporter& reporter, const std::vector<std::string>& robots) {
-  const std::vector<std::string> peers = {"KDL", "MuJoCo", "DART"};
   Table table;
-  table.header = {"function", "robot", "-O2", "native"};
-  table.header.insert(table.header.end(), peers.begin(), peers.end());
-  for (const std::string& peer : peers) table.header.push_back(peer + "/native");
-  for (const std::string function :
-       {"id", "id_libm", "id_baked", "gravity", "mass_matrix", "base_regressor", "fd",
-        "id_derivatives", "id_batch", "id_batch_float", "sin_cos", "id_evaluated"}) {
+  table.header = {"function", "robot",  "-O2",  "native",     "sin/cos alone", "evaluate",
+                  "KDL",      "MuJoCo", "DART", "KDL/native", "MuJoCo/native"};
+  for (const std::string function : {"id", "id libm", "id_batch", "id_batch float", "gravity",
+                                     "mass_matrix", "base_regressor", "fd", "id_derivatives"}) {
     for (const std::string& robot : robots) {
       const auto time = [&](const std::string& who) {
         return reporter.median(benchmark_name(robot, function, who));
       };
-      const double native = time("native");
-      std::vector<std::string> row = {function, robot, ns(time("-O2")), ns(native)};
-      for (const std::string& peer : peers) row.push_back(ns(time(peer)));
-      for (const std::string& peer : peers) row.push_back(ratio(time(peer), native));
-      table.rows.push_back(std::move(row));
+      const double native = time("dyngen_native"), kdl = time("kdl"), mujoco = time("mujoco");
+      table.rows.push_back({function, robot, ns(time("dyngen_O2")), ns(native), ns(time("sin_cos")),
+                            ns(time("evaluate")), ns(kdl), ns(mujoco), ns(time("dart")),
+                            ratio(kdl, native), ratio(mujoco, native)});
     }
   }
   return table;

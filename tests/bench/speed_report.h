@@ -17,7 +17,7 @@ class KeepingReporter : public benchmark::ConsoleReporter {
   KeepingReporter() : ConsoleReporter(OO_Tabular) {}
   void ReportRuns(const std::vector<Run>& runs) override;
 
-  /// Median over the repetitions, CPU time of one call in ns; NaN if it did not run.
+  /// Median over the repetitions, CPU time of one call or sample in ns; NaN if it did not run.
   [[nodiscard]] double median(const std::string& benchmark) const;
 
  private:

@@ -1,49 +1,56 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/speed_robots.h"
 
-#include "bench_panda_emitted.h"
-#include "bench_puma560_emitted.h"
-#include "bench_ur10e_emitted.h"
+#include <utility>
+
+#include "gen/generator/generator.h"
 #include "tests/support/model_bridge.h"
-#include "tests/support/physical_robot.h"
 
 namespace dyngen::bench {
+
+// emitted.cpp.in
+Emitted emitted_bench_puma560_plain();
+Emitted emitted_bench_puma560_native();
+Emitted emitted_bench_ur10e_plain();
+Emitted emitted_bench_ur10e_native();
+Emitted emitted_bench_panda_plain();
+Emitted emitted_bench_panda_native();
+Emitted emitted_bench_puma560_rigid_plain();
+Emitted emitted_bench_puma560_rigid_native();
+Emitted emitted_bench_panda_rigid_plain();
+Emitted emitted_bench_panda_rigid_native();
+
 namespace {
 
-/// The robot with links that could be built: some libraries refuse others.
-test::NumericRobot with_physical_links(const RobotModel& model) {
-  test::NumericRobot robot = test::numeric_robot(test::with_random_values(model, 1));
-  const test::NumericRobot links = test::physical_robot(4, static_cast<int>(robot.size()));
-  for (std::size_t j = 0; j < robot.size(); ++j) {
-    robot.joints[j].inertial = links.joints[j].inertial;
-  }
-  return robot;
-}
-
-SpeedRobot make_robot(const std::string& name, const std::string& oracle, const Emitted& plain,
-                      const Emitted& native) {
-  const RobotModel model = test::read_model("tests/bench/robots/" + name + "_unknown.robot");
-  SpeedRobot robot;
-  robot.name = name;
-  robot.numbers = with_physical_links(model);
+SpeedRobot robot(const std::string& name, const std::string& file, ParameterMode parameters,
+                 const Emitted& plain, const Emitted& native) {
+  const RobotModel model = test::read_model(file);
   GeneratorOptions options;
-  options.parameters = ParameterMode::kRuntime;
   options.functions = {"id"};
-  const test::EvaluatedModel evaluated(model, test::robot_model(robot.numbers), options);
-  robot.chi = evaluated.chi();
-  robot.id = lower(evaluated.functions().front().trace);
-  robot.stored = test::load_oracle(oracle).states;
-  robot.plain = plain;
-  robot.native = native;
-  return robot;
+  options.parameters = parameters;
+  CodeModel code = make_code_model(model, options);
+  Program id = lower(write_functions(code, options).front().trace);
+  return {name, model, test::numeric_robot(model), plain, native, std::move(id)};
 }
 
 }  // namespace
 
-std::vector<SpeedRobot> speed_robots() {
-  return {make_robot("puma560", "puma560_akb_mdh", bench_puma560_plain(), bench_puma560_native()),
-          make_robot("ur10e", "ur10e", bench_ur10e_plain(), bench_ur10e_native()),
-          make_robot("panda", "panda7", bench_panda_plain(), bench_panda_native())};
+std::vector<SpeedRobot> robots_of_files() {
+  constexpr ParameterMode kBaked = ParameterMode::kBaked;
+  return {robot("puma560", "robots/puma560.robot", kBaked, emitted_bench_puma560_plain(),
+                emitted_bench_puma560_native()),
+          robot("ur10e", "tests/robots/ur10e_oracle.robot", kBaked, emitted_bench_ur10e_plain(),
+                emitted_bench_ur10e_native()),
+          robot("panda", "tests/robots/panda7_oracle.robot", kBaked, emitted_bench_panda_plain(),
+                emitted_bench_panda_native())};
+}
+
+std::vector<SpeedRobot> robots_at_run_time() {
+  constexpr ParameterMode kRuntime = ParameterMode::kRuntime;
+  return {robot("puma560_rigid", "tests/bench/robots/puma560_rigid.robot", kRuntime,
+                emitted_bench_puma560_rigid_plain(), emitted_bench_puma560_rigid_native()),
+          robot("panda_rigid", "tests/bench/robots/panda_rigid.robot", kRuntime,
+                emitted_bench_panda_rigid_plain(), emitted_bench_panda_rigid_native())};
 }
 
 }  // namespace dyngen::bench

@@ -2,44 +2,50 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "gen/model/robot_model.h"
 #include "gen/program/program.h"
-#include "tests/support/oracle_data.h"
+#include "tests/bench/speed_states.h"
+#include "tests/support/numeric_robot.h"
 
 namespace dyngen::bench {
 
-/// The emitted functions of one robot under one set of compiler flags. All but `id_baked` read
-/// run-time base parameters, of links without a zero; they have no rotors and no friction.
-struct Emitted {
-  using Torque = void (*)(const double* q, const double* dq, const double* ddq, const double* chi,
-                          double* out);
-  using Configuration = void (*)(const double* q, const double* chi, double* out);
+/// Calls a function on the first `count` states; results of state k go to out + k * stride.
+using Sweep = void (*)(const States&, std::size_t count, double* out, std::size_t stride);
 
-  Torque id = nullptr, id_libm = nullptr, base_regressor = nullptr, fd = nullptr;
-  Configuration gravity = nullptr, mass_matrix = nullptr;
-  void (*id_derivatives)(const double* q, const double* dq, const double* ddq, const double* chi,
-                         double* D_q, double* D_dq, double* D_ddq) = nullptr;
-  void (*id_batch)(std::size_t n, const double* q, const double* dq, const double* ddq,
-                   const double* chi, double* tau) = nullptr;
-  void (*id_batch_float)(std::size_t n, const float* q, const float* dq, const float* ddq,
-                         const float* chi, float* tau) = nullptr;
-  /// The robot file's numbers stand in the code, rotors and friction too.
-  void (*id_baked)(const double* q, const double* dq, const double* ddq, double* tau) = nullptr;
+/// The sweep of call(sample, out), a lambda without captures.
+template <typename Call>
+constexpr Sweep sweep(Call /*call*/) {
+  return [](const States& states, std::size_t count, double* out, std::size_t stride) {
+    for (std::size_t k = 0; k < count; ++k) Call{}(states.sample(k), out + k * stride);
+  };
+}
+
+/// The emitted functions of one robot under one set of compiler flags.
+struct Emitted {
+  std::map<std::string, Sweep> sweeps;  ///< by the function's name; "id libm": --trig libm
+  void (*id_batch)(const Rows<double>&, double* tau) = nullptr;
+  void (*id_batch_float)(const Rows<float>&, float* tau) = nullptr;
+  std::vector<double> chi;  ///< the base parameters, as numbers
 };
 
 struct SpeedRobot {
   std::string name;
-  test::NumericRobot numbers;  ///< what the peers are built from; links that could be built
-  std::vector<double> chi;     ///< the same as base parameters
-  std::vector<test::OracleState> stored;  ///< of id_baked
-  Emitted plain;                          ///< -O2
-  Emitted native;                         ///< -O3 -march=native -ffp-contract=fast
-  Program id;                             ///< for evaluate()
+  RobotModel model;
+  test::NumericRobot numbers;  ///< for the judge and the peers
+  Emitted plain;               ///< -O2
+  Emitted native;              ///< -O3 -march=native -ffp-contract=fast
+  Program id;                  ///< for evaluate()
 };
 
-/// Puma 560, UR10e, Panda.
-std::vector<SpeedRobot> speed_robots();
+/// Puma 560, UR10e, Panda: the robot files with drives, their numbers in the code.
+std::vector<SpeedRobot> robots_of_files();
+
+/// Puma 560 and Panda as rigid bodies: ten inertial parameters of every link, none of them zero,
+/// read from chi as base parameters.
+std::vector<SpeedRobot> robots_at_run_time();
 
 }  // namespace dyngen::bench

@@ -23,12 +23,4 @@ States random_states(std::size_t joints) {
   return states;
 }
 
-std::vector<double> joint_major(const std::vector<double>& values, std::size_t joints) {
-  std::vector<double> result(values.size());
-  for (std::size_t k = 0; k < kStates; ++k) {
-    for (std::size_t j = 0; j < joints; ++j) result[j * kStates + k] = values[k * joints + j];
-  }
-  return result;
-}
-
 }  // namespace dyngen::bench

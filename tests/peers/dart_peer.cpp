@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// DART: skeletons of bodies; articulated-body and composite inertias by itself.
+// DART: skeletons of bodies; articulated-body and composite inertias by itself. Its headers are
+// slow to compile and stand here and in dart_arm.cpp only.
 #include <dart/dynamics/BodyNode.hpp>
 #include <memory>
 
-#include "tests/peers/dart_skeleton.h"
+#include "tests/peers/dart_arm.h"
 #include "tests/peers/peer.h"
 
 namespace dyngen::test {
@@ -23,8 +24,8 @@ std::vector<double> list(const Eigen::MatrixXd& matrix) {
   return result;
 }
 
-struct Dart : DartSkeleton {
-  explicit Dart(const NumericRobot& robot) : DartSkeleton(make_dart_skeleton(robot)) {}
+struct Dart : DartArm {
+  using DartArm::DartArm;
 
   void set(const PeerInput& in) const {
     skeleton->setPositions(vector(in.q));

@@ -8,12 +8,12 @@
 
 namespace dyngen::test {
 
-/// A robot in DART, whose headers are slow to compile.
-struct DartSkeleton {
-  dart::dynamics::SkeletonPtr skeleton;
-  std::vector<dart::dynamics::BodyNode*> bodies;  ///< of the links
-};
+/// A robot as DART's skeleton: rigid bodies only, no rotor inertia and no friction.
+struct DartArm {
+  explicit DartArm(const NumericRobot& robot);
 
-DartSkeleton make_dart_skeleton(const NumericRobot& robot);
+  dart::dynamics::SkeletonPtr skeleton;
+  std::vector<dart::dynamics::BodyNode*> bodies;  ///< of the links, in the robot's order
+};
 
 }  // namespace dyngen::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/peers/dart_skeleton.h"
+#include "tests/peers/dart_arm.h"
 
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/Inertia.hpp>
@@ -43,24 +43,22 @@ std::pair<dd::Joint*, dd::BodyNode*> add(dd::Skeleton& skeleton, dd::BodyNode* p
 
 }  // namespace
 
-DartSkeleton make_dart_skeleton(const NumericRobot& robot) {
-  DartSkeleton result{dd::Skeleton::create("robot"), {}};
+DartArm::DartArm(const NumericRobot& robot) : skeleton(dd::Skeleton::create("robot")) {
   const auto& a = robot.base_acceleration;
-  result.skeleton->setGravity(-Eigen::Vector3d(a[0], a[1], a[2]));
+  skeleton->setGravity(-Eigen::Vector3d(a[0], a[1], a[2]));
   for (std::size_t j = 0; j < robot.size(); ++j) {
     const NumericJoint& numbers = robot.joints[j];
     dd::BodyNode* const parent =
-        numbers.parent == 0 ? nullptr : result.bodies[static_cast<std::size_t>(numbers.parent - 1)];
-    const auto [joint, body] = add(*result.skeleton, parent, numbers.sigma, std::to_string(j + 1));
+        numbers.parent == 0 ? nullptr : bodies[static_cast<std::size_t>(numbers.parent - 1)];
+    const auto [joint, body] = add(*skeleton, parent, numbers.sigma, std::to_string(j + 1));
     const LinkFrames frames = link_frames(robot, j);
     joint->setTransformFromParentBodyNode(frames.before);
     joint->setTransformFromChildBodyNode(frames.after.inverse());
     const CentralInertia link = central_inertia(numbers);
     body->setInertia(
         dd::Inertia(link.mass, Eigen::Vector3d(link.com.data()), central_tensor(link)));
-    result.bodies.push_back(body);
+    bodies.push_back(body);
   }
-  return result;
 }
 
 }  // namespace dyngen::test
