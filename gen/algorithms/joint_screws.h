@@ -20,11 +20,11 @@ namespace dyngen {
 /// and `b` more: a constant vector that only turns from frame to frame.
 struct JointScrew {
   int joint = 0;
-  Vector3 a = {0, 0, 0};        ///< angular velocity of the link; of a leader only
-  Vector3 b = {0, 0, 0};        ///< velocity of the link's origin; of the others: what comes on top
+  Vector3 a = {0, 0, 0};  ///< angular velocity of the link; of a leader only
+  Vector3 b = {0, 0, 0};  ///< velocity of the link's origin; of the others: what comes on top
   std::optional<Vector3> b_below{};  ///< b in the parent's frame, where it is known
-  int leader = 0;               ///< itself, or the parallel joint nearer to the link
-  GiNaC::ex sign = 1;           ///< of the axis along the leader's
+  int leader = 0;                    ///< itself, or the parallel joint nearer to the link
+  GiNaC::ex sign = 1;                ///< of the axis along the leader's
   int center = 0;  ///< of a revolute joint: the point on its axis, see LinkScrews::centers
 
   [[nodiscard]] bool leads() const { return leader == joint; }
