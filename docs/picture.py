@@ -32,6 +32,7 @@ def code_excerpt():
     body = text[text.index("void puma560_id(") :]
     lines = body[body.index("/* forward, link 3") :].splitlines()
     lines[0] = "  /* forward, link 3: W angular velocity, WP its derivative ... */"
+    lines = [line if len(line) <= 72 else line[:69] + "..." for line in lines]
     return ["void puma560_id(const double *q, ..., double *tau) {", "  ..."] + lines[:17] + ["  ..."]
 
 

@@ -9,7 +9,7 @@
 #include "gen/algorithms/determinacy.h"
 #include "gen/algorithms/frames.h"
 #include "gen/algorithms/mass_matrix.h"
-#include "gen/algorithms/rnea.h"
+#include "gen/algorithms/rnea_search.h"
 
 namespace dyngen {
 namespace {
@@ -35,7 +35,7 @@ std::vector<std::vector<std::size_t>> carriers(const CodeModel& code) {
 std::vector<ex> write_net_torque(Trace& trace, const CodeModel& code) {
   RneaTerms terms;
   terms.motion.acceleration = false;
-  write_rnea(trace, code, terms);
+  write_shortest_rnea(trace, code, terms);
   std::vector<ex> torque(code.coordinate_names.size(), 0);
   for (const Output& output : trace.take_outputs()) {
     torque[static_cast<std::size_t>(output.index)] = output.value;

@@ -8,7 +8,6 @@
 
 #include "gen/algorithms/link_inertia.h"
 #include "gen/algorithms/link_wrench.h"
-#include "gen/algorithms/rnea_search.h"
 
 namespace dyngen {
 namespace {
@@ -161,10 +160,6 @@ class Backward {
 };
 
 }  // namespace
-
-void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms) {
-  write_rnea(trace, code, terms, choose_form(trace, code));
-}
 
 void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, const RneaForm& form) {
   trace.section("parameters of the links");

@@ -15,13 +15,10 @@ struct RneaTerms {
   bool wrench = true;    ///< the last link's, if the model has one
 };
 
-/// Writes tau by customised Newton-Euler, as the output array "tau" (N m, N if prismatic), in the
-/// form that needs the fewest operations of those that were tried.
+/// Writes tau by customised Newton-Euler in a given form, as the output array "tau" (N m, N if
+/// prismatic).
 ///
 /// Source: Khalil and Dombre 2002, ch. 9.
-void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms);
-
-/// The same in a given form.
 void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, const RneaForm& form);
 
 /// Writes the friction torque FS sign(dq) + FV dq + OFF of every joint.

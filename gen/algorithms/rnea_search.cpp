@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "gen/algorithms/form_search.h"
-#include "gen/algorithms/rnea.h"
 #include "gen/symbols/exact.h"
 
 namespace dyngen {
@@ -105,8 +104,7 @@ RneaForm plain_form(const CodeModel& code) {
   return RneaForm(code.links.size(), plain);
 }
 
-}  // namespace
-
+/// @param trace  what stands before the recursion
 const RneaForm& choose_form(const Trace& trace, const CodeModel& code) {
   RneaForm& chosen = *code.rnea_form;
   if (!chosen.empty()) return chosen;
@@ -135,6 +133,12 @@ const RneaForm& choose_form(const Trace& trace, const CodeModel& code) {
   });
   chosen = search.best();
   return chosen;
+}
+
+}  // namespace
+
+void write_shortest_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms) {
+  write_rnea(trace, code, terms, choose_form(trace, code));
 }
 
 }  // namespace dyngen

@@ -2,14 +2,13 @@
 #pragma once
 
 #include "gen/algorithms/code_model.h"
-#include "gen/algorithms/link_form.h"
+#include "gen/algorithms/rnea.h"
 #include "gen/trace/trace.h"
 
 namespace dyngen {
 
-/// The form of the recursion that needs the fewest operations for the rigid body torque, of those
-/// that are tried. It is looked for once for each model.
-/// @param trace  what stands before it
-const RneaForm& choose_form(const Trace& trace, const CodeModel& code);
+/// Writes tau as write_rnea() does, in the form that needs the fewest operations for the rigid body
+/// torque, of those that are tried. It is looked for once for each model.
+void write_shortest_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms);
 
 }  // namespace dyngen

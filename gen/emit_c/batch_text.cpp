@@ -54,6 +54,11 @@ std::string lanes_function(const CodeModel& code, const RobotFunction& function,
   std::string text = wrap_arguments(
       fmt::format("static {}_NOINLINE void {}_{}_lanes(size_t n{}) {{\n",
                   upper_case(options.prefix), options.prefix, function.name, parameters));
+  const bool reads_rows = std::any_of(all.begin(), all.end(), [&](const Argument& argument) {
+    const bool used = argument.output || body.reads(argument.name);
+    return used && !argument.shared && argument.size() > 1;
+  });
+  if (!reads_rows) text += "  (void)n;\n";
   text += loads + body.constants() + body.statements() + "\n";
   for (const Output& output : function.trace.outputs()) {
     const std::string value = spelling.expression(output.value);

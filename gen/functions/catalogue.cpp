@@ -15,24 +15,26 @@
 #include "gen/algorithms/mass_matrix.h"
 #include "gen/algorithms/pose.h"
 #include "gen/algorithms/regressor.h"
-#include "gen/algorithms/rnea.h"
+#include "gen/algorithms/rnea_search.h"
 
 namespace dyngen {
 namespace {
 
-void write_id(Trace& trace, const CodeModel& code) { write_rnea(trace, code, RneaTerms{}); }
+void write_id(Trace& trace, const CodeModel& code) {
+  write_shortest_rnea(trace, code, RneaTerms{});
+}
 
 void write_id_rigid(Trace& trace, const CodeModel& code) {
   RneaTerms terms;
   terms.friction = false;
-  write_rnea(trace, code, terms);
+  write_shortest_rnea(trace, code, terms);
 }
 
 void write_coriolis(Trace& trace, const CodeModel& code) {
   RneaTerms terms;
   terms.motion = {.velocity = true, .acceleration = false, .gravity = false};
   terms.rotor = terms.friction = terms.wrench = false;
-  write_rnea(trace, code, terms);
+  write_shortest_rnea(trace, code, terms);
 }
 
 void write_id_dq_pos(Trace& trace, const CodeModel& code) {

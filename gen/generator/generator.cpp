@@ -129,7 +129,8 @@ std::vector<RobotFunction> write_functions(CodeModel& code, const GeneratorOptio
   std::erase_if(all, [&](const auto& wanted) { return is_absent(wanted.name, code, options); });
   std::vector<FunctionName> names;
   for (const WantedFunction& wanted : all) names.push_back(wanted.name);
-  std::vector<RobotFunction> functions = write_functions(names, code, options.search, options.progress);
+  std::vector<RobotFunction> functions =
+      write_functions(names, code, options.search, options.progress);
   for (std::size_t i = 0; i < all.size(); ++i) {
     functions[i].scalar = all[i].scalar;
     functions[i].batch = all[i].batch;

@@ -29,7 +29,7 @@ foreach(scalar IN ITEMS double float)
 endforeach()
 
 # Each function alone: nothing in the file that only the others need.
-foreach(function IN ITEMS id gravity coriolis friction)
+foreach(function IN ITEMS id gravity coriolis friction gravity_batch friction_batch)
   run(text 0 ${DYNGEN} ${ROBOT} --search 0 -o ${WORK}/alone.c --functions ${function})
   foreach(compiler IN LISTS COMPILERS)
     run(text 0 ${compiler} -std=c99 ${WARNINGS} -Werror -c ${WORK}/alone.c -o ${WORK}/code.o)

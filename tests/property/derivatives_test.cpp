@@ -63,24 +63,11 @@ double derivative_error(const RobotModel& model, const RobotModel& values, Gener
   return largest;
 }
 
-std::vector<GeneratorOptions> all_modes() {
-  std::vector<GeneratorOptions> result;
-  for (const ParameterMode mode : {ParameterMode::kBaked, ParameterMode::kRuntime}) {
-    for (const bool regroup : {true, false}) {
-      GeneratorOptions options;
-      options.parameters = mode;
-      options.regroup = regroup;
-      result.push_back(options);
-    }
-  }
-  return result;
-}
-
 class Derivatives : public testing::TestWithParam<std::string> {};
 
 TEST_P(Derivatives, EqualDifferencesOfTheJudge) {
   const RobotModel model = read_model(GetParam());
-  for (const GeneratorOptions& options : all_modes()) {
+  for (const GeneratorOptions& options : every_mode()) {
     EXPECT_LT(derivative_error(model, with_random_values(model, 4), options, 8), kTolerance);
   }
 }
@@ -114,7 +101,7 @@ TEST(DerivativesOfRandomRobots, WithEveryArgumentEqualDifferencesOfTheJudge) {
     const RobotModel values = robot_model(robot);
     RobotModel model = values;
     for (JointModel& joint : model.joints) joint.d.unknown = joint.r.unknown = name.size() % 2 == 0;
-    for (GeneratorOptions options : all_modes()) {
+    for (GeneratorOptions options : every_mode()) {
       options.gravity = options.wrench = options.payload = true;
       EXPECT_LT(derivative_error(model, values, options, 3), kTolerance) << name;
     }
@@ -187,7 +174,7 @@ RC_GTEST_PROP(DerivativesOfRandomRobots, EqualDifferencesOfTheJudge, ()) {
       joint.r.unknown = *rc::gen::arbitrary<bool>();
     }
   }
-  const std::vector<GeneratorOptions> modes = all_modes();
+  const std::vector<GeneratorOptions> modes = every_mode();
   const auto mode = *rc::gen::inRange<std::size_t>(0, modes.size());
   RC_ASSERT(derivative_error(model, values, modes[mode], 3) < kTolerance);
 }

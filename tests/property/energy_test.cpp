@@ -22,16 +22,6 @@ namespace {
 
 constexpr double kTolerance = 1e-10;
 
-/// Coordinates to one entry per joint, as the judge wants them.
-std::vector<double> per_joint(const RobotModel& model, const std::vector<double>& values) {
-  std::vector<double> result(model.joints.size(), 0.0);
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    const int coordinate = model.joints[j].coordinate;
-    if (coordinate >= 0) result[j] = values[static_cast<std::size_t>(coordinate)];
-  }
-  return result;
-}
-
 /// Kinetic and potential energy from the judge's mass matrix and forward kinematics.
 double judge_energy(const RobotModel& model, const NumericRobot& robot,
                     const MotionSample& sample) {
@@ -129,26 +119,13 @@ Errors energy_errors(const RobotModel& model, const RobotModel& values, const Nu
   return {energy.value(), balance.value()};
 }
 
-std::vector<GeneratorOptions> modes() {
-  std::vector<GeneratorOptions> result;
-  for (const ParameterMode mode : {ParameterMode::kBaked, ParameterMode::kRuntime}) {
-    for (const bool regroup : {true, false}) {
-      GeneratorOptions options;
-      options.parameters = mode;
-      options.regroup = regroup;
-      result.push_back(options);
-    }
-  }
-  return result;
-}
-
 class EnergyOfFile : public testing::TestWithParam<std::string> {
  protected:
   RobotModel model_ = read_model(GetParam());
   RobotModel values_ = with_random_values(model_, 3);
 
   void expect_small(const RobotModel& model, const RobotModel& values) {
-    for (const GeneratorOptions& options : modes()) {
+    for (const GeneratorOptions& options : every_mode()) {
       const Errors errors = energy_errors(model, values, numeric_robot(values), options, 10);
       EXPECT_LT(errors.energy, kTolerance);
       EXPECT_LT(errors.balance, kTolerance);
@@ -206,7 +183,7 @@ TEST(Energy, ComparisonFailsOnWrongFriction) {
 RC_GTEST_PROP(EnergyOfRandomRobot, IsTheJudgesAndItsRateThePower, ()) {
   const NumericRobot numbers = random_robot();
   const RobotModel model = robot_model(numbers);
-  const GeneratorOptions options = *rc::gen::elementOf(modes());
+  const GeneratorOptions options = *rc::gen::elementOf(every_mode());
   const Errors errors = energy_errors(model, model, numbers, options, 3);
   RC_ASSERT(errors.energy < kTolerance);
   RC_ASSERT(errors.balance < kTolerance);

@@ -19,20 +19,6 @@ namespace {
 // Links that could be built, of like size: the condition of M costs three digits or so.
 constexpr double kTolerance = 1e-9;
 
-std::vector<GeneratorOptions> all_options() {
-  std::vector<GeneratorOptions> result;
-  for (const ParameterMode mode : {ParameterMode::kBaked, ParameterMode::kRuntime}) {
-    for (const bool regroup : {true, false}) {
-      GeneratorOptions options;
-      options.functions = {"id", "fd"};
-      options.parameters = mode;
-      options.regroup = regroup;
-      result.push_back(options);
-    }
-  }
-  return result;
-}
-
 double round_trip_error(const EvaluatedModel& evaluated, const std::vector<MotionSample>& samples) {
   RelativeError error;
   for (MotionSample sample : samples) {
@@ -46,7 +32,7 @@ class ForwardDynamicsOfFile : public testing::TestWithParam<std::string> {};
 
 TEST_P(ForwardDynamicsOfFile, UndoesInverseDynamics) {
   const RobotModel model = read_model(GetParam());
-  for (GeneratorOptions options : all_options()) {
+  for (GeneratorOptions options : every_mode({"id", "fd"})) {
     for (const bool arguments : {false, true}) {
       options.gravity = options.wrench = arguments;
       const EvaluatedModel evaluated(model, options);
@@ -71,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Files, ForwardDynamicsOfFile,
 TEST(ForwardDynamics, UndoesInverseDynamicsOfTrees) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     const RobotModel model = robot_model(physical_robot(seed, 3 + static_cast<int>(seed) % 6));
-    for (const GeneratorOptions& options : all_options()) {
+    for (const GeneratorOptions& options : every_mode({"id", "fd"})) {
       const EvaluatedModel evaluated(model, options);
       EXPECT_LT(round_trip_error(evaluated, random_samples(model.coordinate_count, 10, seed)),
                 kTolerance)
@@ -85,7 +71,7 @@ TEST(ForwardDynamics, UndoesInverseDynamicsWithRunTimeLengths) {
     const RobotModel values = robot_model(physical_robot(seed, 5));
     RobotModel symbolic = values;
     for (JointModel& joint : symbolic.joints) joint.d.unknown = joint.r.unknown = true;
-    for (const GeneratorOptions& options : all_options()) {
+    for (const GeneratorOptions& options : every_mode({"id", "fd"})) {
       const EvaluatedModel evaluated(symbolic, values, options);
       EXPECT_LT(round_trip_error(evaluated, random_samples(values.coordinate_count, 10, seed)),
                 kTolerance)
@@ -98,7 +84,7 @@ TEST(ForwardDynamics, SolvesTheJudgesEquations) {
   for (unsigned seed = 61; seed <= 70; ++seed) {
     const NumericRobot numbers = physical_robot(seed, 3 + static_cast<int>(seed) % 6);
     const RobotModel model = robot_model(numbers);
-    for (const GeneratorOptions& options : all_options()) {
+    for (const GeneratorOptions& options : every_mode({"id", "fd"})) {
       const EvaluatedModel evaluated(model, options);
       RelativeError error;
       for (MotionSample sample : random_samples(model.coordinate_count, 10, seed)) {

@@ -19,20 +19,6 @@ namespace {
 // Double against double, some 300 operations.
 constexpr double kTolerance = 1e-10;
 
-std::vector<GeneratorOptions> all_options(const std::vector<std::string>& functions) {
-  std::vector<GeneratorOptions> result;
-  for (const ParameterMode mode : {ParameterMode::kBaked, ParameterMode::kRuntime}) {
-    for (const bool regroup : {true, false}) {
-      GeneratorOptions options;
-      options.functions = functions;
-      options.parameters = mode;
-      options.regroup = regroup;
-      result.push_back(options);
-    }
-  }
-  return result;
-}
-
 Eigen::MatrixXd square(const std::vector<double>& values) {
   const auto n = static_cast<Eigen::Index>(std::lround(std::sqrt(values.size())));
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
@@ -45,7 +31,7 @@ TEST_P(MassMatrixOfFile, IsTheJudges) {
   const RobotModel model = read_model(GetParam());
   const RobotModel values = with_random_values(model, 3);
   const NumericRobot numbers = numeric_robot(values);
-  for (const GeneratorOptions& options : all_options({"mass_matrix"})) {
+  for (const GeneratorOptions& options : every_mode({"mass_matrix"})) {
     const EvaluatedModel evaluated(model, values, options);
     RelativeError error;
     for (const MotionSample& sample : random_samples(model.coordinate_count, 20, 5)) {
@@ -74,7 +60,7 @@ TEST(MassMatrix, IsTheOraclesWithRotorsOnTheDiagonal) {
   for (const std::string& name : oracle_names()) {
     const Oracle oracle = load_oracle(name);
     const RobotModel model = robot_model(oracle.robot, name);
-    for (const GeneratorOptions& options : all_options({"mass_matrix"})) {
+    for (const GeneratorOptions& options : every_mode({"mass_matrix"})) {
       const EvaluatedModel evaluated(model, options);
       RelativeError error;
       for (const OracleState& state : oracle.states) {
@@ -94,7 +80,7 @@ TEST(MassMatrix, IsSymmetricAndPositiveDefiniteForRealLinks) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     const NumericRobot numbers = physical_robot(seed, 3 + static_cast<int>(seed) % 6);
     const RobotModel model = robot_model(numbers);
-    for (const GeneratorOptions& options : all_options({"mass_matrix"})) {
+    for (const GeneratorOptions& options : every_mode({"mass_matrix"})) {
       const EvaluatedModel evaluated(model, options);
       for (const MotionSample& sample : random_samples(model.coordinate_count, 10, seed)) {
         const Eigen::MatrixXd M = square(evaluated.call("mass_matrix", sample));
@@ -109,7 +95,7 @@ TEST(MassMatrix, TimesAccelerationIsWhatInverseDynamicsAdds) {
   for (unsigned seed = 21; seed <= 32; ++seed) {
     const RobotModel model = robot_model(physical_robot(seed, 3 + static_cast<int>(seed) % 6));
     for (const GeneratorOptions& options :
-         all_options({"id", "gravity", "coriolis", "friction", "mass_matrix"})) {
+         every_mode({"id", "gravity", "coriolis", "friction", "mass_matrix"})) {
       const EvaluatedModel evaluated(model, options);
       RelativeError error;
       for (const MotionSample& sample : random_samples(model.coordinate_count, 10, seed)) {

@@ -34,19 +34,6 @@ void expect_small(const Errors& errors, const std::string& what) {
   EXPECT_LT(errors.coriolis, kTolerance) << what;
 }
 
-std::vector<GeneratorOptions> all_options() {
-  std::vector<GeneratorOptions> result;
-  for (const ParameterMode mode : {ParameterMode::kBaked, ParameterMode::kRuntime}) {
-    for (const bool regroup : {true, false}) {
-      GeneratorOptions options;
-      options.parameters = mode;
-      options.regroup = regroup;
-      result.push_back(options);
-    }
-  }
-  return result;
-}
-
 struct RobotOfOracle {
   std::string oracle;
   std::string path;
@@ -57,7 +44,7 @@ class OracleRobot : public testing::TestWithParam<RobotOfOracle> {};
 TEST_P(OracleRobot, FileGivesTheOraclesTorques) {
   const Oracle oracle = load_oracle(GetParam().oracle);
   const RobotModel model = read_model(GetParam().path);
-  for (const GeneratorOptions& options : all_options()) {
+  for (const GeneratorOptions& options : every_mode()) {
     expect_small(errors_against(oracle, EvaluatedModel(model, options)), GetParam().path);
   }
 }
@@ -79,7 +66,7 @@ TEST(OracleRobot, StandardFramesGiveTheSameTorques) {
   for (const std::string& name : oracle_names()) {
     const Oracle oracle = load_oracle(name);
     if (!oracle.standard) continue;
-    for (const GeneratorOptions& options : all_options()) {
+    for (const GeneratorOptions& options : every_mode()) {
       const EvaluatedModel model(robot_model(*oracle.standard, name), options);
       expect_small(errors_against(oracle, model), name + " in standard frames");
     }
@@ -106,7 +93,7 @@ TEST(OracleRobot, ComparisonFailsOnTheWrongConvention) {
 TEST(Sarcos, GravityIsTheThesisListings) {
   const RobotModel robot = read_model("robots/sarcos_grla.robot");
   const Table table = load_sarcos_gravity();
-  for (const GeneratorOptions& options : all_options()) {
+  for (const GeneratorOptions& options : every_mode()) {
     const EvaluatedModel model(robot, options);
     RelativeError error;
     for (std::size_t row = 0; row < table.rows.size(); ++row) {

@@ -48,7 +48,8 @@ GiNaC::ex exact_angle(double value) {
 
 Quantity exact_quantity(double value) { return {false, exact_decimal(value), 1}; }
 
-/// Coordinates to one entry per joint, as the judge wants them.
+}  // namespace
+
 std::vector<double> per_joint(const RobotModel& model, const std::vector<double>& values) {
   std::vector<double> result(model.joints.size(), 0.0);
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
@@ -57,8 +58,6 @@ std::vector<double> per_joint(const RobotModel& model, const std::vector<double>
   }
   return result;
 }
-
-}  // namespace
 
 NumericRobot numeric_robot(const RobotModel& model) {
   NumericRobot robot;
@@ -225,6 +224,20 @@ std::vector<double> judge(const RobotModel& model, const NumericRobot& robot,
     if (model.joints[j].coordinate >= 0) moving.push_back(torque[j]);
   }
   return moving;
+}
+
+std::vector<GeneratorOptions> every_mode(const std::vector<std::string>& functions) {
+  std::vector<GeneratorOptions> result;
+  for (const ParameterMode mode : {ParameterMode::kBaked, ParameterMode::kRuntime}) {
+    for (const bool regroup : {true, false}) {
+      GeneratorOptions options;
+      options.functions = functions;
+      options.parameters = mode;
+      options.regroup = regroup;
+      result.push_back(options);
+    }
+  }
+  return result;
 }
 
 GeneratorOptions with_short_search(GeneratorOptions options) {

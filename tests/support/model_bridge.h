@@ -29,7 +29,14 @@ RobotModel with_unknown_parameters(RobotModel model, bool inertial_only);
 /// Gives every unknown quantity a random number; masses and friction are positive.
 RobotModel with_random_values(RobotModel model, std::uint64_t seed);
 
-/// The same with a short search for fewer operations: what is tested holds however long it is.
+/// Numbers in the code and at run time, each with base parameters and with the standard ones.
+/// @param functions  empty: all
+std::vector<GeneratorOptions> every_mode(const std::vector<std::string>& functions = {});
+
+/// Coordinates to one entry per joint, as the judge wants them; 0 for fixed joints.
+std::vector<double> per_joint(const RobotModel& model, const std::vector<double>& values);
+
+/// The options with a short search for fewer operations: what is tested holds however long it is.
 GeneratorOptions with_short_search(GeneratorOptions options);
 
 /// Inputs of one sample, one value per coordinate; what a function does not read may be empty.
