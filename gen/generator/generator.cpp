@@ -91,6 +91,10 @@ void GeneratorOptions::validate() const {
     throw std::invalid_argument(
         "--fold: the file's numbers stand in the code already; expected --parameters runtime");
   }
+  if (search.work < 0) {
+    throw std::invalid_argument(
+        fmt::format("--search: {} is negative; expected 0 or more", search.work));
+  }
   if (!prefix.empty() && !is_c_identifier(prefix)) {
     throw std::invalid_argument(fmt::format(
         "--prefix: '{}' is not a C identifier; expected letters, digits and '_', no digit first",

@@ -137,7 +137,6 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                  "How much work to spend on fewer operations, for each function (default: " +
                      std::to_string(SearchOptions().work) +
                      ", about half a second; 0: shared subexpressions only)")
-      ->check(CLI::NonNegativeNumber)
       ->type_name("WORK");
   app.add_flag("--cpp-wrapper", options.generator.cpp_wrapper,
                "Write a C++20 header beside the C one (.hpp): the functions over Eigen's types");
