@@ -102,7 +102,9 @@ class RegressorWriter {
  private:
   void apply_plan(CarriedLink& own) {
     const auto& joints = own.screws->joints;
-    for (const auto& [center, to_origin] : own.screws->centers) {
+    for (const auto& entry : own.screws->centers) {
+      const int center = entry.first;
+      const Vector3& to_origin = entry.second;
       const auto turns = std::count_if(joints.begin(), joints.end(), [&](const JointScrew& screw) {
         return screw.leads() && screw.center == center;
       });
@@ -129,7 +131,9 @@ class RegressorWriter {
     auto& rows = rows_[static_cast<std::size_t>(own.link)];
     rows = write_link_regressor(trace_, own);
     if (slide.is_zero()) return;
-    for (auto& [joint, row] : rows) {
+    for (auto& entry : rows) {
+      const int joint = entry.first;
+      InertialRow& row = entry.second;
       const auto back = [&](Chi first, Chi product) {
         const std::string name = fmt::format("Y{}_{}{}", joint, kChiNames[index(first)], own.link);
         row[index(first)] = trace_.assign(name, row[index(first)] - slide * row[index(product)]);
