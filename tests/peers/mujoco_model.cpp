@@ -15,8 +15,8 @@
 namespace dyngen::test {
 namespace {
 
-/// A body with its joint and its children. The inertia is a placeholder: the compiler refuses some
-/// that published robots have, and finds principal axes to 1e-8 only; set_inertia() does it.
+/// A body with its joint and its children. set_inertia() sets its inertia afterwards: MuJoCo's
+/// compiler refuses some that published robots have, and finds principal axes to 1e-8 only.
 std::string body_text(const NumericRobot& robot, std::size_t j) {
   const NumericJoint& joint = robot.joints[j];
   const LinkFrames frames = link_frames(robot, j);
