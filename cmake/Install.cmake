@@ -8,8 +8,9 @@ set(DYNGEN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/dyngen)
 if(TARGET dyngen_runtime)
   install(TARGETS dyngen_runtime EXPORT dyngenRuntimeTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
-  install(FILES runtime/model_functions.h
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dyngen/runtime COMPONENT runtime)
+  install(DIRECTORY runtime/
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dyngen/runtime COMPONENT runtime
+    FILES_MATCHING PATTERN "*.h" PATTERN tools EXCLUDE)
   install(EXPORT dyngenRuntimeTargets NAMESPACE dyngen::
     DESTINATION ${DYNGEN_PACKAGE_DIR} COMPONENT runtime)
 endif()

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "puma560.h"
-#include "runtime/model_functions.h"
+#include "runtime/model/model_functions.h"
 
 namespace {
 

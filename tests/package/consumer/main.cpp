@@ -4,7 +4,7 @@
 
 #include "arm.h"
 #ifdef CONSUMER_HAS_RUNTIME
-#include "runtime/model_functions.h"
+#include "runtime/model/model_functions.h"
 #endif
 
 int main() {

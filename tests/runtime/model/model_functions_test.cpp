@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/model_functions.h"
+#include "runtime/model/model_functions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dyngen::runtime {
+
+/// What a parameter of a LinearModel is.
+enum class ParameterKind { kInertial, kRotorInertia, kViscous, kCoulomb, kOffset };
+
+/// A parameter that torque is linear in.
+struct LinearParameter {
+  std::string name;  ///< "ZZR2"
+  std::string unit;
+  std::string formula;  ///< what is grouped in it: "ZZ2 + IA2 + L^2*M3"
+  int link = 0;         ///< from 1
+  ParameterKind kind = ParameterKind::kInertial;
+  std::optional<double> value;  ///< of the robot file; none if unknown there
+};
+
+/// A robot as estimation sees it: tau = Y(q, dq, ddq) beta, with a minimal beta.
+struct LinearModel {
+  std::string name;
+  std::vector<std::string> joint_names;
+  std::vector<bool> revolute;
+  std::vector<LinearParameter> parameters;
+  /// columns[j]: the parameters that can act on joint j, ascending; the others are zero in its row.
+  std::vector<std::vector<int>> columns;
+
+  /// Y of many samples. q, dq, ddq: (N x n). Y: element (joint j, parameter c) of sample k stands
+  /// at Y(k, j * parameters.size() + c); Y is (N x n * nb), already of that size.
+  /// May be called from several threads. @throws std::invalid_argument  if a size is wrong
+  std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& q,
+                     const Eigen::Ref<const Eigen::MatrixXd>& dq,
+                     const Eigen::Ref<const Eigen::MatrixXd>& ddq, Eigen::Ref<Eigen::MatrixXd> Y)>
+      regressor;
+
+  [[nodiscard]] int joints() const { return static_cast<int>(joint_names.size()); }
+  [[nodiscard]] int size() const { return static_cast<int>(parameters.size()); }
+};
+
+}  // namespace dyngen::runtime

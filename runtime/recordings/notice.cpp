@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/recordings/notice.h"
+
+#include <fmt/format.h>
+
+namespace dyngen::runtime {
+
+std::string Notice::text() const {
+  std::string place = file;
+  if (line != 0) place += fmt::format(":{}", line);
+  if (line != 0 && column != 0) place += fmt::format(":{}", column);
+  return fmt::format("{}: warning: {}", place, message);
+}
+
+}  // namespace dyngen::runtime

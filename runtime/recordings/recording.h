@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace dyngen::runtime {
+
+/// A recording as it was measured: one row a sample, SI units, joint side.
+///
+/// Matrices are column-major, one column a joint: the samples of a joint stand together.
+struct Recording {
+  std::string file_name;
+  Eigen::VectorXd time;         ///< (N) s, increasing within a run
+  Eigen::MatrixXd q;            ///< (N x n) rad or m
+  Eigen::MatrixXd tau;          ///< (N x n) N m or N
+  Eigen::MatrixXd dq;           ///< (N x n) rad/s or m/s; 0 x 0 if not recorded
+  Eigen::MatrixXd ddq;          ///< (N x n); 0 x 0 if not recorded
+  Eigen::MatrixXd tau_sim;      ///< (N x n) what another simulator says; 0 x 0 if absent
+  Eigen::MatrixXd temperature;  ///< (N x any); 0 x 0 if absent
+  /// First row of every run; the first is 0. Rows of different runs do not follow each other in
+  /// time, so no filter crosses from one to the next.
+  std::vector<Eigen::Index> run_starts;
+
+  [[nodiscard]] Eigen::Index samples() const { return time.size(); }
+  [[nodiscard]] int joints() const { return static_cast<int>(q.cols()); }
+};
+
+}  // namespace dyngen::runtime
