@@ -31,16 +31,20 @@ struct LinearModel {
   /// columns[j]: the parameters that can act on joint j, ascending; the others are zero in its row.
   std::vector<std::vector<int>> columns;
 
-  /// Y of many samples. q, dq, ddq: (N x n). Y: element (joint j, parameter c) of sample k stands
-  /// at Y(k, j * parameters.size() + c); Y is (N x n * nb), already of that size.
+  /// Y of many samples. q, dq, ddq: (N x n). Y becomes (N x n * nb): element (joint j, parameter c)
+  /// of sample k is Y(k, j * size() + c), so that an equation's samples stand together.
   /// May be called from several threads. @throws std::invalid_argument  if a size is wrong
-  std::function<void(const Eigen::Ref<const Eigen::MatrixXd>& q,
-                     const Eigen::Ref<const Eigen::MatrixXd>& dq,
-                     const Eigen::Ref<const Eigen::MatrixXd>& ddq, Eigen::Ref<Eigen::MatrixXd> Y)>
+  std::function<void(const Eigen::MatrixXd& q, const Eigen::MatrixXd& dq,
+                     const Eigen::MatrixXd& ddq, Eigen::MatrixXd& Y)>
       regressor;
 
   [[nodiscard]] int joints() const { return static_cast<int>(joint_names.size()); }
   [[nodiscard]] int size() const { return static_cast<int>(parameters.size()); }
+
+  /// tau = Y beta of many samples. @return (N x n)
+  [[nodiscard]] Eigen::MatrixXd torque(const Eigen::MatrixXd& q, const Eigen::MatrixXd& dq,
+                                       const Eigen::MatrixXd& ddq,
+                                       const Eigen::VectorXd& beta) const;
 };
 
 }  // namespace dyngen::runtime

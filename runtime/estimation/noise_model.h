@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/estimation/rows.h"
+
+namespace dyngen::runtime {
+
+/// Noise of one joint as an autoregressive process: e_t = sum_k a_k e_(t-k) + white noise.
+struct AutoregressiveNoise {
+  Eigen::VectorXd coefficients;  ///< a_1 .. a_p; p is chosen, 0 for white noise
+  double innovation = 0;         ///< standard deviation of the white noise, N m or N
+  double deviation = 0;          ///< standard deviation of e
+  /// How many consecutive samples are worth one independent sample for a mean:
+  /// sum over all lags of the autocorrelation.
+  double correlation_time = 1;
+};
+
+/// Fits an autoregressive process to autocovariances; the order with the least Bayesian
+/// information criterion.
+/// @param autocovariance  lags 0 .. L, not all zero       @param samples  how many they come from
+/// Source: the Levinson-Durbin recursion on the Yule-Walker equations.
+AutoregressiveNoise fit_autoregression(const Eigen::VectorXd& autocovariance, double samples);
+
+/// Autocovariances of the residual of every joint, lags 0 .. most_lags; runs are not joined.
+/// @return (most_lags + 1 x n)
+Eigen::MatrixXd residual_autocovariance(const RowSource& source, const Eigen::VectorXd& beta,
+                                        Eigen::Index most_lags);
+
+/// What the noise of the torque does to the normal equations: per joint a triangle F with
+/// F'F = Y'Omega Y, Omega the covariance of that joint's noise over all samples.
+///
+/// Merged as equations are: noise of different recordings is independent.
+struct NoiseFactor {
+  std::vector<Eigen::MatrixXd> F;  ///< (n_j x n_j) of each joint
+  Eigen::VectorXd power;           ///< (n) sum of the residual's squares
+  /// (n) the same times the correlation time: over power, how many consecutive samples are worth
+  /// one.
+  Eigen::VectorXd correlated_power;
+
+  [[nodiscard]] Eigen::VectorXd correlation_time() const {
+    return correlated_power.array() / power.array().max(1e-300);
+  }
+};
+
+/// Without any rows. @param columns  of LinearModel
+NoiseFactor empty_noise(const std::vector<std::vector<int>>& columns);
+
+/// @param beta  where the residual is taken
+/// The rows run through the filter 1 / (1 - sum a_k z^-k), so that F'F is exact for that process,
+/// whatever the regressor.
+NoiseFactor noise_factor(const RowSource& source, const std::vector<std::vector<int>>& columns,
+                         const Eigen::VectorXd& beta);
+
+/// Adds another recording's. @throws std::invalid_argument  if it is of another model
+void merge(NoiseFactor& factor, const NoiseFactor& other);
+
+}  // namespace dyngen::runtime

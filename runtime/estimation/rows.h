@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "runtime/estimation/torque_factor.h"
+
+namespace dyngen::runtime {
+
+/// Equations of consecutive samples.
+struct RowBlock {
+  Eigen::MatrixXd Y;           ///< (N x n * nb) as LinearModel::regressor gives it
+  Eigen::MatrixXd tau;         ///< (N x n)
+  bool continues_run = false;  ///< the first sample follows the last one of the block before
+};
+
+/// Gives all blocks of a set of recordings, in order; may be called again, for estimators that look
+/// at the samples more than once.
+using RowSource = std::function<void(const std::function<void(const RowBlock&)>&)>;
+
+/// tau - Y beta. @return (N x n)
+Eigen::MatrixXd residual(const RowBlock& block, const Eigen::VectorXd& beta);
+
+/// All equations of a source. @param columns  of LinearModel
+TorqueFactor factor_of(const RowSource& source, const std::vector<std::vector<int>>& columns,
+                       int parameters);
+
+}  // namespace dyngen::runtime

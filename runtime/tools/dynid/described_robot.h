@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "gen/model/robot_model.h"
+#include "gen/robot_file/robot_file.h"
+#include "runtime/model/linear_model.h"
+
+namespace dyngen::runtime {
+
+/// Which parameters a robot file leaves open to estimation.
+enum class OpenParameters {
+  kAsWritten,   ///< what the file says: an absent row is zero
+  kAbsentRows,  ///< rows that are absent are unknown too; a 0 that is written is known
+  kEverything,  ///< a 0 says nothing: what physical consistency asks about
+};
+
+/// A row of 14 standard parameters of every link, one after the other: place 14 * (link - 1) + kind
+/// in the order of chi.h.
+using StandardParameters = Eigen::VectorXd;
+
+/// A robot file as the estimation tools see it.
+struct DescribedRobot {
+  RobotFile file;
+  RobotModel model;    ///< with the parameters opened as asked
+  LinearModel linear;  ///< its minimal parameters and its regressor, evaluated without a compiler
+  /// beta = grouping * standard parameters of the file, (nb x 14 links)
+  Eigen::MatrixXd grouping;
+  StandardParameters standard;  ///< numbers of the file; NaN where unknown
+  /// Where the value of each base parameter goes in a file in which all others are zero: (nb)
+  /// places of standard parameters.
+  std::vector<Eigen::Index> places;
+};
+
+/// Reads a robot file and writes its base regressor as a program.
+/// @throws ModelError  positioned; a length or gravity component that is '*' among them
+DescribedRobot describe_robot(const std::string& path, OpenParameters open);
+
+}  // namespace dyngen::runtime
