@@ -42,7 +42,7 @@ MatrixXd side_by_side(const MatrixXd& first, const MatrixXd& second, int paramet
 RowSource paired_rows(const InstrumentSource& source, int parameters) {
   return [source, parameters](const std::function<void(const RowBlock&)>& visit) {
     source([&](const InstrumentBlock& block) {
-      visit({side_by_side(block.Z, block.rows.Y, parameters), block.rows.tau,
+      visit({side_by_side(block.Z, block.rows.Y, parameters), block.rows.tau, block.rows.counted,
              block.rows.continues_run});
     });
   };
@@ -75,8 +75,8 @@ RowSource augmented_rows(const InstrumentSource& source,
           left.col(start + columns[j][i]) -= explained.col(static_cast<Index>(i));
         }
       }
-      visit(
-          {side_by_side(block.rows.Y, left, parameters), block.rows.tau, block.rows.continues_run});
+      visit({side_by_side(block.rows.Y, left, parameters), block.rows.tau, block.rows.counted,
+             block.rows.continues_run});
     });
   };
 }
@@ -174,7 +174,8 @@ InstrumentalEstimate instrumental_variables(const InstrumentSource& source,
   // (Z'W)^-1 (sum w^4 Z' Omega Z) (W'Z)^-1, Omega from the residual of this fit
   const RowSource z_rows = [source, beta = estimate.beta](const auto& visit) {
     source([&](const InstrumentBlock& block) {
-      visit(RowBlock{block.Z, residual(block.rows, beta), block.rows.continues_run});
+      visit(RowBlock{block.Z, residual(block.rows, beta), block.rows.counted,
+                     block.rows.continues_run});
     });
   };
   const NoiseFactor noise = noise_factor(z_rows, columns, VectorXd::Zero(nb));

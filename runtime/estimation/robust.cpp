@@ -28,6 +28,17 @@ MatrixXd root_weights(const MatrixXd& rest, const VectorXd& deviation, double th
   return weights;
 }
 
+/// A block whose equations are multiplied by the roots of their weights.
+RowBlock weighted(const RowBlock& block, const MatrixXd& roots) {
+  RowBlock result = block;
+  const Index nb = block.Y.cols() / roots.cols();
+  for (Index j = 0; j < roots.cols(); ++j) {
+    result.Y.middleCols(j * nb, nb).array().colwise() *= roots.col(j).array();
+  }
+  result.tau.array() *= roots.array();
+  return result;
+}
+
 }  // namespace
 
 RobustEstimate iteratively_reweighted(const RowSource& source,
@@ -38,7 +49,10 @@ RobustEstimate iteratively_reweighted(const RowSource& source,
   result.factor = factor_of(source, columns, parameters);
   result.estimate = weighted_least_squares(result.factor);
   result.deviation = residual_deviation(result.factor, result.estimate.beta);
-  const double samples = result.factor.samples();
+  VectorXd samples(result.deviation.size());
+  for (Index j = 0; j < samples.size(); ++j) {
+    samples[j] = std::max(1.0, result.factor.joints[static_cast<std::size_t>(j)].rows);
+  }
 
   for (result.rounds = 1; result.rounds <= options.most_rounds; ++result.rounds) {
     const VectorXd beta = result.estimate.beta, deviation = result.deviation;
@@ -48,17 +62,17 @@ RobustEstimate iteratively_reweighted(const RowSource& source,
     source([&](const RowBlock& block) {
       const MatrixXd rest = residual(block, beta);
       const MatrixXd weights = root_weights(rest, deviation, options.threshold);
-      absorb(factor, block.Y, block.tau, &weights);
+      absorb(factor, weighted(block, weights));
       for (Index j = 0; j < rest.cols(); ++j) {
         const double limit = options.threshold * deviation[j];
         clipped[j] += rest.col(j).array().abs().min(limit).square().sum();
         result.downweighted[j] += static_cast<double>((rest.col(j).array().abs() > limit).count());
       }
     });
-    result.downweighted /= samples;
+    result.downweighted.array() /= samples.array();
     for (Index j = 0; j < clipped.size(); ++j) {
-      const double degrees =
-          std::max(1.0, samples - static_cast<double>(columns[static_cast<std::size_t>(j)].size()));
+      const double degrees = std::max(
+          1.0, samples[j] - static_cast<double>(columns[static_cast<std::size_t>(j)].size()));
       result.deviation[j] = std::sqrt(std::max(clipped[j], 1e-300) / (degrees * expected));
     }
     result.factor = std::move(factor);
@@ -73,14 +87,7 @@ RobustEstimate iteratively_reweighted(const RowSource& source,
   result.rows = [source, beta, deviation,
                  threshold = options.threshold](const std::function<void(const RowBlock&)>& visit) {
     source([&](const RowBlock& block) {
-      const MatrixXd weights = root_weights(residual(block, beta), deviation, threshold);
-      RowBlock weighted = block;
-      const Index nb = beta.size();
-      for (Index j = 0; j < weights.cols(); ++j) {
-        weighted.Y.middleCols(j * nb, nb).array().colwise() *= weights.col(j).array();
-      }
-      weighted.tau.array() *= weights.array();
-      visit(weighted);
+      visit(weighted(block, root_weights(residual(block, beta), deviation, threshold)));
     });
   };
   return result;

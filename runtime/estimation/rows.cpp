@@ -3,6 +3,21 @@
 
 namespace dyngen::runtime {
 
+Eigen::VectorXd counted_rows(const RowBlock& block) {
+  if (block.counted.size() != 0) return block.counted.colwise().sum().transpose();
+  return Eigen::VectorXd::Constant(block.tau.cols(), static_cast<double>(block.tau.rows()));
+}
+
+void absorb(TorqueFactor& factor, const RowBlock& block) {
+  absorb(factor, block.Y, block.tau);
+  if (block.counted.size() == 0) return;
+  const Eigen::VectorXd counted = counted_rows(block);
+  for (std::size_t j = 0; j < factor.joints.size(); ++j) {
+    factor.joints[j].rows +=
+        counted[static_cast<Eigen::Index>(j)] - static_cast<double>(block.tau.rows());
+  }
+}
+
 Eigen::MatrixXd residual(const RowBlock& block, const Eigen::VectorXd& beta) {
   Eigen::MatrixXd rest = block.tau;
   for (Eigen::Index j = 0; j < rest.cols(); ++j) {
@@ -14,7 +29,7 @@ Eigen::MatrixXd residual(const RowBlock& block, const Eigen::VectorXd& beta) {
 TorqueFactor factor_of(const RowSource& source, const std::vector<std::vector<int>>& columns,
                        int parameters) {
   TorqueFactor factor = empty_factor(columns, parameters);
-  source([&](const RowBlock& block) { absorb(factor, block.Y, block.tau); });
+  source([&](const RowBlock& block) { absorb(factor, block); });
   return factor;
 }
 

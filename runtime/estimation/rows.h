@@ -10,14 +10,22 @@ namespace dyngen::runtime {
 
 /// Equations of consecutive samples.
 struct RowBlock {
-  Eigen::MatrixXd Y;           ///< (N x n * nb) as LinearModel::regressor gives it
-  Eigen::MatrixXd tau;         ///< (N x n)
+  Eigen::MatrixXd Y;    ///< (N x n * nb) as LinearModel::regressor gives it
+  Eigen::MatrixXd tau;  ///< (N x n)
+  /// (N x n) 1, or 0 where an equation is left out (its Y and tau are 0 then); 0 x 0: all count
+  Eigen::MatrixXd counted;
   bool continues_run = false;  ///< the first sample follows the last one of the block before
 };
 
 /// Gives all blocks of a set of recordings, in order; may be called again, for estimators that look
 /// at the samples more than once.
 using RowSource = std::function<void(const std::function<void(const RowBlock&)>&)>;
+
+/// How many equations of each joint count.
+Eigen::VectorXd counted_rows(const RowBlock& block);
+
+/// Adds a block's equations to a factor.
+void absorb(TorqueFactor& factor, const RowBlock& block);
 
 /// tau - Y beta. @return (N x n)
 Eigen::MatrixXd residual(const RowBlock& block, const Eigen::VectorXd& beta);

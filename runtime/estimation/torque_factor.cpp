@@ -35,6 +35,12 @@ Index place(Index joint, int parameter, Index parameters) { return joint * param
 
 }  // namespace
 
+double TorqueFactor::samples() const {
+  double most = 0;
+  for (const JointFactor& joint : joints) most = std::max(most, joint.rows);
+  return most;
+}
+
 TorqueFactor empty_factor(const std::vector<std::vector<int>>& columns, int parameters) {
   TorqueFactor factor;
   factor.columns = columns;
@@ -61,7 +67,7 @@ void absorb(JointFactor& joint, MatrixXd& A) {
   joint.R = triangle_of(both);
 }
 
-void absorb(TorqueFactor& factor, const MatrixXd& Y, const MatrixXd& tau, const MatrixXd* weights) {
+void absorb(TorqueFactor& factor, const MatrixXd& Y, const MatrixXd& tau) {
   const Index joints = static_cast<Index>(factor.joints.size());
   if (Y.rows() != tau.rows() || tau.cols() != joints || Y.cols() != joints * factor.parameters) {
     throw std::invalid_argument(fmt::format(
@@ -76,7 +82,6 @@ void absorb(TorqueFactor& factor, const MatrixXd& Y, const MatrixXd& tau, const 
       A.col(static_cast<Index>(i)) = Y.col(place(j, columns[i], factor.parameters));
     }
     A.rightCols(1) = tau.col(j);
-    if (weights != nullptr) A.array().colwise() *= weights->col(j).array();
     absorb(factor.joints[static_cast<std::size_t>(j)], A);
   }
 }

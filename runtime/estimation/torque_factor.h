@@ -24,7 +24,8 @@ struct TorqueFactor {
   int parameters = 0;                     ///< nb
   std::vector<JointFactor> joints;
 
-  [[nodiscard]] double samples() const { return joints.empty() ? 0 : joints.front().rows; }
+  /// Samples of the joint that has most: equations of a joint at rest may be left out.
+  [[nodiscard]] double samples() const;
 };
 
 /// A factor without equations.
@@ -35,10 +36,8 @@ TorqueFactor empty_factor(const std::vector<std::vector<int>>& columns, int para
 /// normal equations is not squared here.
 ///
 /// @param Y    (N x n * nb) as LinearModel::regressor gives it         @param tau  (N x n)
-/// @param weights  of each equation (N x n), multiplied into both sides; null: 1
 /// @throws std::invalid_argument  if a size is wrong
-void absorb(TorqueFactor& factor, const Eigen::MatrixXd& Y, const Eigen::MatrixXd& tau,
-            const Eigen::MatrixXd* weights = nullptr);
+void absorb(TorqueFactor& factor, const Eigen::MatrixXd& Y, const Eigen::MatrixXd& tau);
 
 /// The same for one joint. @param A  (N x n + 1): [Y tau] of the parameters that act on it; used as
 /// workspace

@@ -53,7 +53,7 @@ runtime::RowSource RandomEquations::source(const MatrixXd& tau, Index block) con
   return [this, tau, block](const std::function<void(const runtime::RowBlock&)>& visit) {
     for (Index start = 0; start < tau.rows(); start += block) {
       const Index count = std::min(block, tau.rows() - start);
-      visit({Y.middleRows(start, count), tau.middleRows(start, count), start > 0});
+      visit({Y.middleRows(start, count), tau.middleRows(start, count), {}, start > 0});
     }
   };
 }
