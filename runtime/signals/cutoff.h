@@ -18,10 +18,10 @@ struct Cutoff {
 /// position noise is white, where there is noise. So the noise is taken as the largest rising
 /// function below the spectrum (a third of an octave smooth); vibration that rises with frequency
 /// counts as noise too. Motion ends where the spectrum stays below twice that, signal to noise
-/// below one, for half an octave; it goes on above such a gap if more than 5 % of its power is
-/// there (then the frequency is taken where a sharp low-pass loses and passes least in sum). The
-/// largest of the joints that move, times 2 since a filter's edge is not sharp, between 2 Hz and a
-/// fifth of the sampling frequency.
+/// below one, for half an octave; it goes on above such a gap if more than 1 % of the velocity's
+/// power is there (then the frequency is taken where a sharp low-pass loses and passes least in
+/// sum). The largest of the joints that move, times 2 since a filter's edge is not sharp, between 2
+/// Hz and a fifth of the sampling frequency.
 ///
 /// @param q            (N x n) positions of one run, uniformly sampled; at least 64 samples
 /// @param sample_time  s, > 0
