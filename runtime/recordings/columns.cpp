@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/recordings/columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+#include <optional>
+
+namespace dyngen::runtime {
+namespace {
+
+enum class Kind { kTime, kQ, kTau, kDq, kDdq, kTauSim, kTemperature, kSegment };
+
+struct Spelling {
+  std::string_view word;
+  Kind kind;
+};
+
+constexpr std::array<Spelling, 9> kNumbered = {{{"q", Kind::kQ},
+                                                {"tau", Kind::kTau},
+                                                {"qd", Kind::kDq},
+                                                {"dq", Kind::kDq},
+                                                {"qdd", Kind::kDdq},
+                                                {"ddq", Kind::kDdq},
+                                                {"tausim", Kind::kTauSim},
+                                                {"tau_sim", Kind::kTauSim},
+                                                {"temp", Kind::kTemperature}}};
+
+constexpr int kMostJoints = 1000;
+
+/// What a name means; number 0 where it has none.
+struct Meaning {
+  Kind kind = Kind::kTime;
+  int number = 0;
+};
+
+std::optional<Meaning> meaning_of(std::string_view name) {
+  std::string lower(name);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  if (lower == "time") return Meaning{Kind::kTime, 0};
+  if (lower == "segment") return Meaning{Kind::kSegment, 0};
+  const std::size_t digits = std::min(lower.find_first_of("0123456789"), lower.size());
+  const std::string_view word = std::string_view(lower).substr(0, digits);
+  const std::string_view number = std::string_view(lower).substr(digits);
+  const auto spelled = std::find_if(kNumbered.begin(), kNumbered.end(),
+                                    [&](const Spelling& known) { return known.word == word; });
+  if (spelled == kNumbered.end() || number.empty() || number.size() > 4) return std::nullopt;
+  int value = 0;
+  const auto [stop, error] = std::from_chars(number.begin(), number.end(), value);
+  if (error != std::errc() || stop != number.end()) return std::nullopt;
+  return Meaning{spelled->kind, value};
+}
+
+/// The numbered columns of one kind: their numbers and where they stand.
+struct Group {
+  std::map<int, std::size_t> fields;  ///< number -> field
+
+  [[nodiscard]] int count() const { return static_cast<int>(fields.size()); }
+};
+
+class HeaderReader {
+ public:
+  HeaderReader(std::string_view line, std::size_t line_number, NoticeLog& log)
+      : line_(line), line_number_(line_number), log_(&log) {}
+
+  Columns read(int joints);
+
+ private:
+  [[noreturn]] void fail(std::size_t column, const std::string& message) const {
+    throw recording_error(log_->file(), line_number_, column, message);
+  }
+  void choose_separator();
+  void sort_out_names();
+  void check_group(Kind kind, std::string_view word, int expected) const;
+  void place(Kind kind, int& next);
+  Group& group(Kind kind) { return groups_[static_cast<std::size_t>(kind)]; }
+  [[nodiscard]] const Group& group(Kind kind) const {
+    return groups_[static_cast<std::size_t>(kind)];
+  }
+
+  std::string_view line_;
+  std::size_t line_number_;
+  NoticeLog* log_;
+  Columns columns_;
+  std::vector<Field> fields_;
+  std::array<Group, 8> groups_;
+};
+
+void HeaderReader::choose_separator() {
+  struct Choice {
+    char character;
+    std::string_view name;
+  };
+  constexpr std::array<Choice, 3> kOthers = {{{';', "semicolons"}, {',', ""}, {'\t', "tabs"}}};
+  Choice chosen{' ', "blanks"};
+  for (const Choice& choice : kOthers) {
+    if (line_.find(choice.character) != line_.npos) {
+      chosen = choice;
+      break;
+    }
+  }
+  columns_.separator.character = chosen.character;
+  fields_ = split_fields(line_, columns_.separator);
+  if (!chosen.name.empty() && fields_.size() > 1) {
+    log_->add_once(
+        "separator", line_number_, 1,
+        fmt::format("columns are separated by {}; accepted, and a decimal comma too", chosen.name));
+  }
+  if (fields_.size() > 1 && fields_.back().text.empty()) {
+    log_->add_once("trailing header", line_number_, fields_.back().column,
+                   "the header ends with a separator; ignored");
+    fields_.pop_back();
+  }
+}
+
+void HeaderReader::sort_out_names() {
+  columns_.target.assign(fields_.size(), Columns::kIgnored);
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    const Field& field = fields_[i];
+    columns_.names.emplace_back(field.text);
+    const std::optional<Meaning> meaning = meaning_of(field.text);
+    if (!meaning) {
+      log_->add_once(
+          fmt::format("unknown {}", i), line_number_, field.column,
+          fmt::format("found column {}, which means nothing here; ignored", quoted(field.text)));
+      continue;
+    }
+    const bool numbered = meaning->kind != Kind::kTime && meaning->kind != Kind::kSegment;
+    if (numbered && (meaning->number < 1 || meaning->number > kMostJoints)) {
+      fail(field.column, fmt::format("found column {}, expected numbers from 1 to {}",
+                                     quoted(field.text), kMostJoints));
+    }
+    const auto [place, is_new] = group(meaning->kind).fields.emplace(meaning->number, i);
+    if (!is_new) {
+      const Field& first = fields_[place->second];
+      fail(field.column,
+           fmt::format("found column {} for a second time (the first is {} in column {}), expected "
+                       "each once",
+                       quoted(field.text), quoted(first.text), first.column));
+    }
+  }
+}
+
+/// Numbers 1 .. count without a gap; `expected` of them if that is not 0.
+void HeaderReader::check_group(Kind kind, std::string_view word, int expected) const {
+  int next = 1;
+  std::size_t last_column = 1;
+  for (const auto& [number, place] : group(kind).fields) {
+    const Field& field = fields_[place];
+    if (number != next) {
+      fail(field.column,
+           fmt::format("found column {} without '{}{}', expected {}1, {}2, ... with no "
+                       "gap",
+                       quoted(field.text), word, next, word, word));
+    }
+    if (expected != 0 && number > expected) {
+      fail(field.column, fmt::format("found column {}, expected {}1 to {}{} for {} joints",
+                                     quoted(field.text), word, word, expected, expected));
+    }
+    last_column = field.column;
+    ++next;
+  }
+  if (expected != 0 && next <= expected) {
+    fail(last_column, fmt::format("found no column '{}{}', expected {}1 to {}{} for {} joints",
+                                  word, next, word, word, expected, expected));
+  }
+}
+
+void HeaderReader::place(Kind kind, int& next) {
+  for (const auto& [number, place] : group(kind).fields) columns_.target[place] = next++;
+}
+
+Columns HeaderReader::read(int joints) {
+  columns_.header_line = line_number_;
+  choose_separator();
+  sort_out_names();
+
+  const std::string example = "expected a header such as 'time,q1,q2,tau1,tau2'";
+  if (group(Kind::kTime).fields.empty()) {
+    fail(fields_.empty() ? 1 : fields_.front().column,
+         fmt::format("found no column 'time' in {}, {}", quoted(trimmed(line_)), example));
+  }
+  for (const auto& [kind, word] : {std::pair{Kind::kQ, "q"}, std::pair{Kind::kTau, "tau"}}) {
+    if (group(kind).fields.empty()) {
+      fail(fields_.back().column, fmt::format("found no column '{}1', {}", word, example));
+    }
+  }
+  check_group(Kind::kQ, "q", joints);
+  columns_.joints = group(Kind::kQ).count();
+  check_group(Kind::kTau, "tau", columns_.joints);
+  const auto recorded = [&](Kind kind, std::string_view word) {
+    const bool there = !group(kind).fields.empty();
+    if (there) check_group(kind, word, columns_.joints);
+    return there;
+  };
+  columns_.dq = recorded(Kind::kDq, "qd");
+  columns_.ddq = recorded(Kind::kDdq, "qdd");
+  columns_.tau_sim = recorded(Kind::kTauSim, "tausim");
+  check_group(Kind::kTemperature, "temp", 0);
+  columns_.temperatures = group(Kind::kTemperature).count();
+
+  int next = 0;
+  for (const Kind kind : {Kind::kTime, Kind::kQ, Kind::kTau, Kind::kDq, Kind::kDdq, Kind::kTauSim,
+                          Kind::kTemperature}) {
+    place(kind, next);
+  }
+  for (const auto& [number, place] : group(Kind::kSegment).fields) {
+    columns_.target[place] = Columns::kSegment;
+  }
+  return columns_;
+}
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+}  // namespace
+
+std::size_t Columns::width() const {
+  const int groups = 2 + (dq ? 1 : 0) + (ddq ? 1 : 0) + (tau_sim ? 1 : 0);
+  return static_cast<std::size_t>(1 + groups * joints + temperatures);
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::vector<Field> split_fields(std::string_view line, Separator separator) {
+  const bool blanks = separator.character == ' ';
+  std::vector<Field> fields;
+  std::size_t place = 0;
+  const auto skip_blanks = [&] {
+    while (place < line.size() && is_blank(line[place]) && line[place] != separator.character) {
+      ++place;
+    }
+    while (blanks && place < line.size() && is_blank(line[place])) ++place;
+  };
+  for (;;) {
+    skip_blanks();
+    if (blanks && place == line.size() && !fields.empty()) return fields;
+    const std::size_t begin = place;
+    const bool in_quotes = place < line.size() && (line[place] == '"' || line[place] == '\'');
+    if (in_quotes) {
+      const std::size_t close = line.find(line[place], place + 1);
+      if (close != line.npos) place = close;
+    }
+    while (place < line.size() &&
+           !(blanks ? is_blank(line[place]) : line[place] == separator.character)) {
+      ++place;
+    }
+    std::string_view text = trimmed(line.substr(begin, place - begin));
+    if (in_quotes && text.size() >= 2 && text.back() == text.front()) {
+      text = trimmed(text.substr(1, text.size() - 2));
+    }
+    fields.push_back({text, begin + 1});
+    if (place == line.size()) return fields;
+    ++place;
+    if (place == line.size() && blanks) return fields;
+  }
+}
+
+bool looks_like_header(std::string_view line) {
+  for (const char separator : {',', ';', '\t', ' '}) {
+    for (const Field& field : split_fields(line, {separator})) {
+      const std::optional<Meaning> meaning = meaning_of(field.text);
+      if (meaning && meaning->kind == Kind::kTime) return true;
+    }
+  }
+  return false;
+}
+
+Columns read_header(std::string_view line, std::size_t line_number, int joints, NoticeLog& log) {
+  return HeaderReader(line, line_number, log).read(joints);
+}
+
+}  // namespace dyngen::runtime

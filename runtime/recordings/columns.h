@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/recordings/notice_log.h"
+
+namespace dyngen::runtime {
+
+/// How the fields of a line stand apart.
+struct Separator {
+  char character = ',';  ///< ' ': any number of blanks and tabs
+  /// "1,5" is one and a half; only where the comma separates nothing.
+  [[nodiscard]] bool decimal_comma() const { return character != ','; }
+};
+
+/// What the header says: which field of a line goes where.
+///
+/// The values of a sample stand in one order whatever the file's: time, q, tau, dq, ddq, tau_sim,
+/// temperature; dq, ddq, tau_sim only if recorded.
+struct Columns {
+  static constexpr int kIgnored = -1;
+  static constexpr int kSegment = -2;
+
+  Separator separator;
+  std::vector<int> target;         ///< per field: place among the values, kIgnored or kSegment
+  std::vector<std::string> names;  ///< per field, as in the file
+  int joints = 0;
+  bool dq = false, ddq = false, tau_sim = false;
+  int temperatures = 0;
+  std::size_t header_line = 0;
+
+  /// Number of values a sample has.
+  [[nodiscard]] std::size_t width() const;
+};
+
+/// A field of a line.
+struct Field {
+  std::string_view text;   ///< without blanks and quotes around it
+  std::size_t column = 0;  ///< of its first byte in the line, from 1
+};
+
+/// Cuts a line at its separators; quotes keep a separator inside.
+std::vector<Field> split_fields(std::string_view line, Separator separator);
+
+/// Without blanks at either end.
+std::string_view trimmed(std::string_view text);
+
+/// True if a field of this line is named "time": it is a header, or looks like one.
+bool looks_like_header(std::string_view line);
+
+/// Reads the header.
+///
+/// @param joints  how many are expected; 0: as many as there are
+/// @throws RecordingError, with line and column of the word: a column is missing, stands twice, or
+///         the numbering has a gap
+Columns read_header(std::string_view line, std::size_t line_number, int joints, NoticeLog& log);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/recordings/notice.h"
+#include "runtime/recordings/recording.h"
+
+namespace dyngen::runtime {
+
+struct ReadOptions {
+  int joints = 0;                ///< how many are expected; 0: as many as the header names
+  std::size_t max_notices = 20;  ///< of different kinds; one more says how many were left out
+};
+
+/// Reads a recording (.csv, .csv.gz) piece by piece in constant memory. docs/recordings.md has the
+/// format, what is repaired and what is refused.
+///
+///     RecordingReader reader("run.csv.gz");
+///     Recording chunk;
+///     while (reader.next(chunk, 10000)) use(chunk, reader.continues_run());
+class RecordingReader {
+ public:
+  /// Opens the file and reads its header.
+  /// @throws RecordingError
+  explicit RecordingReader(const std::string& path, ReadOptions options = {});
+
+  /// The same from memory (plain or gzip); `name` stands in messages.
+  static RecordingReader from_text(std::string bytes, std::string name, ReadOptions options = {});
+
+  ~RecordingReader();
+  RecordingReader(RecordingReader&&) noexcept;
+  RecordingReader& operator=(RecordingReader&&) noexcept;
+
+  /// Up to `rows` (>= 1) further samples; run_starts are relative to the chunk, the first is 0.
+  /// The samples do not depend on how they are cut into chunks.
+  ///
+  /// @return false, and an empty chunk, at the end of the recording
+  /// @throws RecordingError; also at the end, if too much was bad or nothing is left
+  bool next(Recording& chunk, Eigen::Index rows);
+
+  /// True if the first row of the last chunk continues the last run of the chunk before.
+  [[nodiscard]] bool continues_run() const;
+
+  /// What was repaired so far, in the order of the file.
+  [[nodiscard]] const std::vector<Notice>& notices() const;
+
+  [[nodiscard]] int joints() const;
+
+  /// 0 .. 1, of the bytes on disk: for progress.
+  [[nodiscard]] double fraction_read() const;
+
+ private:
+  struct State;
+  explicit RecordingReader(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// Reads a whole recording into memory.
+///
+/// @param notices  what was repaired is appended, if not null
+/// @throws RecordingError
+Recording read_recording(const std::string& path, const ReadOptions& options = {},
+                         std::vector<Notice>* notices = nullptr);
+
+/// All that is left of a reader, in one piece.
+Recording read_all(RecordingReader& reader);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/recordings/writer.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+#include "runtime/recordings/gzip.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+
+struct Part {
+  const char* name;
+  Eigen::MatrixXd Recording::*matrix;
+  bool per_joint;
+};
+
+constexpr std::array<Part, 6> kParts = {{{"q", &Recording::q, true},
+                                         {"tau", &Recording::tau, true},
+                                         {"qd", &Recording::dq, true},
+                                         {"qdd", &Recording::ddq, true},
+                                         {"tausim", &Recording::tau_sim, true},
+                                         {"temp", &Recording::temperature, false}}};
+
+void check(const Recording& recording) {
+  const auto fail = [](const std::string& message) {
+    throw std::invalid_argument("write_recording(): " + message);
+  };
+  if (recording.q.cols() < 1) fail("the recording has no joints");
+  for (const Part& part : kParts) {
+    const Eigen::MatrixXd& matrix = recording.*part.matrix;
+    const bool required = part.matrix == &Recording::q || part.matrix == &Recording::tau;
+    if (matrix.cols() == 0 && !required) continue;
+    if (matrix.rows() != recording.samples() ||
+        (part.per_joint && matrix.cols() != recording.q.cols())) {
+      fail(fmt::format("{} is {} x {}, expected {} x {}", part.name, matrix.rows(), matrix.cols(),
+                       recording.samples(), recording.q.cols()));
+    }
+  }
+  Index least = 0;
+  for (const Index start : recording.run_starts) {
+    if (start < least || (start > 0 && least == 0) || start >= recording.samples()) {
+      fail(fmt::format("run_starts has {}, expected 0 first, then rising below {}", start,
+                       recording.samples()));
+    }
+    least = start + 1;
+  }
+}
+
+/// Plain or gzip, by the name of the final file.
+class OutputFile {
+ public:
+  OutputFile(const std::string& path, bool gzip) {
+    if (gzip) {
+      zipped_.emplace(path);
+    } else {
+      plain_.reset(std::fopen(path.c_str(), "wb"));
+      if (!plain_) throw std::runtime_error(std::strerror(errno));
+    }
+  }
+  void write(std::string_view text) {
+    if (zipped_) {
+      zipped_->write(text);
+    } else if (std::fwrite(text.data(), 1, text.size(), plain_.get()) != text.size()) {
+      throw std::runtime_error(std::strerror(errno));
+    }
+  }
+  void close() {
+    if (zipped_) {
+      zipped_->close();
+    } else if (std::fclose(plain_.release()) != 0) {
+      throw std::runtime_error(std::strerror(errno));
+    }
+  }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, CloseFile> plain_;
+  std::optional<ZippedFile> zipped_;
+};
+
+void append_number(std::string& text, double value) {
+  std::array<char, 32> digits;
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  text.append(digits.data(), end);
+}
+
+void write_rows(const Recording& recording, OutputFile& file) {
+  const bool segments = recording.run_starts.size() > 1;
+  std::string text = "time";
+  for (const Part& part : kParts) {
+    for (Index j = 0; j < (recording.*part.matrix).cols(); ++j) {
+      text += fmt::format(",{}{}", part.name, j + 1);
+    }
+  }
+  text += segments ? ",segment\n" : "\n";
+
+  std::size_t run = 0;
+  for (Index k = 0; k < recording.samples(); ++k) {
+    append_number(text, recording.time(k));
+    for (const Part& part : kParts) {
+      const Eigen::MatrixXd& matrix = recording.*part.matrix;
+      for (Index j = 0; j < matrix.cols(); ++j) {
+        text += ',';
+        append_number(text, matrix(k, j));
+      }
+    }
+    if (segments) {
+      while (run < recording.run_starts.size() && recording.run_starts[run] <= k) ++run;
+      text += ',';
+      text += std::to_string(run);
+    }
+    text += '\n';
+    constexpr std::size_t kPiece = 1 << 18;
+    if (text.size() > kPiece) {
+      file.write(text);
+      text.clear();
+    }
+  }
+  file.write(text);
+}
+
+}  // namespace
+
+void write_recording(const Recording& recording, const std::string& path) {
+  check(recording);
+  const std::string unfinished = path + ".part";
+  try {
+    OutputFile file(unfinished, path.ends_with(".gz"));
+    write_rows(recording, file);
+    file.close();
+    std::error_code failure;
+    std::filesystem::rename(unfinished, path, failure);
+    if (failure) throw std::runtime_error(failure.message());
+  } catch (const std::runtime_error& error) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw RecordingError(fmt::format("{}: error: cannot write the file: {}", path, error.what()));
+  }
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/signals/decimation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+namespace dyngen::runtime {
+namespace {
+
+/// rms of what the decimator makes of a sine; frequency in new Nyquist frequencies.
+double gain(const Decimator& decimator, double frequency) {
+  Eigen::MatrixXd x(40 * decimator.taps.size(), 2);
+  for (Eigen::Index k = 0; k < x.rows(); ++k) {
+    const double angle = std::numbers::pi * frequency * static_cast<double>(k) /
+                         static_cast<double>(decimator.factor);
+    x.row(k) << std::sin(angle), std::cos(angle);
+  }
+  const Eigen::MatrixXd y = decimate(decimator, x);
+  return std::sqrt(y.squaredNorm() / static_cast<double>(y.rows()));
+}
+
+TEST(Decimation, TorqueStaysTheRegressorTimesTheParameters) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  const Eigen::MatrixXd W = Eigen::MatrixXd::NullaryExpr(3000, 12, [&] { return normal(random); });
+  const Eigen::VectorXd beta = Eigen::VectorXd::NullaryExpr(12, [&] { return normal(random); });
+  const Decimator decimator = design_decimator(20);
+  const Eigen::MatrixXd tau = W * beta;
+  const Eigen::MatrixXd filtered = decimate(decimator, tau);
+  ASSERT_GT(filtered.rows(), 100);
+  EXPECT_LT((filtered - decimate(decimator, W) * beta).norm(), 1e-13 * tau.norm());
+}
+
+TEST(Decimation, PassesWhatIsSlowAndStopsWhatWouldFold) {
+  for (const Eigen::Index factor : {2, 5, 50}) {
+    const Decimator decimator = design_decimator(factor);
+    EXPECT_NEAR(decimator.taps.sum(), 1, 1e-14);
+    for (const double pass : {0.0, 0.3, 0.6, 0.8}) {
+      EXPECT_NEAR(gain(decimator, pass), 1, 2e-3) << factor << " " << pass;
+    }
+    EXPECT_NEAR(gain(decimator, 0.999), 0.5, 0.02) << factor;
+    for (const double stop : {1.2, 1.37, 1.55, 1.9}) {
+      EXPECT_LT(gain(decimator, stop), 2e-3)
+          << factor << " " << stop;  // 60 dB, and its rounding up
+    }
+  }
+}
+
+TEST(Decimation, OutputsStandAtMultiplesOfTheFactorWithAllTapsInside) {
+  for (const Eigen::Index factor : {1, 2, 7, 50}) {
+    const Decimator decimator = design_decimator(factor);
+    const Eigen::Index half = decimator.taps.size() / 2, first = first_sample(decimator);
+    EXPECT_EQ(first % factor, 0);
+    EXPECT_GE(first, half);
+    EXPECT_LT(first - half, factor);
+    for (const Eigen::Index N : {first + half, first + half + 1, first + half + 3 * factor}) {
+      Eigen::MatrixXd line(N, 1);
+      for (Eigen::Index k = 0; k < N; ++k) line(k, 0) = static_cast<double>(k);
+      const Eigen::MatrixXd y = decimate(decimator, line);
+      ASSERT_EQ(y.rows(), decimated_samples(decimator, N));
+      for (Eigen::Index k = 0; k < y.rows(); ++k) {
+        EXPECT_NEAR(y(k, 0), static_cast<double>(first + k * factor), 1e-10);
+      }
+      const Eigen::Index next = first + y.rows() * factor;
+      EXPECT_GT(next + half, N - 1);
+    }
+  }
+}
+
+TEST(Decimation, ARunShorterThanTheTapsGivesNothing) {
+  EXPECT_EQ(decimate(design_decimator(10), Eigen::MatrixXd::Ones(20, 3)).rows(), 0);
+  EXPECT_EQ(decimate(design_decimator(10), Eigen::MatrixXd(0, 3)).rows(), 0);
+}
+
+TEST(Decimation, NonsenseIsRefused) {
+  EXPECT_THROW(design_decimator(0), std::invalid_argument);
+  EXPECT_THROW(design_decimator(5, 1.0), std::invalid_argument);
+  EXPECT_THROW(design_decimator(5, 0.8, 10), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace dyngen::runtime
