@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/estimation/rows.h"
+#include "runtime/estimation/unseen.h"
+#include "runtime/identification/motion_source.h"
+#include "runtime/model/linear_model.h"
+
+namespace dyngen::runtime {
+
+struct RowOptions {
+  /// Samples for one equation, behind the parallel filter; 0: so that the new Nyquist frequency is
+  /// 1.25 times the cut-off; 1: no parallel filter, every sample is an equation.
+  Eigen::Index decimation = 0;
+  /// rad/s or m/s: a joint that moves slower has no equation, since the sign of its friction is not
+  /// known; negative: three standard deviations of the velocity's noise.
+  double still_speed = -1;
+};
+
+/// How the equations of a recording are made.
+struct RowPlan {
+  Eigen::Index decimation = 1;
+  double row_time = 0;                ///< s, between equations of a run
+  Eigen::VectorXd still_speed;        ///< (n)
+  Eigen::VectorXd acceleration_noise;  ///< (n) standard deviation behind all filters
+};
+RowPlan plan_rows(const MotionSource& source, const RowOptions& options);
+
+/// The equations tau = Y beta of a recording: regressor at the joint state, and one parallel filter
+/// with decimation over both sides.
+/// @param model  must outlive the source; has as many joints as the recording
+/// @throws std::invalid_argument  if it has not
+/// Source: Gautier, "Dynamic identification of robots with power model", ICRA 1997 (filtering and
+/// decimation of both sides).
+RowSource rows_of(const LinearModel& model, const MotionSource& source, const RowOptions& options);
+
+/// All rows of several sources, one after the other.
+RowSource joined(std::vector<RowSource> sources);
+
+/// How the joints moved.
+MotionExtent extent_of(const MotionSource& source);
+
+/// What acceleration noise adds to the regressor, as equations with torque 0: R'R is the expected
+/// sum of dH'dH over the source's rows. From at most `most` samples, counted up.
+/// Source: the thesis, (5.3).
+TorqueFactor regressor_noise(const LinearModel& model, const MotionSource& source,
+                             const RowPlan& plan, Eigen::Index most = 2000);
+
+}  // namespace dyngen::runtime

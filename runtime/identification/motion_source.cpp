@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/identification/motion_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "runtime/recordings/clipping.h"
+#include "runtime/recordings/periods.h"
+#include "runtime/recordings/quantisation.h"
+#include "runtime/recordings/reader.h"
+#include "runtime/recordings/time_base.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kChunk = 20000;
+
+void look_at_signals(const Recording& recording, RecordingCondition& condition) {
+  for (int j = 0; j < recording.joints(); ++j) {
+    const Quantisation position = find_quantisation(recording.q.col(j));
+    condition.position_step.push_back(position.step);
+    const Clipping clipping = find_clipping(recording.tau.col(j));
+    condition.torque_clipped.push_back(clipping.clipped);
+    if (clipping.clipped) {
+      condition.messages.push_back(
+          fmt::format("torque of joint {} stands at its limit ({:.4g} or {:.4g}) in {} samples", j + 1,
+                      clipping.lower, clipping.upper, clipping.at_lower + clipping.at_upper));
+    }
+  }
+}
+
+Recording with_uniform_time(Recording recording, RecordingCondition& condition) {
+  const TimeBase base = examine_time_base(recording);
+  condition.sample_time = base.sample_time;
+  condition.jitter = base.jitter;
+  if (base.uniform) return recording;
+  condition.resampled = true;
+  condition.messages.push_back(base.message + fmt::format("; resampled to {:.6g} s", base.sample_time));
+  return resample(recording, base.sample_time);
+}
+
+Recording with_averaged_periods(Recording recording, const MotionOptions& options,
+                                RecordingCondition& condition) {
+  if (!options.average_periods) return recording;
+  const Periods periods = find_periods(recording, options.period);
+  if (periods.samples == 0) {
+    if (options.period) condition.messages.push_back(periods.message);
+    return recording;
+  }
+  condition.periods = periods.count;
+  condition.period = periods.period;
+  condition.messages.push_back(periods.message);
+  if (periods.count < 2) return recording;
+  condition.period_scatter = column_rms(period_scatter(recording, periods)).transpose();
+  Recording averaged = average_periods(recording, periods);
+  condition.sample_time = periods.period / static_cast<double>(periods.samples);
+  return averaged;
+}
+
+/// Standard deviation of position noise: what lies above the cut-off, as if it were white.
+VectorXd noise_of_positions(const Recording& recording, const JointStates& states, double sample_time,
+                            const std::vector<double>& steps) {
+  VectorXd squares = VectorXd::Zero(recording.joints());
+  double samples = 0;
+  for (const Motion& run : states.runs) {
+    const double* begin = recording.time.data();
+    const Index first = std::lower_bound(begin, begin + recording.time.size(),
+                                         run.time[0] - 0.5 * sample_time) -
+                        begin;
+    if (first + run.samples() > recording.samples()) continue;
+    squares +=
+        (recording.q.middleRows(first, run.samples()) - run.q).colwise().squaredNorm().transpose();
+    samples += static_cast<double>(run.samples());
+  }
+  const double above =
+      std::max(0.1, 1 - 2 * sample_time * states.cutoff.hz);  // part of the band above the cut-off
+  VectorXd noise = (squares / std::max(samples, 1.0) / above).cwiseSqrt();
+  for (Index j = 0; j < noise.size(); ++j) {
+    noise[j] = std::max(noise[j], steps[static_cast<std::size_t>(j)] / std::sqrt(12.0));
+  }
+  return noise;
+}
+
+void check_runs(const JointStates& states, const std::string& name) {
+  if (!states.runs.empty()) return;
+  std::string reason;
+  for (const std::string& message : states.messages) reason += "; " + message;
+  throw std::invalid_argument(fmt::format("{}: no run is long enough{}", name, reason));
+}
+
+MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
+                              const MotionOptions& options) {
+  MotionSource source;
+  source.name = recording.file_name;
+  look_at_signals(recording, condition);
+  recording = with_uniform_time(std::move(recording), condition);
+  recording = with_averaged_periods(std::move(recording), options, condition);
+  JointStates states = joint_states(recording, options.state);
+  check_runs(states, source.name);
+  source.sample_time = states.runs.front().sample_time;
+  source.cutoff = states.cutoff;
+  source.position_noise =
+      noise_of_positions(recording, states, source.sample_time, condition.position_step);
+  condition.messages.insert(condition.messages.end(), states.messages.begin(),
+                            states.messages.end());
+  source.condition = std::move(condition);
+  auto runs = std::make_shared<const std::vector<Motion>>(std::move(states.runs));
+  source.pieces = [runs](const std::function<void(const StreamPiece&)>& visit) {
+    for (const Motion& run : *runs) visit({run, false});
+  };
+  return source;
+}
+
+/// What the first part of a large file says of all of it.
+MotionSource stream_of_file(const std::string& path, MotionOptions options) {
+  constexpr Index kFirstPart = 500000;
+  RecordingReader reader(path);
+  Recording first;
+  reader.next(first, kFirstPart);
+  const TimeBase base = examine_time_base(first);
+  if (!base.uniform) {
+    throw std::invalid_argument(fmt::format(
+        "{}: {}: expected a uniform time base, since the file is too large to be resampled in memory",
+        path, base.message));
+  }
+  MotionOptions of_first = options;
+  of_first.average_periods = false;
+  MotionSource source = motion_in_memory(std::move(first), {}, of_first);
+  source.name = path;
+  options.state.cutoff_hz = source.cutoff.hz;
+  source.condition.messages.push_back("read piece by piece; periods were not looked for");
+  source.pieces = [path, state = options.state, sample_time = base.sample_time](
+                      const std::function<void(const StreamPiece&)>& visit) {
+    RecordingReader again(path);
+    JointStateStream stream(state, sample_time);
+    Recording chunk;
+    while (again.next(chunk, kChunk)) {
+      for (const StreamPiece& piece : stream.push(chunk, again.continues_run())) visit(piece);
+    }
+    for (const StreamPiece& piece : stream.finish()) visit(piece);
+  };
+  return source;
+}
+
+}  // namespace
+
+MotionSource motion_of(Recording recording, const MotionOptions& options) {
+  return motion_in_memory(std::move(recording), {}, options);
+}
+
+MotionSource motion_of_file(const std::string& path, const MotionOptions& options) {
+  std::error_code ignored;
+  const auto bytes = std::filesystem::file_size(path, ignored);
+  if (!ignored && bytes > options.stream_above && options.state.method == StateMethod::kLowPass) {
+    return stream_of_file(path, options);
+  }
+  RecordingCondition condition;
+  Recording recording = read_recording(path, {}, &condition.repairs);
+  return motion_in_memory(std::move(recording), std::move(condition), options);
+}
+
+MotionSource part_of(const MotionSource& source, double from, double to) {
+  MotionSource part = source;
+  part.pieces = [all = source.pieces, from, to](const std::function<void(const StreamPiece&)>& visit) {
+    // lengths of the runs first: pieces of a run do not know how long it is
+    std::vector<Index> lengths;
+    all([&](const StreamPiece& piece) {
+      if (!piece.continues_run) lengths.push_back(0);
+      lengths.back() += piece.motion.samples();
+    });
+    std::size_t run = 0;
+    Index place = 0;
+    bool any = false;
+    all([&](const StreamPiece& piece) {
+      if (!piece.continues_run) {
+        run += any ? 1 : 0;
+        place = 0;
+        any = true;
+      }
+      const double length = static_cast<double>(lengths[run]);
+      const Index begin = static_cast<Index>(std::llround(from * length));
+      const Index end = static_cast<Index>(std::llround(to * length));
+      const Index first = std::max(begin, place), last = std::min(end, place + piece.motion.samples());
+      if (first < last) {
+        const Index skip = first - place, count = last - first;
+        StreamPiece cut;
+        const Motion& motion = piece.motion;
+        cut.motion = {motion.sample_time,
+                      motion.time.segment(skip, count),
+                      motion.q.middleRows(skip, count),
+                      motion.dq.middleRows(skip, count),
+                      motion.ddq.middleRows(skip, count),
+                      motion.tau.middleRows(skip, count)};
+        cut.continues_run = first > begin;
+        visit(cut);
+      }
+      place += piece.motion.samples();
+    });
+  };
+  return part;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/recordings/notice.h"
+#include "runtime/recordings/recording.h"
+#include "runtime/signals/cutoff.h"
+#include "runtime/signals/joint_state.h"
+
+namespace dyngen::runtime {
+
+/// What is done to a recording before a model sees it.
+struct MotionOptions {
+  JointStateOptions state;
+  bool average_periods = true;   ///< where the motion repeats, its periods are averaged
+  std::optional<double> period;  ///< s; none: looked for
+  /// Bytes of a file above which it is not read into memory but gone through piece by piece
+  /// (low-pass method only; periods are not looked for then).
+  std::size_t stream_above = 400'000'000;
+};
+
+/// What is known of a recording's quality.
+struct RecordingCondition {
+  double sample_time = 0;                   ///< s
+  double jitter = 0;                        ///< of the sample time, relative
+  bool resampled = false;                   ///< onto a uniform grid
+  std::vector<double> position_step;        ///< (n) encoder step found, rad or m; 0: none
+  std::vector<bool> torque_clipped;         ///< (n)
+  int periods = 0;                          ///< that were found; 0: none
+  double period = 0;                        ///< s
+  Eigen::VectorXd period_scatter;           ///< (n) rms over periods of the torque; may be empty
+  std::vector<Notice> repairs;              ///< what the reader repaired
+  std::vector<std::string> messages;
+};
+
+/// The motion of a recording, which can be gone through again and again.
+struct MotionSource {
+  std::string name;
+  double sample_time = 0;  ///< s
+  Cutoff cutoff;
+  Eigen::VectorXd position_noise;  ///< (n) standard deviation of measured positions, rad or m
+  RecordingCondition condition;
+  /// Consecutive pieces of all runs.
+  std::function<void(const std::function<void(const StreamPiece&)>&)> pieces;
+
+  [[nodiscard]] int joints() const { return static_cast<int>(position_noise.size()); }
+};
+
+/// Joint state of a recording in memory, after its time base, quantisation, clipping and periods
+/// were looked at.
+/// @throws std::invalid_argument  if options are not valid or nothing is left
+MotionSource motion_of(Recording recording, const MotionOptions& options);
+
+/// The same of a file; a large one is read again each time it is gone through, in constant memory.
+/// @throws RecordingError; std::invalid_argument
+MotionSource motion_of_file(const std::string& path, const MotionOptions& options);
+
+/// A part of every run: [from, to) of its samples as fractions of its length. For held-out checks.
+MotionSource part_of(const MotionSource& source, double from, double to);
+
+}  // namespace dyngen::runtime
