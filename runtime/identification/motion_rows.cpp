@@ -131,8 +131,7 @@ RowPlan plan_rows(const MotionSource& source, const RowOptions& options) {
   // white position noise has the density 2 sigma^2 T up to the Nyquist frequency
   const double band = band_of(source, plan.decimation);
   const VectorXd density = 2 * source.sample_time * source.position_noise.cwiseAbs2();
-  plan.acceleration_noise =
-      (density * (std::pow(2 * kPi, 4) * std::pow(band, 5) / 5)).cwiseSqrt();
+  plan.acceleration_noise = (density * (std::pow(2 * kPi, 4) * std::pow(band, 5) / 5)).cwiseSqrt();
   const VectorXd velocity_noise =
       (density * (std::pow(2 * kPi, 2) * std::pow(band, 3) / 3)).cwiseSqrt();
   plan.still_speed = options.still_speed >= 0
@@ -145,8 +144,8 @@ RowSource rows_of(const LinearModel& model, const MotionSource& source, const Ro
   check_joints(model, source);
   const RowPlan plan = plan_rows(source, options);
   const Decimator decimator = design_decimator(plan.decimation);
-  return [&model, pieces = source.pieces, decimator, still = plan.still_speed](
-             const std::function<void(const RowBlock&)>& visit) {
+  return [&model, pieces = source.pieces, decimator,
+          still = plan.still_speed](const std::function<void(const RowBlock&)>& visit) {
     RowBuffer buffer(model, decimator, still);
     pieces([&](const StreamPiece& piece) { buffer.push(piece, visit); });
   };
@@ -178,7 +177,8 @@ TorqueFactor regressor_noise(const LinearModel& model, const MotionSource& sourc
   source.pieces([&](const StreamPiece& piece) {
     const Index first = (step - place % step) % step;
     place += piece.motion.samples();
-    const Index count = first < piece.motion.samples() ? (piece.motion.samples() - first - 1) / step + 1 : 0;
+    const Index count =
+        first < piece.motion.samples() ? (piece.motion.samples() - first - 1) / step + 1 : 0;
     if (count == 0) return;
     taken += count;
     const auto chosen = Eigen::seqN(first, count, step);

@@ -23,8 +23,8 @@ struct RowOptions {
 /// How the equations of a recording are made.
 struct RowPlan {
   Eigen::Index decimation = 1;
-  double row_time = 0;                ///< s, between equations of a run
-  Eigen::VectorXd still_speed;        ///< (n)
+  double row_time = 0;                 ///< s, between equations of a run
+  Eigen::VectorXd still_speed;         ///< (n)
   Eigen::VectorXd acceleration_noise;  ///< (n) standard deviation behind all filters
 };
 RowPlan plan_rows(const MotionSource& source, const RowOptions& options);

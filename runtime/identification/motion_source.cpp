@@ -31,9 +31,9 @@ void look_at_signals(const Recording& recording, RecordingCondition& condition) 
     const Clipping clipping = find_clipping(recording.tau.col(j));
     condition.torque_clipped.push_back(clipping.clipped);
     if (clipping.clipped) {
-      condition.messages.push_back(
-          fmt::format("torque of joint {} stands at its limit ({:.4g} or {:.4g}) in {} samples", j + 1,
-                      clipping.lower, clipping.upper, clipping.at_lower + clipping.at_upper));
+      condition.messages.push_back(fmt::format(
+          "torque of joint {} stands at its limit ({:.4g} or {:.4g}) in {} samples", j + 1,
+          clipping.lower, clipping.upper, clipping.at_lower + clipping.at_upper));
     }
   }
 }
@@ -44,7 +44,8 @@ Recording with_uniform_time(Recording recording, RecordingCondition& condition) 
   condition.jitter = base.jitter;
   if (base.uniform) return recording;
   condition.resampled = true;
-  condition.messages.push_back(base.message + fmt::format("; resampled to {:.6g} s", base.sample_time));
+  condition.messages.push_back(base.message +
+                               fmt::format("; resampled to {:.6g} s", base.sample_time));
   return resample(recording, base.sample_time);
 }
 
@@ -67,15 +68,15 @@ Recording with_averaged_periods(Recording recording, const MotionOptions& option
 }
 
 /// Standard deviation of position noise: what lies above the cut-off, as if it were white.
-VectorXd noise_of_positions(const Recording& recording, const JointStates& states, double sample_time,
-                            const std::vector<double>& steps) {
+VectorXd noise_of_positions(const Recording& recording, const JointStates& states,
+                            double sample_time, const std::vector<double>& steps) {
   VectorXd squares = VectorXd::Zero(recording.joints());
   double samples = 0;
   for (const Motion& run : states.runs) {
     const double* begin = recording.time.data();
-    const Index first = std::lower_bound(begin, begin + recording.time.size(),
-                                         run.time[0] - 0.5 * sample_time) -
-                        begin;
+    const Index first =
+        std::lower_bound(begin, begin + recording.time.size(), run.time[0] - 0.5 * sample_time) -
+        begin;
     if (first + run.samples() > recording.samples()) continue;
     squares +=
         (recording.q.middleRows(first, run.samples()) - run.q).colwise().squaredNorm().transpose();
@@ -128,9 +129,10 @@ MotionSource stream_of_file(const std::string& path, MotionOptions options) {
   reader.next(first, kFirstPart);
   const TimeBase base = examine_time_base(first);
   if (!base.uniform) {
-    throw std::invalid_argument(fmt::format(
-        "{}: {}: expected a uniform time base, since the file is too large to be resampled in memory",
-        path, base.message));
+    throw std::invalid_argument(
+        fmt::format("{}: {}: expected a uniform time base, since the file is too large to be "
+                    "resampled in memory",
+                    path, base.message));
   }
   MotionOptions of_first = options;
   of_first.average_periods = false;
@@ -170,7 +172,8 @@ MotionSource motion_of_file(const std::string& path, const MotionOptions& option
 
 MotionSource part_of(const MotionSource& source, double from, double to) {
   MotionSource part = source;
-  part.pieces = [all = source.pieces, from, to](const std::function<void(const StreamPiece&)>& visit) {
+  part.pieces = [all = source.pieces, from,
+                 to](const std::function<void(const StreamPiece&)>& visit) {
     // lengths of the runs first: pieces of a run do not know how long it is
     std::vector<Index> lengths;
     all([&](const StreamPiece& piece) {
@@ -189,7 +192,8 @@ MotionSource part_of(const MotionSource& source, double from, double to) {
       const double length = static_cast<double>(lengths[run]);
       const Index begin = static_cast<Index>(std::llround(from * length));
       const Index end = static_cast<Index>(std::llround(to * length));
-      const Index first = std::max(begin, place), last = std::min(end, place + piece.motion.samples());
+      const Index first = std::max(begin, place),
+                  last = std::min(end, place + piece.motion.samples());
       if (first < last) {
         const Index skip = first - place, count = last - first;
         StreamPiece cut;

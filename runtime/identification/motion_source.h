@@ -26,15 +26,15 @@ struct MotionOptions {
 
 /// What is known of a recording's quality.
 struct RecordingCondition {
-  double sample_time = 0;                   ///< s
-  double jitter = 0;                        ///< of the sample time, relative
-  bool resampled = false;                   ///< onto a uniform grid
-  std::vector<double> position_step;        ///< (n) encoder step found, rad or m; 0: none
-  std::vector<bool> torque_clipped;         ///< (n)
-  int periods = 0;                          ///< that were found; 0: none
-  double period = 0;                        ///< s
-  Eigen::VectorXd period_scatter;           ///< (n) rms over periods of the torque; may be empty
-  std::vector<Notice> repairs;              ///< what the reader repaired
+  double sample_time = 0;             ///< s
+  double jitter = 0;                  ///< of the sample time, relative
+  bool resampled = false;             ///< onto a uniform grid
+  std::vector<double> position_step;  ///< (n) encoder step found, rad or m; 0: none
+  std::vector<bool> torque_clipped;   ///< (n)
+  int periods = 0;                    ///< that were found; 0: none
+  double period = 0;                  ///< s
+  Eigen::VectorXd period_scatter;     ///< (n) rms over periods of the torque; may be empty
+  std::vector<Notice> repairs;        ///< what the reader repaired
   std::vector<std::string> messages;
 };
 

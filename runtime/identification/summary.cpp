@@ -53,8 +53,7 @@ void merge(RecordingSummary& summary, const RecordingSummary& other) {
 NoiseFactor noise_at(const Estimate& estimate, const TorqueFactor& equations,
                      const RowSource& rows) {
   NoiseFactor noise = noise_factor(rows, equations.columns, estimate.beta);
-  give_back_fitted_noise(noise, equations, estimate.joint_weights, estimate.scale,
-                         estimate.unseen);
+  give_back_fitted_noise(noise, equations, estimate.joint_weights, estimate.scale, estimate.unseen);
   return noise;
 }
 

@@ -38,7 +38,8 @@ RecordingSummary summarise(const LinearModel& model, const MotionSource& source,
                            const RowOptions& options, const Eigen::VectorXd& beta = {});
 
 /// The noise at a given estimate, of several recordings.
-NoiseFactor noise_at(const Estimate& estimate, const TorqueFactor& equations, const RowSource& rows);
+NoiseFactor noise_at(const Estimate& estimate, const TorqueFactor& equations,
+                     const RowSource& rows);
 
 /// Summaries of one type of robot, apart by the name of the robot (empty: not named).
 struct RobotSummaries {

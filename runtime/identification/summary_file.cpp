@@ -35,7 +35,8 @@ std::uint32_t checksum(std::string_view bytes) {
     return values;
   }();
   std::uint32_t sum = 0xFFFFFFFFU;
-  for (const char c : bytes) sum = table[(sum ^ static_cast<unsigned char>(c)) & 0xFFU] ^ (sum >> 8);
+  for (const char c : bytes)
+    sum = table[(sum ^ static_cast<unsigned char>(c)) & 0xFFU] ^ (sum >> 8);
   return ~sum;
 }
 
@@ -166,8 +167,7 @@ RecordingSummary read_summary(Reader& reader, const std::vector<std::vector<int>
                               int parameters) {
   RecordingSummary summary = empty_summary(columns, parameters);
   summary.recordings = static_cast<int>(reader.count());
-  for (double* value :
-       {&summary.row_time, &summary.lowest_cutoff, &summary.highest_cutoff}) {
+  for (double* value : {&summary.row_time, &summary.lowest_cutoff, &summary.highest_cutoff}) {
     *value = reader.real();
   }
   read_factor(reader, summary.equations);
@@ -179,8 +179,7 @@ RecordingSummary read_summary(Reader& reader, const std::vector<std::vector<int>
   summary.noise.correlated_power = reader.vector(columns.size());
   MotionExtent& extent = summary.extent;
   extent.samples = reader.real();
-  for (VectorXd* values :
-       {&extent.lowest, &extent.highest, &extent.speed, &extent.acceleration}) {
+  for (VectorXd* values : {&extent.lowest, &extent.highest, &extent.speed, &extent.acceleration}) {
     *values = reader.vector(columns.size());
   }
   return summary;
@@ -196,8 +195,7 @@ std::string write_summaries(const RobotSummaries& all) {
   writer.words(all.joints);
   writer.words(all.parameters);
   const std::vector<std::vector<int>> none(all.joints.size());
-  const auto& columns =
-      all.robots.empty() ? none : all.robots.begin()->second.equations.columns;
+  const auto& columns = all.robots.empty() ? none : all.robots.begin()->second.equations.columns;
   for (const std::vector<int>& of_joint : columns) {
     writer.count(of_joint.size());
     for (const int c : of_joint) writer.count(static_cast<std::size_t>(c));
@@ -214,9 +212,10 @@ std::string write_summaries(const RobotSummaries& all) {
 RobotSummaries read_summaries(const std::string& bytes, const std::string& name) {
   const std::string_view all_bytes = bytes;
   if (!all_bytes.starts_with(kWord)) {
-    throw SummaryFileError(fmt::format("{}: error: no file of 'dynid accumulate': expected it to "
-                                       "begin with '{}'",
-                                       name, kWord));
+    throw SummaryFileError(
+        fmt::format("{}: error: no file of 'dynid accumulate': expected it to "
+                    "begin with '{}'",
+                    name, kWord));
   }
   if (all_bytes.size() < kWord.size() + 8) {
     throw SummaryFileError(fmt::format("{}: error: the file ends too early", name));
@@ -226,8 +225,8 @@ RobotSummaries read_summaries(const std::string& bytes, const std::string& name)
   Reader reader(content.substr(kWord.size()), name);
   const std::uint64_t version = reader.number(4);
   if (version != kVersion) {
-    throw SummaryFileError(fmt::format("{}: error: version {} of the format, expected {}", name,
-                                       version, kVersion));
+    throw SummaryFileError(
+        fmt::format("{}: error: version {} of the format, expected {}", name, version, kVersion));
   }
   if (stored != checksum(content)) {
     throw SummaryFileError(

@@ -15,8 +15,8 @@ class SummaryFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The bytes of a .qr file: the word "dyngenqr", a version, little-endian numbers, and a checksum of
-/// all that stands before it. docs/fleet.md has the layout.
+/// The bytes of a .qr file: the word "dyngenqr", a version, little-endian numbers, and a checksum
+/// of all that stands before it. docs/fleet.md has the layout.
 std::string write_summaries(const RobotSummaries& all);
 
 /// @param name  of the file, for messages
