@@ -71,8 +71,8 @@ Fit refine(const std::vector<double>& changes, double step) {
   return fit;
 }
 
-/// The step is 10^-k, and nearly all values are multiples of it. (Numbers printed with so many
-/// digits have more decimals where they are small.)
+/// The step is 10^-k, and most values are multiples of it. (Numbers printed with so many digits
+/// have more decimals where they are small.)
 bool is_decimal(const Eigen::Ref<const Eigen::VectorXd>& signal, double step) {
   const double unit = std::pow(10.0, std::round(std::log10(step)));
   constexpr double kSame = 1e-3, kClose = 0.02;
@@ -81,7 +81,7 @@ bool is_decimal(const Eigen::Ref<const Eigen::VectorXd>& signal, double step) {
     return std::abs(value / unit - std::round(value / unit)) <= kClose;
   };
   const auto multiples = std::count_if(signal.begin(), signal.end(), multiple);
-  return static_cast<double>(multiples) >= kNearlyAll * static_cast<double>(signal.size());
+  return 2 * multiples >= signal.size();
 }
 
 }  // namespace

@@ -27,10 +27,11 @@ TEST(RealRecordings, Tx40IsUniform) {
   const runtime::TimeBase base = runtime::examine_time_base(recording);
   EXPECT_TRUE(base.uniform) << base.message;
   EXPECT_EQ(base.sample_time, 0.0002);
-  // 3.2e-5 rad on the motor, gear 32
-  const runtime::Quantisation encoder = runtime::find_quantisation(recording.q.col(0));
-  EXPECT_NEAR(encoder.step, 9.99e-7, 3e-9);
-  EXPECT_FALSE(encoder.print_resolution);
+  // Its motor angles beyond 10 rad were printed to 1e-3 rad; gears 32 and 45.
+  const runtime::Quantisation second = runtime::find_quantisation(recording.q.col(1));
+  EXPECT_NEAR(second.step, 1e-3 / 32, 1e-7);
+  EXPECT_FALSE(second.print_resolution);
+  EXPECT_NEAR(runtime::find_quantisation(recording.q.col(2)).step, 1e-3 / 45, 1e-7);
   EXPECT_EQ(runtime::find_periods(recording).samples, 0);
   for (const auto& column : recording.tau.colwise()) {
     EXPECT_FALSE(runtime::find_clipping(column).clipped);
@@ -47,6 +48,8 @@ TEST(RealRecordings, DoublePendulumIsJittered) {
   const runtime::TimeBase base = runtime::examine_time_base(recording);
   EXPECT_FALSE(base.uniform) << base.message;
   EXPECT_NEAR(base.sample_time, 0.002, 2e-4);
+  // 16 bits over 25 rad, on position
+  EXPECT_NEAR(runtime::find_quantisation(recording.q.col(0)).step, 25.0 / 65535, 1e-6);
   const Recording even = runtime::resample(recording, base.sample_time);
   EXPECT_TRUE(runtime::examine_time_base(even).uniform);
 }
