@@ -14,6 +14,7 @@
 #include "runtime/recordings/line_reader.h"
 #include "runtime/recordings/row_parser.h"
 #include "runtime/recordings/row_repair.h"
+#include "runtime/recordings/time_repair.h"
 
 namespace dyngen::runtime {
 namespace {

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
-#include <string>
 #include <vector>
 
 #include "runtime/recordings/notice_log.h"
@@ -60,50 +57,6 @@ class BadValueRepair {
   bool next_starts_run_ = true;
   std::size_t rows_ = 0, bad_rows_ = 0;
   RowInfo first_bad_;
-};
-
-/// Makes time increase within a run: drops rows that stand twice or out of order, begins a new run
-/// where time starts again or leaves a gap. Looks kLookAhead rows ahead.
-class TimeRepair {
- public:
-  static constexpr std::size_t kLookAhead = 32;
-  /// No gap is shorter than this many usual steps; a gap of kLongGap seconds is one in any case.
-  static constexpr double kGapSteps = 5, kLongGap = 1.5;
-  /// A step back of more usual steps than this is a new start.
-  static constexpr double kRestartSteps = 10;
-  /// A usual step above this is hardly meant in seconds.
-  static constexpr double kSlowStep = 0.5;
-
-  TimeRepair(std::size_t width, BadValueRepair& next, NoticeLog& log);
-  /// Takes the row that the caller has put last into queue().
-  void pushed();
-  void finish();
-  [[nodiscard]] RowQueue& queue() { return ahead_; }
-
- private:
-  void process_front();
-  void process_backward(double step);
-  void begin_run(const char* why);
-  void accept(bool starts_run);
-  [[nodiscard]] bool next_row_fits(double limit) const;
-  [[nodiscard]] double gap_limit() const;
-  void estimate_step();
-  void learn_step(double step);
-  void drop(const char* kind, const std::string& message);
-
-  std::size_t width_;
-  BadValueRepair* next_;
-  NoticeLog* log_;
-  RowQueue ahead_;
-  std::vector<double> last_;  ///< values of the last row accepted, as they were
-  bool in_run_ = false;
-  bool step_noticed_ = false;
-  std::int64_t segment_ = 0;
-  double run_begin_ = 0, last_time_ = 0;
-  std::size_t untimed_ = 0;  ///< rows with a bad time since last_time_
-  double usual_step_ = 0;    ///< s; infinite if unknown
-  std::array<double, kLookAhead> steps_{};
-  std::size_t step_count_ = 0;
 };
 
 }  // namespace dyngen::runtime

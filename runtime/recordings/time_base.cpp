@@ -63,6 +63,15 @@ Grid common_grid(const Recording& recording) {
   return grid;
 }
 
+/// How far printing may have moved a sample, s. Samples on whole units of the print were not moved.
+double rounding_of_print(const Recording& recording, double step) {
+  const double unit = print_unit(recording.time);
+  if (unit == 0) return 0;
+  constexpr double kWhole =
+      0.02;  // a clock this little off needs a step of another length at times
+  return std::abs(step / unit - std::round(step / unit)) < kWhole ? 0 : unit / 2;
+}
+
 }  // namespace
 
 Eigen::Index run_end(const Recording& recording, std::size_t run) {
@@ -99,7 +108,7 @@ TimeBase examine_time_base(const Recording& recording) {
   }
   base.sample_time = rounded(median(steps));
   const Grid grid = common_grid(recording);
-  const double allowed = kGridTolerance * grid.step + print_unit(recording.time) / 2;
+  const double allowed = kGridTolerance * grid.step + rounding_of_print(recording, grid.step);
   base.uniform = grid.step > 0 && grid.farthest <= allowed;
   if (base.uniform) base.sample_time = grid.step;
 

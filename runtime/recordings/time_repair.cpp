@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "runtime/recordings/time_repair.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "runtime/recordings/row_repair.h"
 
 namespace dyngen::runtime {
 namespace {

@@ -17,9 +17,9 @@ enum class KeptModes {
 
 /// Settings of ConvergentModeLms. nb is gain.size().
 struct ConvergentModeOptions {
-  Eigen::VectorXd gain;           ///< (nb) diagonal of Gamma, >= 0, one > 0; see propose_gain()
-  Eigen::VectorXd joint_weights;  ///< (n) >= 0; empty: 1
-  Eigen::VectorXd start;          ///< (nb) first estimate; empty: 0
+  Eigen::VectorXd gain{};           ///< (nb) diagonal of Gamma, >= 0, one > 0; see propose_gain()
+  Eigen::VectorXd joint_weights{};  ///< (n) >= 0; empty: 1
+  Eigen::VectorXd start{};          ///< (nb) first estimate; empty: 0
   KeptModes modes = KeptModes::kMostStable;
   /// rad/s or m/s, >= 0. Samples in which no joint is faster are left out: stiction is not in the
   /// model (thesis 1995, section 8.1). 0: none is left out, and dq may be null.

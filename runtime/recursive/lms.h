@@ -8,9 +8,9 @@ namespace dyngen::runtime {
 
 /// Settings of Lms. nb is gain.size().
 struct LmsOptions {
-  Eigen::VectorXd gain;           ///< (nb) diagonal of Gamma, >= 0, one > 0; see propose_gain()
-  Eigen::VectorXd joint_weights;  ///< (n) >= 0, for instance 1/variance of the torque; empty: 1
-  Eigen::VectorXd start;          ///< (nb) first estimate; empty: 0
+  Eigen::VectorXd gain{};           ///< (nb) diagonal of Gamma, >= 0, one > 0; see propose_gain()
+  Eigen::VectorXd joint_weights{};  ///< (n) >= 0, for instance 1/variance of the torque; empty: 1
+  Eigen::VectorXd start{};          ///< (nb) first estimate; empty: 0
   /// Divides every step by floor + tr(Y Gamma Y' diag(joint_weights)). Only the ratios of the gains
   /// count then (the square of what each parameter may weigh), and no sample can enlarge the error.
   bool normalised = false;

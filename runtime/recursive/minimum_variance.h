@@ -11,12 +11,12 @@ namespace dyngen::runtime {
 
 /// Settings of MinimumVariance. nb is prior_covariance.rows(), n is measurement_covariance.rows().
 struct MinimumVarianceOptions {
-  Eigen::VectorXd prior_mean;        ///< (nb) first estimate; empty: 0
-  Eigen::MatrixXd prior_covariance;  ///< (nb x nb) positive definite: of prior_mean
+  Eigen::VectorXd prior_mean{};        ///< (nb) first estimate; empty: 0
+  Eigen::MatrixXd prior_covariance{};  ///< (nb x nb) positive definite: of prior_mean
   /// (nb x nb) positive semidefinite: by how much the parameters wander from sample to sample;
   /// empty: not at all
-  Eigen::MatrixXd walk_covariance;
-  Eigen::MatrixXd measurement_covariance;  ///< (n x n) positive definite, (N m)^2: of tau
+  Eigen::MatrixXd walk_covariance{};
+  Eigen::MatrixXd measurement_covariance{};  ///< (n x n) positive definite, (N m)^2: of tau
 
   /// @throws std::invalid_argument  if a size is wrong or a matrix is not as described
   void validate() const;

@@ -10,14 +10,14 @@ namespace dyngen::runtime {
 
 /// Settings of Rls.
 struct RlsOptions {
-  double forgetting = 1;             ///< (0, 1]: weight of a sample against the next one
-  Eigen::VectorXd noise_stddev;      ///< (n) > 0, N m or N, of the torques; empty: 1
-  Eigen::VectorXd prior_mean;        ///< (nb) first estimate; empty: 0
-  Eigen::MatrixXd prior_covariance;  ///< (nb x nb) positive definite; empty: nothing is known
+  double forgetting = 1;               ///< (0, 1]: weight of a sample against the next one
+  Eigen::VectorXd noise_stddev{};      ///< (n) > 0, N m or N, of the torques; empty: 1
+  Eigen::VectorXd prior_mean{};        ///< (nb) first estimate; empty: 0
+  Eigen::MatrixXd prior_covariance{};  ///< (nb x nb) positive definite; empty: nothing is known
   /// (nb) > 0, with forgetting < 1: no standard deviation grows beyond it while a parameter is not
   /// excited. Held by weak equations "stay where you are", one a sample, the parameters in turn.
   /// Empty: no bound.
-  Eigen::VectorXd max_stddev;
+  Eigen::VectorXd max_stddev{};
 
   /// @throws std::invalid_argument  if a size, sign or range is wrong
   void validate(int joints, int parameters) const;
