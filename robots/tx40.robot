@@ -32,7 +32,7 @@ ZZ         *  *  *  *  *  *
 IA         *  *  *  *  *  *  # rotor inertia at the joint [kg m^2]
 Fs         *  *  *  *  *  *  # Coulomb friction [N m]
 Fv         *  *  *  *  *  *  # viscous friction [N m s/rad]
-off        0  0  0  0  0  0  # torque offset [N m]
+off        *  *  *  *  *  *  # torque offset [N m]
 
 # base acceleration -g in frame 0 [m/s^2]
 gx 0

@@ -58,13 +58,13 @@ GeneratorOptions with_progress(GeneratorOptions options, ProgressLine& line) {
 }
 
 CText generated_text(const RobotModel& model, const GeneratorOptions& options) {
-  ProgressLine line;
+  ProgressLine line("dyngen");
   return generate(model, with_progress(options, line));
 }
 
 std::string counted(const RobotModel& model, const GeneratorOptions& options) {
   CodeModel code = make_code_model(model, options);
-  ProgressLine line;
+  ProgressLine line("dyngen");
   return count_table(code, write_functions(code, with_progress(options, line)));
 }
 

@@ -44,8 +44,7 @@ double interval_of(const TorqueFactor& equations, const NoiseFactor& noise) {
   const VectorXd times = noise.correlation_time();
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < equations.joints.size(); ++j) {
-    const double worth =
-        equations.joints[j].rows / std::max(1.0, times[static_cast<Index>(j)]);
+    const double worth = equations.joints[j].rows / std::max(1.0, times[static_cast<Index>(j)]);
     least = std::min(least, worth - static_cast<double>(equations.columns[j].size()));
   }
   return student_interval(0.95, std::max(2.0, least));
@@ -98,8 +97,7 @@ class Fitter {
         return drawn_to_prior();
       case FitMethod::kSvd: {
         const VectorXd weights = weighted_least_squares(equations, settings).joint_weights;
-        const Significance dropped =
-            drop_weakest(equations, weights, options_.dropped_directions);
+        const Significance dropped = drop_weakest(equations, weights, options_.dropped_directions);
         fit.estimate = dropped.estimate;
         add_covariance(fit, equations, data_.rows);
         fit.messages.push_back(
@@ -119,8 +117,7 @@ class Fitter {
   /// @param rows  empty: the noise of the summary, taken at the fits of its recordings
   void add_covariance(MethodFit& fit, const TorqueFactor& equations, const RowSource& rows) {
     Estimate& estimate = fit.estimate;
-    const NoiseFactor noise =
-        rows ? noise_at(estimate, equations, rows) : data_.summary.noise;
+    const NoiseFactor noise = rows ? noise_at(estimate, equations, rows) : data_.summary.noise;
     estimate.covariance = correlated_covariance(equations, noise, estimate.joint_weights,
                                                 estimate.scale, estimate.unseen);
     fit.interval = interval_of(equations, noise);
@@ -156,9 +153,9 @@ class Fitter {
     fit.messages.push_back(fmt::format(
         "lambda {:.3g}{}; prior: {}", fit.lambda,
         options_.lambda >= 0 ? "" : " at the corner of the L-curve",
-        options_.prior.size() != 0 ? fmt::format("the file's values, known to {:.0f} %",
-                                                 100 * options_.prior_relative)
-                                   : std::string("zero, since the file has no values")));
+        options_.prior.size() != 0
+            ? fmt::format("the file's values, known to {:.0f} %", 100 * options_.prior_relative)
+            : std::string("zero, since the file has no values")));
     return fit;
   }
 
@@ -169,8 +166,8 @@ class Fitter {
     const TorqueFactor& equations = data_.summary.equations;
     const VectorXd weights = weighted_least_squares(equations).joint_weights;
     MethodFit fit;
-    fit.instrumental = instrumental_variables(data_.instruments, equations.columns,
-                                              equations.parameters, weights);
+    fit.instrumental =
+        instrumental_variables(data_.instruments, equations.columns, equations.parameters, weights);
     fit.estimate = fit.instrumental->estimate;
     fit.messages.push_back(fmt::format(
         "Durbin-Wu-Hausman: chi-square {:.1f} with {} degrees of freedom, p = {:.3g}: {}",
@@ -188,8 +185,8 @@ class Fitter {
 }  // namespace
 
 const std::vector<std::string_view>& fit_method_names() {
-  static const std::vector<std::string_view> names = {
-      "ls", "wls", "irls", "ridge", "svd", "lms", "lms-mode", "rls", "kalman", "iv"};
+  static const std::vector<std::string_view> names = {"ls",  "wls",      "irls", "ridge",  "svd",
+                                                      "lms", "lms-mode", "rls",  "kalman", "iv"};
   return names;
 }
 

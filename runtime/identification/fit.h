@@ -37,9 +37,9 @@ std::optional<FitMethod> parse_fit_method(std::string_view name);
 
 /// What there is to fit.
 struct FitData {
-  RecordingSummary summary;  ///< of all training recordings
-  RowSource rows;            ///< their equations; empty if there are summaries alone
-  InstrumentSource instruments;  ///< empty if there are none
+  RecordingSummary summary;             ///< of all training recordings
+  RowSource rows;                       ///< their equations; empty if there are summaries alone
+  InstrumentSource instruments;         ///< empty if there are none
   std::optional<TorqueFactor> heldout;  ///< equations of held-out recordings
 };
 
@@ -56,12 +56,12 @@ struct FitOptions {
 /// What one method found.
 struct MethodFit {
   FitMethod method = FitMethod::kWls;
-  Estimate estimate;             ///< covariance: for correlated noise where the method has one
-  Eigen::VectorXd textbook;      ///< (nb) standard deviations as if noise were white
-  Eigen::VectorXd percent;       ///< (n) residual norm over torque norm, of the fit
-  Eigen::VectorXd heldout_rms;   ///< (n) N m or N; empty without held-out recordings
+  Estimate estimate;            ///< covariance: for correlated noise where the method has one
+  Eigen::VectorXd textbook;     ///< (nb) standard deviations as if noise were white
+  Eigen::VectorXd percent;      ///< (n) residual norm over torque norm, of the fit
+  Eigen::VectorXd heldout_rms;  ///< (n) N m or N; empty without held-out recordings
   Eigen::VectorXd heldout_percent;
-  double interval = 1.96;        ///< a 95 % interval is beta +- interval * stddev
+  double interval = 1.96;            ///< a 95 % interval is beta +- interval * stddev
   std::vector<LCurvePoint> l_curve;  ///< of kRidge
   double lambda = 0;
   std::optional<InstrumentalEstimate> instrumental;  ///< of kIv

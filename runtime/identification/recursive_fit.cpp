@@ -85,9 +85,8 @@ void run_lms(FitMethod method, const FitData& data, const FitOptions& options, c
                      .normalised = true});
     passes(lms);
   } else {
-    ConvergentModeLms lms(joints, {.gain = propose_gain(R, 1),
-                                   .joint_weights = weights,
-                                   .start = start.beta});
+    ConvergentModeLms lms(
+        joints, {.gain = propose_gain(R, 1), .joint_weights = weights, .start = start.beta});
     passes(lms);
   }
   fit.messages.push_back(fmt::format("{} passes, {} of {} samples used; no standard deviations",
@@ -115,7 +114,8 @@ MethodFit recursive_fit(FitMethod method, const FitData& data, const FitOptions&
     if (rls.determined()) {
       fit.textbook = rls.covariance().diagonal().cwiseSqrt();
     } else {
-      fit.messages.push_back("the samples do not determine every parameter: those keep their start");
+      fit.messages.push_back(
+          "the samples do not determine every parameter: those keep their start");
     }
   } else if (method == FitMethod::kKalman) {
     MinimumVariance kalman(

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <stdexcept>
+
+#include "gen/tool/output_files.h"
+#include "gen/tool/progress_line.h"
+#include "runtime/identification/summary_file.h"
+#include "runtime/tools/dynid/commands.h"
+#include "runtime/tools/dynid/consistent_fit.h"
+#include "runtime/tools/dynid/loading.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The file's values, if it has all of them.
+VectorXd prior_of(const LinearModel& model) {
+  VectorXd prior(model.size());
+  for (int i = 0; i < model.size(); ++i) {
+    const auto& value = model.parameters[static_cast<std::size_t>(i)].value;
+    if (!value) return {};
+    prior[i] = *value;
+  }
+  return prior;
+}
+
+/// Parts of recordings that are held out by --holdout-part.
+void hold_out_parts(double part, LoadedRecordings& train, LoadedRecordings& heldout,
+                    const ToolOptions& options) {
+  if (part <= 0) return;
+  for (std::size_t i = 0; i < train.sources.size(); ++i) {
+    MotionSource last = part_of(train.sources[i], 1 - part, 1);
+    train.sources[i] = part_of(train.sources[i], 0, 1 - part);
+    last.name += fmt::format(" (last {:.0f} %)", 100 * part);
+    train.sources[i].name += fmt::format(" (first {:.0f} %)", 100 * (1 - part));
+    train.lines[i] = describe(train.sources[i], options, false);
+    heldout.lines.push_back(describe(last, options, true));
+    heldout.sources.push_back(std::move(last));
+  }
+}
+
+Conditioning examine_conditioning(const FitReport& report) {
+  constexpr double kLeastSensitivity = 0.02, kMostCondition = 30;
+  const TorqueFactor& equations = report.data.summary.equations;
+  const VectorXd& weights = report.main().estimate.joint_weights;
+  Conditioning result;
+  result.raw = report.main().estimate.raw_condition;
+  result.unit_norm = report.main().estimate.condition;
+  result.sensitivity =
+      condition_number(singular_values(equations, weights, sensitivity_scale(equations, weights)));
+  result.insensitive = remove_insensitive(equations, weights, kLeastSensitivity);
+  result.dependent = remove_dependent(equations, weights, kMostCondition);
+  result.weakest = drop_weakest(equations, weights, -1);
+  result.essential = essential_parameters(equations, weights);
+  return result;
+}
+
+/// Recordings, or files of their summaries: not both.
+bool are_summaries(const std::vector<std::string>& paths) {
+  const auto count = std::count_if(paths.begin(), paths.end(), is_summary_file);
+  if (count == 0) return false;
+  if (static_cast<std::size_t>(count) == paths.size()) return true;
+  throw std::invalid_argument(
+      "recordings and .qr files cannot be fitted together: accumulate the recordings first");
+}
+
+void load_summaries(const ToolOptions& options, FitReport& report) {
+  RobotSummaries all = empty_summaries(report.robot.linear);
+  for (const std::string& path : options.recordings) {
+    try {
+      merge(all, read_summary_file(path));
+    } catch (const std::invalid_argument& error) {
+      throw SummaryFileError(fmt::format("{}: error: it is not of {}: {}", path,
+                                         report.robot.linear.name, error.what()));
+    }
+  }
+  for (const auto& [name, summary] : all.robots) {
+    if (all.robots.size() > 1) {
+      report.notes.push_back(fmt::format("robot {}: {} recordings, {:.1f} s",
+                                         name.empty() ? "(not named)" : name, summary.recordings,
+                                         summary.seconds()));
+    }
+  }
+  report.data.summary = pooled(all);
+}
+
+std::vector<FitMethod> methods_of(const ToolOptions& options, const FitData& data) {
+  std::vector<FitMethod> methods;
+  if (!options.every_method) return options.fit.methods;
+  methods =
+      options.fit.methods.empty() ? std::vector<FitMethod>{FitMethod::kWls} : options.fit.methods;
+  for (std::size_t i = 0; i < fit_method_names().size(); ++i) {
+    const FitMethod method = static_cast<FitMethod>(i);
+    const bool possible = (data.rows || method == FitMethod::kLs || method == FitMethod::kWls ||
+                           method == FitMethod::kRidge || method == FitMethod::kSvd) &&
+                          (data.instruments || method != FitMethod::kIv);
+    if (possible && std::find(methods.begin(), methods.end(), method) == methods.end()) {
+      methods.push_back(method);
+    }
+  }
+  return methods;
+}
+
+void write_outputs(const ToolOptions& options, const FitReport& report) {
+  std::vector<OutputFile> files;
+  if (!options.output.empty()) files.push_back({options.output, identified_file(report)});
+  if (!options.json.empty()) files.push_back({options.json, fit_json(report)});
+  write_files(files);
+}
+
+}  // namespace
+
+int run_fit(const ToolOptions& options) {
+  ProgressLine progress("dynid");
+  FitReport report;
+  report.robot = describe_robot(options.robot, options.consistent ? OpenParameters::kEverything
+                                                                  : OpenParameters::kAbsentRows);
+  const LinearModel& model = report.robot.linear;
+  LoadedRecordings train, heldout;
+  if (are_summaries(options.recordings)) {
+    load_summaries(options, report);
+  } else {
+    train = load_recordings(options.recordings, options, false, progress);
+    heldout = load_recordings(options.heldout, options, true, progress);
+    hold_out_parts(options.heldout_part, train, heldout, options);
+    report.recordings = train.lines;
+    report.data.summary = summarise_together(model, train.sources, options, progress);
+    report.data.rows = joined(rows_of_all(model, train.sources, options));
+  }
+  if (!options.heldout.empty() && heldout.sources.empty()) {
+    heldout = load_recordings(options.heldout, options, true, progress);
+  }
+  if (!heldout.sources.empty()) {
+    report.data.heldout = factor_of(joined(rows_of_all(model, heldout.sources, options)),
+                                    model.columns, model.size());
+    report.recordings.insert(report.recordings.end(), heldout.lines.begin(), heldout.lines.end());
+  }
+  FitOptions fit_options = options.fit;
+  fit_options.prior = prior_of(model);
+  fit_options.methods = methods_of(options, report.data);
+  report.fits =
+      fit_methods(model, report.data, fit_options, [&](const std::string& what, double done) {
+        progress.show(what, static_cast<std::size_t>(100 * done), 100);
+      });
+  progress.show("trust", 0, 1);
+  report.trust = measure_trust(report.data.summary.equations, report.main().estimate,
+                               report.data.summary.regressor_noise, report.data.summary.row_time);
+  report.conditioning = examine_conditioning(report);
+  // what a method leaves out on purpose is not what the data do not see
+  const Estimate plain = weighted_least_squares(report.data.summary.equations);
+  report.unseen = name_unseen(plain, model, report.data.summary.extent);
+  if (options.consistent) {
+    progress.show("physical consistency", 0, 1);
+    report.consistent = fit_consistently(report);
+  }
+  progress.clear();
+  write_outputs(options, report);
+  std::cout << fit_table(report);
+  if (!report.unseen.empty()) {
+    std::cerr << fmt::format(
+        "dynid: these recordings do not determine {} combination{} of parameters (listed above)\n",
+        report.unseen.size(), report.unseen.size() == 1 ? "" : "s");
+    return kCannotAnswer;
+  }
+  return kDone;
+}
+
+}  // namespace dyngen::runtime

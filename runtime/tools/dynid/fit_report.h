@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/estimation/significance.h"
+#include "runtime/estimation/trust.h"
+#include "runtime/estimation/unseen.h"
+#include "runtime/identification/fit.h"
+#include "runtime/identification/motion_source.h"
+#include "runtime/tools/dynid/described_robot.h"
+
+namespace dyngen::runtime {
+
+/// A recording, as reports speak of it.
+struct RecordingLine {
+  std::string name;
+  bool heldout = false;
+  double seconds = 0;
+  double cutoff = 0;  ///< Hz
+  std::string cutoff_reason;
+  Eigen::Index decimation = 1;
+  double row_time = 0;  ///< s
+  RecordingCondition condition;
+};
+
+/// Condition numbers as in the thesis's Table 7.2, and what each analysis does to them.
+struct Conditioning {
+  double raw = 0;          ///< the regressor as it is
+  double unit_norm = 0;    ///< columns of unit norm
+  double sensitivity = 0;  ///< columns over experimental torque sensitivity
+  Significance insensitive, dependent, weakest, essential;
+};
+
+/// Full parameters that bodies can have.
+struct ConsistentFit {
+  StandardParameters standard;
+  Eigen::VectorXd beta;
+  Eigen::VectorXd pull;  ///< (nb) standard deviations
+  double cost_free = 0, cost = 0;
+  bool converged = false;
+  std::string message;
+  Eigen::VectorXd percent, heldout_percent;
+};
+
+/// All that a fit found: what the table, the JSON and the robot file are made of.
+struct FitReport {
+  DescribedRobot robot;
+  std::vector<RecordingLine> recordings;
+  FitData data;
+  std::vector<MethodFit> fits;  ///< the first one goes to the robot file
+  Trust trust;
+  Conditioning conditioning;
+  std::vector<UnseenCombination> unseen;
+  std::optional<ConsistentFit> consistent;
+  std::vector<std::string> notes;
+
+  [[nodiscard]] const MethodFit& main() const { return fits.front(); }
+};
+
+/// How well a parameter is known.
+enum class Seen {
+  kYes,
+  kWeak,  ///< its interval contains zero
+  kNo     ///< part of a combination that the data do not see
+};
+Seen seen(const FitReport& report, int parameter);
+std::string_view seen_name(Seen seen);
+
+/// The report as a person reads it.
+std::string fit_table(const FitReport& report);
+
+/// The report for programs: schema dynid.fit/1, docs/identification.md.
+std::string fit_json(const FitReport& report);
+
+/// The identified robot file. @param command  as it was given, for the comment
+std::string identified_file(const FitReport& report);
+
+}  // namespace dyngen::runtime

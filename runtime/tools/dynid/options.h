@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/identification/fit.h"
+#include "runtime/identification/motion_rows.h"
+#include "runtime/identification/motion_source.h"
+
+namespace dyngen::runtime {
+
+enum class Command { kFit, kCheck, kAccumulate, kMerge };
+
+/// The command line of dynid.
+struct ToolOptions {
+  Command command = Command::kFit;
+  std::string robot;                    ///< path of the robot file
+  std::vector<std::string> recordings;  ///< .csv, .csv.gz; of fit also .qr; of merge .qr
+  std::vector<std::string> heldout;
+  double heldout_part = 0;    ///< the last part of every recording is held out: 0 .. 0.9
+  std::string output;         ///< empty: none
+  std::string json;           ///< empty: none
+  std::string tracked;        ///< the commanded motion, for instruments; empty: none
+  std::string robot_name;     ///< of accumulate: whose recordings these are
+  bool own_friction = false;  ///< robots share inertia, each has its own friction and offset
+  bool consistent = false;
+  bool every_method = false;
+  MotionOptions motion;
+  RowOptions rows;
+  FitOptions fit;
+};
+
+/// Reads the command line. @return what to do, or the exit code if there is nothing left to do
+///         (0 after --help or --version, 2 after a message about wrong usage)
+struct ParsedOptions {
+  ToolOptions options;
+  int exit_code = -1;  ///< -1: go on
+};
+ParsedOptions parse_options(int argc, const char* const* argv);
+
+}  // namespace dyngen::runtime
