@@ -9,6 +9,8 @@
 namespace dyngen::runtime {
 namespace {
 
+constexpr std::size_t kFirstPiece = 1 << 12, kPiece = 1 << 18;  // small files want little memory
+
 /// Place of `wanted` in buffer[begin, end), or end.
 std::size_t find_byte(const std::vector<char>& buffer, std::size_t begin, std::size_t end,
                       char wanted) {
@@ -20,7 +22,7 @@ std::size_t find_byte(const std::vector<char>& buffer, std::size_t begin, std::s
 }  // namespace
 
 LineReader::LineReader(ByteSource source, NoticeLog& log)
-    : source_(std::move(source)), log_(&log), buffer_(1 << 18) {}
+    : source_(std::move(source)), log_(&log), buffer_(kFirstPiece) {}
 
 void LineReader::refill() {
   if (end_ - begin_ > kLongestLine) {
@@ -30,7 +32,9 @@ void LineReader::refill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  if (end_ == buffer_.size()) buffer_.resize(2 * buffer_.size());
+  if (end_ == buffer_.size() || (number_ > 0 && buffer_.size() < kPiece)) {
+    buffer_.resize(2 * buffer_.size());
+  }
   try {
     const std::size_t got = source_.read(buffer_.data() + end_, buffer_.size() - end_);
     at_end_ = got == 0;

@@ -28,7 +28,9 @@ struct JointStateOptions {
   /// s cut at each end of a run, where a filter knows one side only; negative: as long as the
   /// filter remembers a hundredth of what it saw. Spectral and recorded states lose nothing then.
   double trim = -1;
-  double encoder_step = 0;  ///< rad or m, of all joints, for the Kalman methods; 0: from the data
+  /// rad or m, of all joints, for the Kalman methods, if rounding is all the noise there is; 0: the
+  /// noise is chosen from the data, each joint its own.
+  double encoder_step = 0;
   double jerk_intensity =
       0;  ///< rad^2/s^5, for the Kalman methods; 0: from the data, each joint its own
 

@@ -41,13 +41,16 @@ inline const KalmanUpdate& update_at(const std::vector<KalmanUpdate>& updates,
   return updates[std::min(static_cast<std::size_t>(sample - 3), updates.size() - 1)];
 }
 
-/// What is known of x[k] once x[k+1] is: x[k] = A^-1 x[k+1] + correction, with the covariance `own`
-/// + from_next cov(x[k+1]) from_next^T. For samples 1 and 0, where a filter has no covariance yet.
+/// What is known of a state.
 struct KalmanRetreat {
   Eigen::Vector3d state;
   Eigen::Matrix3d covariance;
 };
 
+/// What is known of x[sample] from what is known of the next one and from the measurements up to
+/// it, for samples 1 and 0, where the filter has no covariance of its own yet: the sum of their
+/// information.
+///
 /// @param sample  0 or 1      @param y0,y1  the measurements of samples 0 and 1
 KalmanRetreat kalman_retreat(double ratio, int sample, double y0, double y1,
                              const KalmanRetreat& next);

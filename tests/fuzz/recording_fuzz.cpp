@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes are either a recording or a RecordingError that says where; nothing else may happen, and
-// the samples do not depend on how they are cut into chunks.
+// Any bytes are either a recording or a RecordingError that says where; nothing else may happen,
+// and the samples do not depend on how they are cut into chunks.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -45,8 +45,8 @@ void check_chunk(const Recording& chunk, bool continues_run, double& last_time) 
     fail("values are finite", "");
   }
   for (Eigen::Index k = 0; k < rows; ++k) {
-    const bool starts = std::find(chunk.run_starts.begin(), chunk.run_starts.end(), k) !=
-                        chunk.run_starts.end();
+    const bool starts =
+        std::find(chunk.run_starts.begin(), chunk.run_starts.end(), k) != chunk.run_starts.end();
     if ((!starts || (k == 0 && continues_run)) && !(chunk.time(k) > last_time)) {
       fail("time increases within a run", "");
     }
@@ -87,9 +87,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Outcome whole = read(text, 1 << 20);
   const Outcome pieces = read(text, 5);
   if (whole.error != pieces.error) fail("chunks make no difference", whole.error + pieces.error);
-  if (whole.error.empty() &&
-      (whole.samples != pieces.samples || whole.runs != pieces.runs ||
-       std::abs(whole.sum - pieces.sum) > 1e-12 * whole.sum)) {
+  if (whole.error.empty() && (whole.samples != pieces.samples || whole.runs != pieces.runs ||
+                              std::abs(whole.sum - pieces.sum) > 1e-12 * whole.sum)) {
     fail("chunks make no difference", "");
   }
   return 0;
