@@ -83,6 +83,7 @@ RobustEstimate iteratively_reweighted(const RowSource& source,
         ((result.deviation - deviation).array() / deviation.array()).abs().maxCoeff();
     if (std::max(moved, rescaled) < options.tolerance) break;
   }
+  result.rounds = std::min(result.rounds, options.most_rounds);
   const VectorXd beta = result.estimate.beta, deviation = result.deviation;
   result.rows = [source, beta, deviation,
                  threshold = options.threshold](const std::function<void(const RowBlock&)>& visit) {

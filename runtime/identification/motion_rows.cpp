@@ -136,7 +136,7 @@ RowPlan plan_rows(const MotionSource& source, const RowOptions& options) {
       (density * (std::pow(2 * kPi, 2) * std::pow(band, 3) / 3)).cwiseSqrt();
   plan.still_speed = options.still_speed >= 0
                          ? VectorXd::Constant(source.joints(), options.still_speed).eval()
-                         : (3 * velocity_noise).eval();
+                         : (3 * velocity_noise).cwiseMax(0.01 * source.fastest).eval();
   return plan;
 }
 

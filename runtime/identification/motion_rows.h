@@ -15,8 +15,9 @@ struct RowOptions {
   /// Samples for one equation, behind the parallel filter; 0: so that the new Nyquist frequency is
   /// 1.25 times the cut-off; 1: no parallel filter, every sample is an equation.
   Eigen::Index decimation = 0;
-  /// rad/s or m/s: a joint that moves slower has no equation, since the sign of its friction is not
-  /// known; negative: three standard deviations of the velocity's noise.
+  /// rad/s or m/s: a joint that moves slower has no equation, since there friction is not Coulomb's
+  /// and its sign is not known; negative: a hundredth of the joint's largest speed, and at least
+  /// three standard deviations of the velocity's noise.
   double still_speed = -1;
 };
 

@@ -111,6 +111,10 @@ MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
   source.cutoff = states.cutoff;
   source.position_noise =
       noise_of_positions(recording, states, source.sample_time, condition.position_step);
+  source.fastest = VectorXd::Zero(recording.joints());
+  for (const Motion& run : states.runs) {
+    source.fastest = source.fastest.cwiseMax(run.dq.cwiseAbs().colwise().maxCoeff().transpose());
+  }
   condition.messages.insert(condition.messages.end(), states.messages.begin(),
                             states.messages.end());
   source.condition = std::move(condition);

@@ -44,6 +44,7 @@ struct MotionSource {
   double sample_time = 0;  ///< s
   Cutoff cutoff;
   Eigen::VectorXd position_noise;  ///< (n) standard deviation of measured positions, rad or m
+  Eigen::VectorXd fastest;         ///< (n) largest speed, rad/s or m/s
   RecordingCondition condition;
   /// Consecutive pieces of all runs.
   std::function<void(const std::function<void(const StreamPiece&)>&)> pieces;

@@ -66,7 +66,15 @@ void run_lms(FitMethod method, const FitData& data, const FitOptions& options, c
   const int joints = static_cast<int>(start.weights.size());
   const Index nb = start.beta.size();
   const VectorXd weights = start.weights.cwiseAbs2();
-  const MatrixXd R = correlation(data.summary.equations, start.weights);
+  VectorXd gain = propose_gain(correlation(data.summary.equations, start.weights), 1);
+  // no sample may be too strong for it: the trace bounds the largest eigenvalue of Gamma Y'Y
+  double strongest = 0;
+  for_each_sample(data.rows, nb, [&](const double* Y, const double*) {
+    const RegressorMap rows(Y, joints, nb);
+    strongest =
+        std::max(strongest, (rows.array().square().matrix() * gain).cwiseProduct(weights).sum());
+  });
+  if (strongest > 1) gain /= strongest;
   std::int64_t used = 0, all = 0;
   const auto passes = [&](auto& estimator) {
     for (int pass = 0; pass < options.passes; ++pass) {
@@ -79,14 +87,11 @@ void run_lms(FitMethod method, const FitData& data, const FitOptions& options, c
     used = estimator.samples();
   };
   if (method == FitMethod::kLms) {
-    Lms lms(joints, {.gain = propose_gain(R, 1),
-                     .joint_weights = weights,
-                     .start = start.beta,
-                     .normalised = true});
+    Lms lms(joints,
+            {.gain = gain, .joint_weights = weights, .start = start.beta, .normalised = true});
     passes(lms);
   } else {
-    ConvergentModeLms lms(
-        joints, {.gain = propose_gain(R, 1), .joint_weights = weights, .start = start.beta});
+    ConvergentModeLms lms(joints, {.gain = gain, .joint_weights = weights, .start = start.beta});
     passes(lms);
   }
   fit.messages.push_back(fmt::format("{} passes, {} of {} samples used; no standard deviations",

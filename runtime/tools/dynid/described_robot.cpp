@@ -129,6 +129,24 @@ std::vector<Index> choose_places(const MatrixXd& grouping,
   return places;
 }
 
+/// "ZZ2 + IA2 + ...", or what the parameter is where nothing is grouped into it.
+std::string formula_of(const std::string& comment, const GroupedParameter& parameter) {
+  if (comment.starts_with("= ")) return comment.substr(2);
+  const int link = parameter.column.link;
+  switch (parameter.column.kind) {
+    case Chi::kIA:
+      return fmt::format("rotor inertia of joint {}", link);
+    case Chi::kFV:
+      return fmt::format("viscous friction of joint {}", link);
+    case Chi::kFS:
+      return fmt::format("Coulomb friction of joint {}", link);
+    case Chi::kOFF:
+      return fmt::format("torque offset of joint {}", link);
+    default:
+      return parameter.name();
+  }
+}
+
 std::optional<double> file_value(const GroupedParameter& parameter, const SymbolicRobot& robot) {
   const GiNaC::ex value = with_known_values(parameter.value, robot);
   if (!is_number(value)) return std::nullopt;
@@ -213,7 +231,7 @@ DescribedRobot describe_robot(const std::string& path, OpenParameters open) {
     LinearParameter parameter;
     parameter.name = grouped.name();
     parameter.unit = code.chi[i].unit;
-    parameter.formula = code.chi[i].comment;
+    parameter.formula = formula_of(code.chi[i].comment, grouped);
     parameter.link = grouped.column.link;
     parameter.kind = kind_of(grouped.column.kind);
     parameter.value = file_value(grouped, symbolic);

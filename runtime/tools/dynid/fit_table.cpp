@@ -16,6 +16,14 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
 }
 
+/// Long sums are whole in the robot file and the JSON.
+std::string shortened(const std::string& formula) {
+  constexpr std::size_t kMost = 44;
+  if (formula.size() <= kMost) return formula;
+  const std::size_t cut = formula.rfind(" + ", kMost);
+  return formula.substr(0, cut == std::string::npos ? kMost : cut) + " + ...";
+}
+
 std::string heading(const FitReport& report) {
   const RecordingSummary& summary = report.data.summary;
   const LinearModel& model = report.robot.linear;
@@ -29,7 +37,6 @@ std::string heading(const FitReport& report) {
                     line.seconds, 1 / line.condition.sample_time);
     if (line.cutoff > 0) text += fmt::format("; cut-off {:.3g} Hz", line.cutoff);
     text += fmt::format("; an equation every {:.3g} ms\n", 1e3 * line.row_time);
-    if (!line.cutoff_reason.empty()) text += fmt::format("    {}\n", line.cutoff_reason);
     for (const std::string& message : line.condition.messages) {
       text += fmt::format("    {}\n", message);
     }
@@ -63,9 +70,7 @@ std::string parameter_rows(const FitReport& report) {
       line +=
           fmt::format("{:>12.5g}{:>7.1f}", report.consistent->beta[i], report.consistent->pull[i]);
     }
-    line += "  " + parameter.formula;
-    while (line.back() == ' ') line.pop_back();
-    text += line + "\n";
+    text += line + "  " + shortened(parameter.formula) + "\n";
   }
   return text;
 }
@@ -74,12 +79,14 @@ std::string joint_rows(const FitReport& report) {
   const MethodFit& fit = report.main();
   const LinearModel& model = report.robot.linear;
   const bool heldout = fit.heldout_rms.size() != 0;
-  std::string text = fmt::format("\n{:<14}{:>12}{:>12}", "residual", "rms", "% torque");
+  std::string text =
+      fmt::format("\n{:<14}{:>10}{:>12}{:>12}", "residual", "equations", "rms", "% torque");
   if (heldout) text += fmt::format("{:>12}{:>12}", "held-out", "% torque");
   const VectorXd times = report.data.summary.noise.correlation_time();
   text += fmt::format("{:>16}\n", "correlated over");
   for (int j = 0; j < model.joints(); ++j) {
-    text += fmt::format("{:<14}{:>8.4g} {:<3}{:>12.1f}", fmt::format("joint {}", j + 1),
+    text += fmt::format("{:<14}{:>10.0f}{:>8.4g} {:<3}{:>12.1f}", fmt::format("joint {}", j + 1),
+                        report.data.summary.equations.joints[static_cast<std::size_t>(j)].rows,
                         fit.estimate.residual_rms[j],
                         model.revolute[static_cast<std::size_t>(j)] ? "N m" : "N", fit.percent[j]);
     if (heldout)

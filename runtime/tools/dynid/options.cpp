@@ -53,7 +53,7 @@ void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
       ->capture_default_str();
   command
       .add_option("--still", options.rows.still_speed,
-                  "rad/s: slower joints give no equation; negative: from the noise")
+                  "rad/s: slower joints give no equation; negative: 1 % of the largest speed")
       ->capture_default_str();
   command
       .add_option("--period", words.period,
