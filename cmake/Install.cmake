@@ -15,6 +15,14 @@ if(TARGET dyngen_runtime)
     DESTINATION ${DYNGEN_PACKAGE_DIR} COMPONENT runtime)
 endif()
 
+# An export of its own: who does not ask for the component `consistency` needs no Ceres.
+if(TARGET dyngen_consistency)
+  install(TARGETS dyngen_consistency EXPORT dyngenConsistencyTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
+  install(EXPORT dyngenConsistencyTargets NAMESPACE dyngen::
+    DESTINATION ${DYNGEN_PACKAGE_DIR} COMPONENT runtime)
+endif()
+
 if(TARGET dyngen)
   install(TARGETS dyngen EXPORT dyngenToolTargets
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tool)

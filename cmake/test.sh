@@ -4,7 +4,7 @@ set -eu
 cd "$(dirname "$0")/.."
 
 sh cmake/install_packages.sh build-essential cmake ninja-build ccache pkg-config git clang \
-  libginac-dev libcln-dev libeigen3-dev libfmt-dev libcli11-dev nlohmann-json3-dev \
+  libginac-dev libcln-dev libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev nlohmann-json3-dev \
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev liborocos-kdl-dev libmujoco-dev \
   libdart-dev
 

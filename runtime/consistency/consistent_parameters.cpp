@@ -21,6 +21,10 @@
 namespace dyngen::runtime {
 namespace {
 
+/// Standard deviations of data by which they must push an actuator against 0 to be said to want it
+/// negative: less may be the prior's doing.
+constexpr double kPush = 0.01;
+
 void require(bool fine, const std::string& message) {
   if (!fine) throw std::invalid_argument("fit_consistent(): " + message);
 }
@@ -77,6 +81,30 @@ FreeSolution solve_free(const Eigen::MatrixXd& R, const Eigen::VectorXd& z) {
   return result;
 }
 
+struct Search {
+  ScaledParameters parameters;
+  std::vector<bool> at_zero;
+  bool converged = false;
+  std::string message;
+};
+
+Search search(const ConsistencyCost& cost, const ConsistencyOptions& options) {
+  ScaledParameters start = at_prior(cost);
+  if (options.search == ConsistencySearch::kCentralPath) {
+    NewtonResult path = follow_path(cost);
+    if (path.converged) return {path.parameters, path.at_zero, true, ""};
+    if (std::isfinite(prior_distance(cost, path.parameters))) start = path.parameters;
+  }
+  const LogCholeskyFit fit = fit_log_cholesky(cost, options, start);
+  Search result{fit.parameters, fit.at_zero, fit.converged, ""};
+  if (!fit.at_floor.empty()) {
+    result.message = fmt::format("Links {}: at the edge of consistency, held there by `floor`.\n",
+                                 fmt::join(fit.at_floor, ", "));
+  }
+  if (!fit.converged) result.message += fmt::format("No convergence: {}\n", fit.message);
+  return result;
+}
+
 }  // namespace
 
 void ConsistencyOptions::validate() const {
@@ -109,15 +137,12 @@ ConsistentEstimate fit_consistent(const ConsistencyProblem& problem,
   ConsistentEstimate result;
   result.message = cost.full.message;
 
-  ScaledParameters start = at_prior(cost);
-  if (options.follow_path) start = follow_path(cost).parameters;
-  const LogCholeskyFit fit = fit_log_cholesky(cost, options, start);
-
-  result.chi = to_chi(cost, fit.parameters);
+  const Search found = search(cost, options);
+  result.chi = to_chi(cost, found.parameters);
   result.beta = problem.K * result.chi;
   result.cost = (problem.R * result.beta - problem.z).squaredNorm();
-  result.prior_distance = prior_distance(cost, fit.parameters);
-  result.converged = fit.converged;
+  result.prior_distance = prior_distance(cost, found.parameters);
+  result.converged = found.converged;
   result.smallest_eigenvalue.resize(problem.links);
   for (int link = 0; link < problem.links; ++link) {
     result.smallest_eigenvalue[link] =
@@ -125,13 +150,15 @@ ConsistentEstimate fit_consistent(const ConsistencyProblem& problem,
   }
   result.at_bound.assign(static_cast<std::size_t>(result.chi.size()), false);
   std::vector<std::string> at_zero;
-  for (std::size_t k = 0; k < fit.at_zero.size(); ++k) {
-    if (!fit.at_zero[k]) continue;
-    const int place = cost.places[k];
-    result.at_bound[static_cast<std::size_t>(place)] = true;
-    at_zero.push_back(fmt::format(
-        "{}{}", kActuatorNames[static_cast<std::size_t>(place % kChiPerLink - kRotorInertia)],
-        place / kChiPerLink + 1));
+  const Eigen::VectorXd residual = cost.A * stacked(found.parameters) - cost.b;
+  for (int k = 0; k < cost.actuators(); ++k) {
+    const auto place = static_cast<std::size_t>(cost.places[static_cast<std::size_t>(k)]);
+    const auto column = cost.A.col(cost.inertial_size() + k);
+    const bool pushed = column.dot(residual) > kPush * column.norm();
+    if (!found.at_zero[static_cast<std::size_t>(k)] || !pushed) continue;
+    result.at_bound[place] = true;
+    at_zero.push_back(fmt::format("{}{}", kActuatorNames[place % kChiPerLink - kRotorInertia],
+                                  place / kChiPerLink + 1));
   }
 
   const FreeSolution free = solve_free(problem.R, problem.z);
@@ -141,10 +168,6 @@ ConsistentEstimate fit_consistent(const ConsistencyProblem& problem,
   if (!at_zero.empty()) {
     result.message +=
         fmt::format("At 0, the data want them negative: {}.\n", fmt::join(at_zero, ", "));
-  }
-  if (!fit.at_floor.empty()) {
-    result.message += fmt::format("Links {}: at the edge of consistency, held there by `floor`.\n",
-                                  fmt::join(fit.at_floor, ", "));
   }
   if (free.rank < problem.R.cols()) {
     result.message +=
@@ -156,7 +179,7 @@ ConsistentEstimate fit_consistent(const ConsistencyProblem& problem,
     result.message +=
         "A pseudo-inertia is singular to rounding; a prior_weight above this helps.\n";
   }
-  if (!fit.converged) result.message += fmt::format("No convergence: {}.\n", fit.message);
+  result.message += found.message;
   return result;
 }
 

@@ -22,14 +22,20 @@ struct ConsistencyProblem {
   double prior_weight = 1e-3;  ///< w > 0, variances of data that a unit of prior distance is worth
 };
 
+/// How the minimum is searched. It is the same one.
+enum class ConsistencySearch {
+  kCentralPath,  ///< interior-point steps in chi; where they should not converge, Ceres goes on
+  kLogCholesky,  ///< Ceres from the prior in log-Cholesky coordinates: slow where R is well known
+};
+
 struct ConsistencyOptions {
   double default_mass = 1;  ///< kg, > 0: the prior of a link that has no consistent one is a ball
   double default_radius = 0.1;  ///< m, > 0: of that ball, around the origin of the link's frame
   double prior_margin = 1e-8;   ///< [0, 1): how far from singular a prior must be (see below)
   double actuator_scale = 1;    ///< > 0: unit of prior distance where IA, FV, FS, OFF have no prior
-  double floor = 1e-3;       ///< (0, 1): least mass^(1/2) and least radii, as parts of the prior's
-  bool follow_path = true;   ///< false: Ceres starts at the prior; slow where R is well known
-  int max_iterations = 200;  ///< >= 1, of Ceres in each of its rounds
+  ConsistencySearch search = ConsistencySearch::kCentralPath;
+  int max_iterations = 500;  ///< >= 1, of Ceres in each of its rounds
+  double floor = 1e-3;  ///< (0, 1), of Ceres: least mass^(1/2) and radii, as parts of the prior's
 
   /// @throws std::invalid_argument  if one is out of its range
   void validate() const;
@@ -45,7 +51,7 @@ struct ConsistentEstimate {
   double cost = 0;                      ///< ||R beta - z||^2 >= cost_free
   double prior_distance = 0;            ///< what prior_weight was multiplied with
   Eigen::VectorXd smallest_eigenvalue;  ///< (links) of the pseudo-inertias, > 0
-  std::vector<bool> at_bound;           ///< (14 links) IA, FV, FS that the data want negative: 0
+  std::vector<bool> at_bound;           ///< (14 links) IA, FV, FS at 0 that data want negative
   bool converged = false;
   std::string message;  ///< replaced priors, bounds, rank: sentences, one a line; empty if none
 };
@@ -60,9 +66,8 @@ struct ConsistentEstimate {
 /// and grows without limit towards the edge of consistency. s = |x0|, or actuator_scale if x0 is 0
 /// or NaN (then x0 = 0).
 ///
-/// The cost is strictly convex in chi and has one minimum. A path of decreasing w leads to it
-/// (consistency_path.h); Ceres ends the search in log-Cholesky coordinates, where each step is
-/// consistent, with bounds at 0 and at `floor`. The same input gives the same result.
+/// The cost is strictly convex in chi and has one minimum; the same input gives the same result.
+/// The two searches are consistency_path.h and log_cholesky_fit.h.
 ///
 /// A prior is replaced by the default ball, and message says so, if one of the ten is NaN or if the
 /// smallest eigenvalue of its pseudo-inertia, scaled to unit diagonal, is not above prior_margin.

@@ -133,26 +133,33 @@ struct Block {
   std::vector<bool> held;
 };
 
+Block make_block(const double* values, int size) {
+  const auto count = static_cast<std::size_t>(size);
+  Block block;
+  block.values.assign(values, values + size);
+  block.lower.assign(count, -std::numeric_limits<double>::infinity());
+  block.held.assign(count, false);
+  return block;
+}
+
 std::vector<Block> make_blocks(const ConsistencyCost& cost, double floor,
                                const ScaledParameters& start) {
-  const double none = -std::numeric_limits<double>::infinity();
   std::vector<Block> blocks;
   for (const Eigen::Matrix4d& S : start.S) {
     const LogCholesky theta = log_cholesky(S);
-    Block block{{theta.begin(), theta.end()}, std::vector<double>(kCoordinates, none), {}};
-    for (std::size_t k = 0; k < kLogarithms; ++k) block.lower[k] = std::log(floor);
-    blocks.push_back(block);
+    blocks.push_back(make_block(theta.data(), kCoordinates));
+    std::fill_n(blocks.back().lower.begin(), kLogarithms, std::log(floor));
   }
   if (cost.actuators() > 0) {
-    Block block{{start.actuators.begin(), start.actuators.end()}, {}, {}};
-    for (const bool nonnegative : cost.nonnegative) block.lower.push_back(nonnegative ? 0 : none);
-    blocks.push_back(block);
+    blocks.push_back(make_block(start.actuators.data(), cost.actuators()));
+    for (std::size_t k = 0; k < cost.nonnegative.size(); ++k) {
+      if (cost.nonnegative[k]) blocks.back().lower[k] = 0;
+    }
   }
   for (Block& block : blocks) {
     for (std::size_t k = 0; k < block.values.size(); ++k) {
       block.values[k] = std::max(block.values[k], block.lower[k]);
     }
-    block.held.assign(block.values.size(), false);
   }
   return blocks;
 }

@@ -20,8 +20,8 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kMostSearched = 1 << 16;  // samples: longer runs are thinned out for the search
-constexpr double kRepeats = 1e-4;         // see Mismatch; (1 %)^2
-constexpr double kMustRise = 0.02;        // a motion leaves its start before it comes back
+constexpr double kRepeats = 1e-4;         // mismatch, see mismatch_at(); (1 %)^2
+constexpr double kMustRise = 1e-3;        // a motion leaves its start before it comes back
 
 struct Run {
   Index first = 0, count = 0;
@@ -47,10 +47,12 @@ double noise_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
       (20.0 * static_cast<double>(n)));
 }
 
-/// Joints that move: positions without their mean, divided by their standard deviation.
+/// Joints that move: positions without their mean, divided by their standard deviation. A noisy
+/// joint repeats less well: it has a weight below 1, with which its mismatch is compared with
+/// kRepeats like that of the others.
 struct Motion {
-  Eigen::MatrixXd x;
-  Eigen::VectorXd noise;  ///< standard deviation, in the same unit
+  Eigen::MatrixXd x;       ///< with its weight's root
+  Eigen::VectorXd weight;  ///< kRepeats / (kRepeats + 4 noise^2), noise per standard deviation
 };
 
 Motion moving_joints(const Eigen::Ref<const Eigen::MatrixXd>& q) {
@@ -70,30 +72,28 @@ Motion moving_joints(const Eigen::Ref<const Eigen::MatrixXd>& q) {
     }
   }
   motion.x.resize(q.rows(), static_cast<Index>(moving.size()));
-  motion.noise.resize(static_cast<Index>(moving.size()));
+  motion.weight.resize(static_cast<Index>(moving.size()));
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const auto column = static_cast<Index>(i);
-    motion.x.col(column) = centred.col(moving[i]) / deviation(moving[i]);
-    motion.noise(column) = noise(moving[i]) / deviation(moving[i]);
+    const double noisy = noise(moving[i]) / deviation(moving[i]);
+    motion.weight(column) = kRepeats / (kRepeats + 4 * noisy * noisy);
+    motion.x.col(column) =
+        centred.col(moving[i]) * (std::sqrt(motion.weight(column)) / deviation(moving[i]));
   }
   return motion;
 }
 
-/// Mismatch of lag L: mean over k of (x(k+L) - x(k))^2 / 2, of the joint where it is largest, less
-/// what its noise explains. 0: repeats; 1: unrelated.
-double mismatch_at(const Motion& motion, Index lag) {
+/// Per joint, mean over k of (x(k+L) - x(k))^2 / 2, L the lag.
+Eigen::RowVectorXd mismatch_of_joints(const Motion& motion, Index lag) {
   const Index n = motion.x.rows() - lag;
-  double worst = 0;
-  for (Index j = 0; j < motion.x.cols(); ++j) {
-    const double square = (motion.x.col(j).tail(n) - motion.x.col(j).head(n)).squaredNorm();
-    worst = std::max(worst, square / (2 * static_cast<double>(n)));
-  }
-  return worst;
+  return (motion.x.bottomRows(n) - motion.x.topRows(n)).colwise().squaredNorm() /
+         (2 * static_cast<double>(n));
 }
 
-double noise_floor(const Motion& motion) {
-  const double worst = motion.noise.size() > 0 ? motion.noise.maxCoeff() : 0;
-  return worst * worst;
+/// Mismatch of a lag, that of the joint where it is largest. 0: repeats; kRepeats: just so; with no
+/// noise, 1: unrelated.
+double mismatch_at(const Motion& motion, Index lag) {
+  return mismatch_of_joints(motion, lag).maxCoeff();
 }
 
 /// mismatch_at() of all lags 0 .. most at once, by FFT.
@@ -125,7 +125,7 @@ Eigen::VectorXd mismatches(const Motion& motion, Index most) {
 Motion thinned(const Motion& motion, Index stride) {
   if (stride == 1) return motion;
   Motion thin;
-  thin.noise = motion.noise;
+  thin.weight = motion.weight;
   thin.x.resize((motion.x.rows() + stride - 1) / stride, motion.x.cols());
   for (Index k = 0; k < thin.x.rows(); ++k) thin.x.row(k) = motion.x.row(k * stride);
   return thin;
@@ -135,6 +135,7 @@ Motion thinned(const Motion& motion, Index stride) {
 struct Valley {
   double lag = 0;
   double depth = 0;
+  double bend = 0;  ///< second difference: some hundredths of it are how well the depth is known
 };
 
 Valley valley_at(const Motion& motion, Index lag, Index reach) {
@@ -152,11 +153,11 @@ Valley valley_at(const Motion& motion, Index lag, Index reach) {
   const double left = mismatch_at(motion, best - 1), right = mismatch_at(motion, best + 1);
   const double bend = left - 2 * depth + right;
   const double shift = bend > 0 ? std::clamp((left - right) / (2 * bend), -0.5, 0.5) : 0;
-  return {static_cast<double>(best) + shift, depth - bend * shift * shift / 2};
+  return {static_cast<double>(best) + shift, depth - bend * shift * shift / 2, bend};
 }
 
 /// Lags at which the mismatch has a low valley after it has risen once; in rising order.
-std::vector<Index> candidates(const Eigen::VectorXd& mismatch, double limit) {
+std::vector<Index> candidates(const Eigen::VectorXd& mismatch) {
   std::vector<Index> lags;
   bool risen = false;
   for (Index lag = 1; lag + 1 < mismatch.size(); ++lag) {
@@ -164,13 +165,13 @@ std::vector<Index> candidates(const Eigen::VectorXd& mismatch, double limit) {
     if (!risen || mismatch(lag) > mismatch(lag - 1) || mismatch(lag) > mismatch(lag + 1)) continue;
     // Between two samples the valley is deeper, by no more than this.
     const double bend = mismatch(lag - 1) - 2 * mismatch(lag) + mismatch(lag + 1);
-    if (mismatch(lag) - bend / 4 <= limit) lags.push_back(lag);
+    if (mismatch(lag) - bend / 4 <= kRepeats) lags.push_back(lag);
   }
   return lags;
 }
 
 /// The period in samples; 0 if there is none.
-double search(const Motion& motion, double limit) {
+double search(const Motion& motion) {
   const Index n = motion.x.rows();
   const Index stride = (n + kMostSearched - 1) / kMostSearched;
   const Motion thin = thinned(motion, stride);
@@ -179,24 +180,23 @@ double search(const Motion& motion, double limit) {
   std::vector<Valley> valleys;
   double deepest = std::numeric_limits<double>::infinity();
   constexpr std::size_t kMostCandidates = 200;
-  for (const Index lag : candidates(mismatch, limit)) {
+  for (const Index lag : candidates(mismatch)) {
     const Valley valley = valley_at(motion, lag * stride, stride);
-    if (valley.depth > limit) continue;
+    if (valley.depth > kRepeats) continue;
     valleys.push_back(valley);
     deepest = std::min(deepest, std::max(valley.depth, 0.0));
     if (valleys.size() >= kMostCandidates) break;
   }
   // The shortest of those that repeat about as well as the best: not a part of the period that
   // nearly repeats, and no multiple of it either.
-  constexpr double kAsGood = 4, kTiny = 1e-9;
-  const double floor = noise_floor(motion);
+  constexpr double kAsGood = 4, kOfBend = 0.01, kTiny = 1e-9;
   for (const Valley& valley : valleys) {
-    if (valley.depth > kAsGood * std::max(deepest, floor / 2) + kTiny) continue;
+    if (valley.depth > kAsGood * deepest + kOfBend * valley.bend + kTiny) continue;
     // A multiple of the period is found with the same error in samples: less error in the period.
     double period = valley.lag;
     for (double times = 2; times * period <= 0.75 * static_cast<double>(n); times *= 2) {
       const Valley far = valley_at(motion, static_cast<Index>(std::lround(times * period)), 2);
-      if (far.depth > 2 * limit) break;
+      if (far.depth > 2 * kRepeats) break;
       period = far.lag / times;
     }
     return period;
@@ -297,8 +297,7 @@ Periods find_periods(const Recording& recording, std::optional<double> given) {
     return none;
   }
 
-  const double limit = kRepeats + 4 * noise_floor(motion);
-  const double lag = given ? *given / step : search(motion, limit);
+  const double lag = given ? *given / step : search(motion);
   if (lag == 0) {
     none.message = "the motion does not repeat";
     return none;
@@ -318,12 +317,13 @@ Periods find_periods(const Recording& recording, std::optional<double> given) {
   if (std::abs(lag - std::round(lag)) * found.count < kWhole) {
     found.period = static_cast<double>(found.samples) * step;
   }
-  const double mismatch = valley_at(motion, found.samples, 1).depth;
-  found.correlation = std::clamp(1 - mismatch, -1.0, 1.0);
-  found.message =
-      fmt::format("{} periods of {:.6g} s ({} samples), correlation {:.6f}{}", found.count,
-                  found.period, found.samples, found.correlation,
-                  mismatch > limit ? "; positions repeat badly with the given period" : "");
+  const Eigen::RowVectorXd mismatch = mismatch_of_joints(motion, found.samples);
+  const double worst = mismatch.cwiseQuotient(motion.weight.transpose()).maxCoeff();
+  found.correlation = std::clamp(1 - worst, -1.0, 1.0);
+  const bool repeats = valley_at(motion, found.samples, 1).depth <= kRepeats;
+  found.message = fmt::format("{} periods of {:.6g} s ({} samples), correlation {:.6f}{}",
+                              found.count, found.period, found.samples, found.correlation,
+                              repeats ? "" : "; positions repeat badly with the given period");
   return found;
 }
 

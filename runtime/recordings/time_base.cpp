@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -20,7 +20,11 @@ using Eigen::Index;
 constexpr double kGridTolerance = 0.01;  // of a step
 
 /// Without the noise of subtraction: 0.00019999999999997797 becomes 0.0002.
-double rounded(double step) { return std::strtod(fmt::format("{:.10g}", step).c_str(), nullptr); }
+double rounded(double step) {
+  const std::string digits = fmt::format("{:.10g}", step);
+  std::from_chars(digits.data(), digits.data() + digits.size(), step);
+  return step;
+}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -83,7 +83,7 @@ TEST(Path, EndsWhereCeresFindsNothingLess) {
     for (const double sigma : {1e-4, 0.1, 30.0}) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", noise " << sigma);
       const ConsistencyCost cost = random_cost(seed, 3, sigma);
-      const PathResult path = follow_path(cost);
+      const NewtonResult path = follow_path(cost);
       EXPECT_TRUE(path.converged) << path.iterations;
       const LogCholeskyFit fit = fit_log_cholesky(cost, {}, path.parameters);
       EXPECT_TRUE(fit.converged) << fit.message;
@@ -97,7 +97,7 @@ TEST(Path, AndCeresFromThePriorFindTheSameMinimum) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
     const ConsistencyCost cost = random_cost(seed, 2, 30);
-    const PathResult path = follow_path(cost);
+    const NewtonResult path = follow_path(cost);
     ConsistencyOptions options;
     options.max_iterations = 5000;
     const LogCholeskyFit fit = fit_log_cholesky(cost, options, at_prior(cost));

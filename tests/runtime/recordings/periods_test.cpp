@@ -87,6 +87,16 @@ TEST(Periods, WantsEveryMovingJointToRepeat) {
   EXPECT_EQ(runtime::find_periods(recording).samples, 500);
 }
 
+TEST(Periods, FindsThePeriodOfANoisyJoint) {
+  Recording recording = periodic(1.0, 0.002, 8000);
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal;
+  for (double& q : recording.q.col(1)) q += 0.02 * normal(generator);  // of about 0.3
+  EXPECT_EQ(runtime::find_periods(recording).samples, 500);
+  recording.q.col(0).array() += 0.1 * recording.time.array();  // noise excuses no other joint
+  EXPECT_EQ(runtime::find_periods(recording).samples, 0);
+}
+
 TEST(Periods, FindsNoneWhereThereIsNone) {
   EXPECT_EQ(runtime::find_periods(periodic(2.0, 0.002, 8000, 0.1)).samples, 0);
   Recording recording = periodic(2.0, 0.002, 8000);

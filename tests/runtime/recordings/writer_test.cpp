@@ -109,7 +109,7 @@ TEST(Gzip, ReadingBackGivesTheSame) {
 
   // told by its bytes: from memory, and under any name
   EXPECT_TRUE(same(read_text(file.bytes()).recording, written));
-  // several members are one text: two runs, since time starts again (the header is read once)
+  // several members are one text: the second header stands among the rows
   EXPECT_NE(error_of(file.bytes() + file.bytes()).find(":5002:1: error: found 'time'"),
             std::string::npos);
 }
