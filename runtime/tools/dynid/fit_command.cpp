@@ -8,6 +8,7 @@
 
 #include "gen/tool/output_files.h"
 #include "gen/tool/progress_line.h"
+#include "runtime/identification/simulated_motion.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/commands.h"
 #include "runtime/tools/dynid/consistent_fit.h"
@@ -88,6 +89,39 @@ void load_summaries(const ToolOptions& options, FitReport& report) {
     }
   }
   report.data.summary = pooled(all);
+  if (options.own_friction) report.hierarchy = fit_own_friction(report.robot.linear, all);
+}
+
+/// The regressor of the model that tracks what was commanded, as instruments.
+/// @throws std::invalid_argument  without --tracked, or if it is not of the one recording
+void make_instruments(const ToolOptions& options, const LoadedRecordings& train,
+                      FitReport& report) {
+  const auto& methods = options.fit.methods;
+  const bool wanted = std::find(methods.begin(), methods.end(), FitMethod::kIv) != methods.end();
+  if (options.tracked.empty()) {
+    if (!wanted) return;
+    throw std::invalid_argument(
+        "method iv needs the motion that was commanded: --tracked FILE, a recording of it");
+  }
+  if (train.sources.size() != 1) {
+    throw std::invalid_argument("--tracked goes with one recording, of the same samples");
+  }
+  MotionOptions motion = options.motion;
+  motion.state.cutoff_hz = train.sources.front().cutoff.hz;
+  MotionSource commanded = motion_of_file(options.tracked, motion);
+  if (options.heldout_part > 0) commanded = part_of(commanded, 0, 1 - options.heldout_part);
+  const Estimate start = weighted_least_squares(report.data.summary.equations);
+  report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
+                                                  commanded, options.rows, start.beta);
+}
+
+/// "arm.robot" -> "arm.NAME.robot"
+std::string path_of_robot(const std::string& output, const std::string& name) {
+  const std::size_t dot = output.rfind('.');
+  const std::size_t slash = output.rfind('/');
+  const bool has_ending = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  const std::size_t cut = has_ending ? dot : output.size();
+  return output.substr(0, cut) + "." + (name.empty() ? "unnamed" : name) + output.substr(cut);
 }
 
 std::vector<FitMethod> methods_of(const ToolOptions& options, const FitData& data) {
@@ -109,7 +143,13 @@ std::vector<FitMethod> methods_of(const ToolOptions& options, const FitData& dat
 
 void write_outputs(const ToolOptions& options, const FitReport& report) {
   std::vector<OutputFile> files;
-  if (!options.output.empty()) files.push_back({options.output, identified_file(report)});
+  if (!options.output.empty()) {
+    files.push_back({options.output, identified_file(report)});
+    for (std::size_t i = 0; report.hierarchy && i < report.hierarchy->robots.size(); ++i) {
+      files.push_back({path_of_robot(options.output, report.hierarchy->robots[i].name),
+                       identified_file(report, i)});
+    }
+  }
   if (!options.json.empty()) files.push_back({options.json, fit_json(report)});
   write_files(files);
 }
@@ -132,6 +172,7 @@ int run_fit(const ToolOptions& options) {
     report.recordings = train.lines;
     report.data.summary = summarise_together(model, train.sources, options, progress);
     report.data.rows = joined(rows_of_all(model, train.sources, options));
+    make_instruments(options, train, report);
   }
   if (!options.heldout.empty() && heldout.sources.empty()) {
     heldout = load_recordings(options.heldout, options, true, progress);

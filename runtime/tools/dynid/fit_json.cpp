@@ -162,6 +162,22 @@ Json unseen(const FitReport& report) {
   return array;
 }
 
+Json hierarchy(const FitReport& report) {
+  const HierarchyFit& fit = *report.hierarchy;
+  Json robots = Json::array();
+  for (const HierarchyFit::Robot& robot : fit.robots) {
+    robots.push_back({{"name", robot.name},
+                      {"own", numbers(robot.own_beta)},
+                      {"own_std", numbers(robot.own_stddev)},
+                      {"percent", numbers(robot.percent)}});
+  }
+  return {{"shared_names", names(report, fit.shared)},
+          {"shared", numbers(fit.shared_beta)},
+          {"shared_std", numbers(fit.shared_stddev)},
+          {"own_names", names(report, fit.own)},
+          {"robots", robots}};
+}
+
 }  // namespace
 
 std::string fit_json(const FitReport& report) {
@@ -188,6 +204,7 @@ std::string fit_json(const FitReport& report) {
                           {"heldout_percent", numbers(report.consistent->heldout_percent)},
                           {"message", report.consistent->message}};
   }
+  if (report.hierarchy) json["hierarchy"] = hierarchy(report);
   return json.dump(2) + "\n";
 }
 

@@ -34,36 +34,68 @@ std::string_view seen_name(Seen seen) {
   }
 }
 
-std::string identified_file(const FitReport& report) {
-  const MethodFit& fit = report.main();
+namespace {
+
+/// A line for each parameter: value +- standard deviation, unit, what it is.
+void add_values(const FitReport& report, const Eigen::VectorXd& beta, const Eigen::VectorXd& stddev,
+                std::vector<std::string>& comment) {
   const LinearModel& model = report.robot.linear;
-  std::vector<std::string> comment = {
-      "", fmt::format(
-              "identified by dynid fit ({}{}) from {} recording{}, {:.1f} s",
-              fit_method_names()[static_cast<std::size_t>(fit.method)],
-              report.consistent ? ", physically consistent" : "", report.data.summary.recordings,
-              report.data.summary.recordings == 1 ? "" : "s", report.data.summary.seconds())};
-  comment.push_back(
-      report.consistent
-          ? "full parameters of bodies that can exist; only the base parameters below were measured"
-          : "base parameters: each stands for the combination named beside it, the others are 0");
-  comment.push_back("value +- standard deviation:");
-  const Eigen::VectorXd& beta = report.consistent ? report.consistent->beta : fit.estimate.beta;
+  comment.emplace_back("value +- standard deviation:");
   for (int i = 0; i < model.size(); ++i) {
     const LinearParameter& parameter = model.parameters[static_cast<std::size_t>(i)];
     std::string line = fmt::format("  {:<6} {:>13.6g}", parameter.name, beta[i]);
-    if (fit.estimate.covariance.size() != 0) {
-      line += fmt::format(" +- {:<10.3g}", std::sqrt(fit.estimate.covariance(i, i)));
-    }
+    if (stddev.size() != 0) line += fmt::format(" +- {:<10.3g}", stddev[i]);
     line += fmt::format(" {:<9} {}", parameter.unit,
                         seen(report, i) == Seen::kNo ? "NOT SEEN in the data" : parameter.formula);
-    while (!line.empty() && line.back() == ' ') line.pop_back();
+    while (line.back() == ' ') line.pop_back();
     comment.push_back(line);
   }
   comment.emplace_back("");
-  const StandardParameters standard =
-      report.consistent ? report.consistent->standard : carried(report.robot, beta);
-  return identified_text(report.robot, standard, comment);
+}
+
+std::string origin(const FitReport& report, const std::string& how) {
+  const RecordingSummary& summary = report.data.summary;
+  return fmt::format("identified by dynid fit ({}) from {} recording{}, {:.1f} s", how,
+                     summary.recordings, summary.recordings == 1 ? "" : "s", summary.seconds());
+}
+
+constexpr const char* kBaseParameters =
+    "base parameters: each stands for the combination named beside it, the others are 0";
+
+}  // namespace
+
+std::string identified_file(const FitReport& report) {
+  const MethodFit& fit = report.main();
+  const std::string method(fit_method_names()[static_cast<std::size_t>(fit.method)]);
+  const Eigen::VectorXd stddev =
+      fit.estimate.covariance.size() != 0 ? fit.stddev() : Eigen::VectorXd();
+  std::vector<std::string> comment = {""};
+  if (report.consistent) {
+    comment.push_back(origin(report, method + ", physically consistent"));
+    comment.emplace_back(
+        "full parameters of bodies that can exist; only these base parameters were measured");
+    add_values(report, report.consistent->beta, stddev, comment);
+    return identified_text(report.robot, report.consistent->standard, comment);
+  }
+  comment.push_back(origin(report, method));
+  comment.emplace_back(kBaseParameters);
+  add_values(report, fit.estimate.beta, stddev, comment);
+  return identified_text(report.robot, carried(report.robot, fit.estimate.beta), comment);
+}
+
+std::string identified_file(const FitReport& report, std::size_t robot) {
+  const HierarchyFit& hierarchy = *report.hierarchy;
+  const HierarchyFit::Robot& own = hierarchy.robots[robot];
+  const Eigen::VectorXd beta = own.beta(hierarchy);
+  Eigen::VectorXd stddev(beta.size());
+  stddev(hierarchy.shared) = hierarchy.shared_stddev;
+  stddev(hierarchy.own) = own.own_stddev;
+  std::vector<std::string> comment = {
+      "", origin(report, fmt::format("robot {} of {}, inertia shared, friction its own", own.name,
+                                     hierarchy.robots.size()))};
+  comment.emplace_back(kBaseParameters);
+  add_values(report, beta, stddev, comment);
+  return identified_text(report.robot, carried(report.robot, beta), comment);
 }
 
 }  // namespace dyngen::runtime

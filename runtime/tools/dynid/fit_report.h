@@ -9,6 +9,7 @@
 #include "runtime/estimation/trust.h"
 #include "runtime/estimation/unseen.h"
 #include "runtime/identification/fit.h"
+#include "runtime/identification/hierarchy.h"
 #include "runtime/identification/motion_source.h"
 #include "runtime/tools/dynid/described_robot.h"
 
@@ -55,6 +56,7 @@ struct FitReport {
   Conditioning conditioning;
   std::vector<UnseenCombination> unseen;
   std::optional<ConsistentFit> consistent;
+  std::optional<HierarchyFit> hierarchy;  ///< robots that share inertia
   std::vector<std::string> notes;
 
   [[nodiscard]] const MethodFit& main() const { return fits.front(); }
@@ -75,7 +77,10 @@ std::string fit_table(const FitReport& report);
 /// The report for programs: schema dynid.fit/1, docs/identification.md.
 std::string fit_json(const FitReport& report);
 
-/// The identified robot file. @param command  as it was given, for the comment
+/// The identified robot file.
 std::string identified_file(const FitReport& report);
+
+/// The same of one robot of the hierarchy. @param robot  its place there
+std::string identified_file(const FitReport& report, std::size_t robot);
 
 }  // namespace dyngen::runtime

@@ -197,6 +197,35 @@ std::string consistent_rows(const FitReport& report) {
   return text;
 }
 
+/// Robots that share inertia: their own friction beside each other.
+std::string hierarchy_rows(const FitReport& report) {
+  if (!report.hierarchy) return "";
+  const HierarchyFit& fit = *report.hierarchy;
+  std::string text = fmt::format("\n{} robots share {} parameters; own friction of each:\n{:<10}",
+                                 fit.robots.size(), fit.shared.size(), "");
+  for (const HierarchyFit::Robot& robot : fit.robots) {
+    text += fmt::format("{:>22}", robot.name.empty() ? "(not named)" : robot.name);
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < fit.own.size(); ++i) {
+    text += fmt::format("{:<10}",
+                        report.robot.linear.parameters[static_cast<std::size_t>(fit.own[i])].name);
+    for (const HierarchyFit::Robot& robot : fit.robots) {
+      text += fmt::format("{:>11.4g} +- {:<7.2g}", robot.own_beta[static_cast<Index>(i)],
+                          robot.own_stddev[static_cast<Index>(i)]);
+    }
+    text += "\n";
+  }
+  for (int j = 0; j < report.robot.linear.joints(); ++j) {
+    text += fmt::format("{:<10}", fmt::format("fit % {}", j + 1));
+    for (const HierarchyFit::Robot& robot : fit.robots) {
+      text += fmt::format("{:>22.1f}", robot.percent[j]);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 /// Methods side by side, as the thesis's Tables 7.3 to 7.5.
 std::string method_columns(const FitReport& report) {
   if (report.fits.size() < 2) return "";
@@ -234,7 +263,7 @@ std::string method_columns(const FitReport& report) {
 std::string fit_table(const FitReport& report) {
   std::string text = heading(report) + parameter_rows(report) + joint_rows(report) +
                      conditioning_rows(report) + trust_rows(report) + consistent_rows(report) +
-                     unseen_rows(report) + method_columns(report);
+                     unseen_rows(report) + hierarchy_rows(report) + method_columns(report);
   std::string messages;
   for (const MethodFit& fit : report.fits) {
     for (const std::string& message : fit.messages) {

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/identification/hierarchy.h"
+
+#include <Eigen/QR>
+#include <stdexcept>
+
+#include "runtime/estimation/least_squares.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+bool is_own(ParameterKind kind) {
+  return kind == ParameterKind::kViscous || kind == ParameterKind::kCoulomb ||
+         kind == ParameterKind::kOffset;
+}
+
+/// A robot's equations after its own parameters were eliminated:
+/// [own shared tau] = Q [R_own R_mixed z_own; 0 R_shared z_shared].
+struct Eliminated {
+  MatrixXd own, mixed, shared;
+  VectorXd own_tau, shared_tau;
+  MatrixXd projection;  ///< own^-1 mixed
+  MatrixXd own_inverse;
+};
+
+Eliminated eliminate(const TorqueFactor& factor, const VectorXd& weights, const HierarchyFit& fit) {
+  const StackedRows rows = stacked(factor, weights);
+  const Index own = static_cast<Index>(fit.own.size()),
+              shared = static_cast<Index>(fit.shared.size());
+  MatrixXd all(rows.W.rows(), own + shared + 1);
+  all << rows.W(Eigen::all, fit.own), rows.W(Eigen::all, fit.shared), rows.tau;
+  const MatrixXd R = MatrixXd(all.householderQr().matrixQR().topRows(own + shared + 1))
+                         .triangularView<Eigen::Upper>();
+  Eliminated parts;
+  parts.own = R.topLeftCorner(own, own);
+  parts.mixed = R.block(0, own, own, shared);
+  parts.own_tau = R.col(own + shared).head(own);
+  parts.shared = R.block(own, own, shared, shared);
+  parts.shared_tau = R.col(own + shared).segment(own, shared);
+  // friction of a joint that never moved is not seen: zero, and no deviation
+  parts.own_inverse = parts.own.completeOrthogonalDecomposition().pseudoInverse();
+  parts.projection = parts.own_inverse * parts.mixed;
+  return parts;
+}
+
+/// Noise of all joints over all parameters: (rows x nb), each joint times its weight squared.
+MatrixXd noise_rows(const RecordingSummary& summary, const VectorXd& weights) {
+  const TorqueFactor& factor = summary.equations;
+  Index count = 0;
+  for (const MatrixXd& F : summary.noise.F) count += F.rows();
+  MatrixXd rows = MatrixXd::Zero(count, factor.parameters);
+  Index start = 0;
+  for (std::size_t j = 0; j < summary.noise.F.size(); ++j) {
+    const MatrixXd& F = summary.noise.F[j];
+    const double w = weights[static_cast<Index>(j)];
+    for (std::size_t i = 0; i < factor.columns[j].size(); ++i) {
+      rows.col(factor.columns[j][i]).segment(start, F.rows()) =
+          w * w * F.col(static_cast<Index>(i));
+    }
+    start += F.rows();
+  }
+  return rows;
+}
+
+}  // namespace
+
+VectorXd HierarchyFit::Robot::beta(const HierarchyFit& fit) const {
+  VectorXd all(static_cast<Index>(fit.shared.size() + fit.own.size()));
+  all(fit.shared) = fit.shared_beta;
+  all(fit.own) = own_beta;
+  return all;
+}
+
+HierarchyFit fit_own_friction(const LinearModel& model, const RobotSummaries& all,
+                              VectorXd weights) {
+  if (all.robots.empty()) throw std::invalid_argument("fit_own_friction(): there is no robot");
+  HierarchyFit fit;
+  for (int i = 0; i < model.size(); ++i) {
+    (is_own(model.parameters[static_cast<std::size_t>(i)].kind) ? fit.own : fit.shared)
+        .push_back(i);
+  }
+  if (weights.size() == 0) weights = weighted_least_squares(pooled(all).equations).joint_weights;
+  const Index shared = static_cast<Index>(fit.shared.size());
+
+  MatrixXd sum = MatrixXd::Zero(shared, shared + 1);
+  MatrixXd middle = MatrixXd::Zero(shared, shared);
+  std::vector<Eliminated> parts;
+  for (const auto& [name, summary] : all.robots) {
+    parts.push_back(eliminate(summary.equations, weights, fit));
+    MatrixXd stack(2 * shared, shared + 1);
+    stack << sum, parts.back().shared, parts.back().shared_tau;
+    sum = MatrixXd(stack.householderQr().matrixQR().topRows(shared)).triangularView<Eigen::Upper>();
+    const MatrixXd noise = noise_rows(summary, weights);
+    const MatrixXd left =
+        noise(Eigen::all, fit.shared) - noise(Eigen::all, fit.own) * parts.back().projection;
+    middle += left.transpose() * left;
+  }
+  const MatrixXd R = sum.leftCols(shared);
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(R.rows(), R.cols());
+  decomposition.setThreshold(1e-9);
+  decomposition.compute(R);
+  fit.rank = static_cast<int>(decomposition.rank());
+  fit.shared_beta = decomposition.solve(sum.col(shared));
+  const MatrixXd inverse = decomposition.pseudoInverse();
+  const MatrixXd information = inverse * inverse.transpose();
+  const MatrixXd covariance = information * middle * information;
+  fit.shared_stddev = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+
+  std::size_t next = 0;
+  for (const auto& [name, summary] : all.robots) {
+    const Eliminated& part = parts[next++];
+    HierarchyFit::Robot robot;
+    robot.name = name;
+    robot.own_beta = part.own_inverse * (part.own_tau - part.mixed * fit.shared_beta);
+    const MatrixXd noise = noise_rows(summary, weights)(Eigen::all, fit.own) *
+                           (part.own_inverse * part.own_inverse.transpose());
+    const MatrixXd own =
+        noise.transpose() * noise + part.projection * covariance * part.projection.transpose();
+    robot.own_stddev = own.diagonal().cwiseMax(0.0).cwiseSqrt();
+    const VectorXd squares = residual_squares(summary.equations, robot.beta(fit));
+    robot.percent =
+        100 * (squares.array() / torque_squares(summary.equations).array().max(1e-300)).sqrt();
+    fit.robots.push_back(std::move(robot));
+  }
+  return fit;
+}
+
+}  // namespace dyngen::runtime
