@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace dyngen::runtime {
 namespace {
@@ -24,12 +23,19 @@ void check_positive(const char* name, const Eigen::MatrixXd& P) {
   }
 }
 
-MinimumVarianceOptions checked(MinimumVarianceOptions options) {
+const MinimumVarianceOptions& checked(const MinimumVarianceOptions& options) {
   options.validate();
-  const Eigen::Index nb = options.prior_covariance.rows();
-  if (options.prior_mean.size() == 0) options.prior_mean.setZero(nb);
-  if (options.walk_covariance.size() == 0) options.walk_covariance.setZero(nb, nb);
   return options;
+}
+
+Eigen::MatrixXd walk_of(const MinimumVarianceOptions& options) {
+  if (options.walk_covariance.size() != 0) return options.walk_covariance;
+  return 0 * options.prior_covariance;
+}
+
+Eigen::VectorXd mean_of(const MinimumVarianceOptions& options) {
+  if (options.prior_mean.size() != 0) return options.prior_mean;
+  return Eigen::VectorXd::Zero(options.prior_covariance.rows());
 }
 
 }  // namespace
@@ -51,14 +57,13 @@ void MinimumVarianceOptions::validate() const {
   }
 }
 
-MinimumVariance::MinimumVariance(MinimumVarianceOptions options)
-    : options_(checked(std::move(options))),
-      C_("prior_covariance", options_.prior_covariance),
+MinimumVariance::MinimumVariance(const MinimumVarianceOptions& options)
+    : C_("prior_covariance", checked(options).prior_covariance),
       next_C_(C_),
-      Q_("walk_covariance", options_.walk_covariance),
+      Q_("walk_covariance", walk_of(options)),
       walks_(Q_.D().maxCoeff() > 0),
-      L_(options_.measurement_covariance.llt().matrixL()),
-      beta_(options_.prior_mean),
+      L_(options.measurement_covariance.llt().matrixL()),
+      beta_(mean_of(options)),
       next_beta_(beta_) {
   H_.setZero(L_.rows(), beta_.size());
   z_.setZero(L_.rows());

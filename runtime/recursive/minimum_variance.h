@@ -34,7 +34,7 @@ struct MinimumVarianceOptions {
 class MinimumVariance {
  public:
   /// Takes all memory. @throws std::invalid_argument  from MinimumVarianceOptions::validate()
-  explicit MinimumVariance(MinimumVarianceOptions options);
+  explicit MinimumVariance(const MinimumVarianceOptions& options);
 
   /// One sample (layout: sample.h). @return false, and nothing has changed, if the sample is not
   /// finite or the estimate would not stay so
@@ -49,7 +49,6 @@ class MinimumVariance {
   [[nodiscard]] double innovation_squared() const noexcept { return innovation_squared_; }
 
  private:
-  MinimumVarianceOptions options_;
   UdCovariance C_, next_C_, Q_;
   bool walks_ = false;
   RowMajorMatrix L_;  // R = L L'

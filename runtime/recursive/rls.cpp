@@ -9,7 +9,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace dyngen::runtime {
 namespace {
@@ -68,25 +67,25 @@ void RlsOptions::validate(int joints, int parameters) const {
   }
 }
 
-Rls::Rls(int joints, int parameters, RlsOptions options) : options_(std::move(options)) {
-  options_.validate(joints, parameters);
+Rls::Rls(int joints, int parameters, const RlsOptions& options) {
+  options.validate(joints, parameters);
   const Eigen::Index n = joints, nb = parameters;
-  inverse_stddev_ = options_.noise_stddev.size() != 0
-                        ? Eigen::VectorXd(options_.noise_stddev.cwiseInverse())
+  inverse_stddev_ = options.noise_stddev.size() != 0
+                        ? Eigen::VectorXd(options.noise_stddev.cwiseInverse())
                         : Eigen::VectorXd::Ones(n);
-  sqrt_forgetting_ = std::sqrt(options_.forgetting);
-  if (options_.forgetting < 1 && options_.max_stddev.size() != 0) {
+  sqrt_forgetting_ = std::sqrt(options.forgetting);
+  if (options.forgetting < 1 && options.max_stddev.size() != 0) {
     // Between two equations of its own a parameter keeps f = forgetting^nb of its information:
     // with weight w^2 = (1 - f) / f / max^2, w^2 f / (1 - f) = 1 / max^2 is the least it ever has.
-    const double f = std::pow(options_.forgetting, static_cast<double>(nb));
-    hold_ = std::sqrt((1 - f) / f) * options_.max_stddev.cwiseInverse();
+    const double f = std::pow(options.forgetting, static_cast<double>(nb));
+    hold_ = std::sqrt((1 - f) / f) * options.max_stddev.cwiseInverse();
     if (!hold_.allFinite()) fail("forgetting is too fast for max_stddev");
   }
-  beta_ = options_.prior_mean.size() != 0 ? options_.prior_mean
-                                          : Eigen::VectorXd(Eigen::VectorXd::Zero(nb));
+  beta_ = options.prior_mean.size() != 0 ? options.prior_mean
+                                         : Eigen::VectorXd(Eigen::VectorXd::Zero(nb));
   Rt_.setZero(nb, nb);
-  if (options_.prior_covariance.size() != 0) {
-    Rt_ = information_root(options_.prior_covariance);
+  if (options.prior_covariance.size() != 0) {
+    Rt_ = information_root(options.prior_covariance);
     started_ = determined_ = true;
   }
   z_.setZero(nb);

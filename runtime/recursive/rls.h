@@ -39,7 +39,7 @@ class Rls {
  public:
   /// Takes all memory. @param joints, parameters  n, nb >= 1
   /// @throws std::invalid_argument  from RlsOptions::validate()
-  Rls(int joints, int parameters, RlsOptions options = {});
+  Rls(int joints, int parameters, const RlsOptions& options = {});
 
   /// One sample (layout: sample.h). @return false, and nothing has changed, if the sample is not
   /// finite or the estimate would not stay so
@@ -56,7 +56,6 @@ class Rls {
   void reflect() noexcept;
   void solve() noexcept;
 
-  RlsOptions options_;
   Eigen::VectorXd inverse_stddev_;
   double sqrt_forgetting_ = 1;
   Eigen::VectorXd hold_;  // weight of the equation "stay", by parameter; empty: none

@@ -23,12 +23,15 @@ long dyngen::test::allocation_count() { return count; }
 
 #ifdef DYNGEN_ADDRESS_SANITIZER
 
-#include <sanitizer/allocator_interface.h>
+// Of sanitizer/allocator_interface.h, which not every compiler's package has.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*malloc_hook)(const volatile void*,
+                                                                             std::size_t),
+                                                         void (*free_hook)(const volatile void*));
 
 namespace {
 void counted(const volatile void*, std::size_t) { ++count; }
 void freed(const volatile void*) {}
-const int installed = __sanitizer_install_malloc_and_free_hooks(counted, freed);
+[[maybe_unused]] const int installed = __sanitizer_install_malloc_and_free_hooks(counted, freed);
 }  // namespace
 
 #else

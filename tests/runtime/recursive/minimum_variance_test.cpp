@@ -143,16 +143,16 @@ TEST(MinimumVariance, CovarianceIsPositiveDefiniteAfterAMillionUpdates) {
   options.walk_covariance = 1e-9 * Eigen::MatrixXd::Identity(15, 15);
   MinimumVariance walking(options);
   for (int round = 0; round < 10; ++round) {
-    feed(constant, puma, 1000);
-    feed(walking, puma, 1000);
+    feed(constant, puma, kPassesOfARound);
+    feed(walking, puma, kPassesOfARound);
     for (const Eigen::MatrixXd& P : {constant.covariance(), walking.covariance()}) {
       EXPECT_EQ((P - P.transpose()).cwiseAbs().maxCoeff(), 0);
       EXPECT_EQ(P.llt().info(), Eigen::Success);
     }
   }
-  EXPECT_EQ(constant.samples(), 1000000);
+  EXPECT_EQ(constant.samples(), 1000 * kPassesOfARound);
   const Eigen::MatrixXd P = (puma.W.transpose() * puma.W).inverse();
-  EXPECT_TRUE((1e4 * constant.covariance()).isApprox(P, 1e-8));
+  EXPECT_TRUE((10.0 * kPassesOfARound * constant.covariance()).isApprox(P, 1e-8));
 }
 
 TEST(MinimumVarianceOptions, RefusesWhatCannotBe) {

@@ -8,6 +8,14 @@
 
 namespace dyngen::test {
 
+/// A million updates are 10 rounds of so many passes over 100 samples; with sanitizers, which make
+/// them some hundred times slower, one per cent of it.
+#ifdef DYNGEN_SHORT_LOOPS
+constexpr int kPassesOfARound = 10;
+#else
+constexpr int kPassesOfARound = 1000;
+#endif
+
 /// Regressors and torques of N samples as an estimator gets them: one after the other.
 struct Samples {
   int joints = 0;
