@@ -4,7 +4,10 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
+
+#include "runtime/estimation/distributions.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -108,6 +111,16 @@ MatrixXd white_covariance(const TorqueFactor& factor, const VectorXd& beta,
   }
   const Sandwich parts = sandwich(factor, F, joint_weights, scale, basis);
   return in_parameters(parts.inverse * sum(parts.middle) * parts.inverse, basis, scale);
+}
+
+double interval_of(const TorqueFactor& factor, const NoiseFactor& noise) {
+  const VectorXd times = noise.correlation_time();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < factor.joints.size(); ++j) {
+    const double worth = factor.joints[j].rows / std::max(1.0, times[static_cast<Index>(j)]);
+    least = std::min(least, worth - static_cast<double>(factor.columns[j].size()));
+  }
+  return student_interval(0.95, std::max(2.0, least));
 }
 
 }  // namespace dyngen::runtime

@@ -30,4 +30,8 @@ Eigen::MatrixXd white_covariance(const TorqueFactor& factor, const Eigen::Vector
                                  const Eigen::VectorXd& joint_weights, const Eigen::VectorXd& scale,
                                  const Eigen::MatrixXd& unseen);
 
+/// The t of a 95 % interval beta +- t stddev: Student's, with as many degrees of freedom as samples
+/// of the least known joint are worth, less its parameters.
+double interval_of(const TorqueFactor& factor, const NoiseFactor& noise);
+
 }  // namespace dyngen::runtime

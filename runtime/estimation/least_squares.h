@@ -42,9 +42,9 @@ struct LeastSquaresOptions {
   double tolerance = 1e-9;
   /// How many of the weakest directions to leave out besides (kSvd).
   int dropped_directions = 0;
-  Eigen::VectorXd prior;  ///< (nb) in directions that are not seen; empty: zeros
+  Eigen::VectorXd prior{};  ///< (nb) in directions that are not seen; empty: zeros
   /// (nb) columns are multiplied by it before the decomposition; empty: 1/norm.
-  Eigen::VectorXd scale;
+  Eigen::VectorXd scale{};
 
   void validate(int parameters) const;
 };

@@ -114,10 +114,17 @@ std::string advice_text(const LinearModel& model, const VectorXd& direction,
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     return extent.acceleration[a] + extent.speed[a] < extent.acceleration[b] + extent.speed[b];
   });
+  // the gentlest motion first: posture, then speed, then acceleration
+  std::vector<int> best;
+  Shown gentlest = Shown::kNot;
   for (const int j : order) {
     const Shown kind = shown_by(model, direction, posture, {j});
-    if (kind != Shown::kNot) return sentence({j}, kind);
+    if (kind != Shown::kNot && (gentlest == Shown::kNot || kind < gentlest)) {
+      gentlest = kind;
+      best = {j};
+    }
   }
+  if (!best.empty()) return sentence(best, gentlest);
   for (std::size_t a = 0; a < order.size(); ++a) {
     for (std::size_t b = a + 1; b < order.size(); ++b) {
       const Shown kind = shown_by(model, direction, posture, {order[a], order[b]});

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "runtime/estimation/covariance.h"
-#include "runtime/estimation/distributions.h"
 #include "runtime/estimation/robust.h"
 #include "runtime/estimation/significance.h"
 #include "runtime/identification/recursive_fit.h"
@@ -37,17 +36,6 @@ bool needs_samples(FitMethod method) {
 
 std::string_view name_of(FitMethod method) {
   return fit_method_names()[static_cast<std::size_t>(method)];
-}
-
-/// The t of a 95 % interval: samples that are worth being counted, less the parameters.
-double interval_of(const TorqueFactor& equations, const NoiseFactor& noise) {
-  const VectorXd times = noise.correlation_time();
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < equations.joints.size(); ++j) {
-    const double worth = equations.joints[j].rows / std::max(1.0, times[static_cast<Index>(j)]);
-    least = std::min(least, worth - static_cast<double>(equations.columns[j].size()));
-  }
-  return student_interval(0.95, std::max(2.0, least));
 }
 
 class Fitter {
