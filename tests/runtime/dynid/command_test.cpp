@@ -19,20 +19,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Run {
+struct Outcome {
   int exit_code = -1;
   std::string out;  ///< standard output and error together
 };
 
-Run dynid(const std::string& arguments) {
-  Run run;
+Outcome dynid(const std::string& arguments) {
+  Outcome outcome;
   FILE* pipe = popen((DYNID " " + arguments + " 2>&1").c_str(), "r");
   std::array<char, 4096> buffer{};
   for (std::size_t count = 0; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    run.out.append(buffer.data(), count);
+    outcome.out.append(buffer.data(), count);
   }
-  run.exit_code = WEXITSTATUS(pclose(pipe));
-  return run;
+  outcome.exit_code = WEXITSTATUS(pclose(pipe));
+  return outcome;
 }
 
 std::string content(const fs::path& path) {
@@ -76,7 +76,7 @@ class Commands : public testing::Test {
 TEST_F(Commands, FitChecksAndSaysHowWell) {
   const std::string train = record("train.csv", {.seconds = 20, .torque_noise = 0.3});
   const std::string test = record("test.csv.gz", {.torque_noise = 0.3, .seed = 2});
-  const Run fit = dynid("fit " + std::string(kRobot) + " " + train + " --holdout " + test + " -o " +
+  const Outcome fit = dynid("fit " + std::string(kRobot) + " " + train + " --holdout " + test + " -o " +
                         path("id.robot") + " --json " + path("fit.json"));
   ASSERT_EQ(fit.exit_code, 0) << fit.out;
   EXPECT_NE(fit.out.find("condition number"), std::string::npos);
@@ -94,7 +94,7 @@ TEST_F(Commands, FitChecksAndSaysHowWell) {
   }
   for (const auto& joint : json["residual"]) EXPECT_LT(joint["heldout_percent"], 5);
 
-  const Run check = dynid("check " + path("id.robot") + " " + train);
+  const Outcome check = dynid("check " + path("id.robot") + " " + train);
   EXPECT_EQ(check.exit_code, 0) << check.out;
   EXPECT_NE(check.out.find("residual"), std::string::npos);
 }
@@ -105,7 +105,7 @@ TEST_F(Commands, AccumulatedAndMergedRecordingsFitAsRecordingsDo) {
     const std::string file =
         record("r" + std::to_string(seed) + ".csv", {.torque_noise = 0.3, .seed = seed});
     const std::string part = path("p" + std::to_string(seed) + ".qr");
-    const Run accumulate = dynid("accumulate " + std::string(kRobot) + " " + file +
+    const Outcome accumulate = dynid("accumulate " + std::string(kRobot) + " " + file +
                                  " --cutoff 10 --still 0.05 -o " + part);
     ASSERT_EQ(accumulate.exit_code, 0) << accumulate.out;
     all += " " + file;
@@ -141,7 +141,7 @@ TEST_F(Commands, SayWhatIsNotSeenAndExitWith3) {
   recording.tau = robot_.linear.torque(recording.q, recording.dq, recording.ddq,
                                        test::plausible_beta(robot_.linear, 1));
   write_recording(recording, path("still.csv"));
-  const Run fit = dynid("fit " + std::string(kRobot) + " " + path("still.csv"));
+  const Outcome fit = dynid("fit " + std::string(kRobot) + " " + path("still.csv"));
   EXPECT_EQ(fit.exit_code, 3) << fit.out;
   EXPECT_NE(fit.out.find("not seen in these recordings"), std::string::npos);
   EXPECT_NE(fit.out.find("joint 3"), std::string::npos) << fit.out;
@@ -150,10 +150,10 @@ TEST_F(Commands, SayWhatIsNotSeenAndExitWith3) {
 TEST_F(Commands, WrongInputIsPointedAtAndExitsWith1) {
   std::ofstream(path("bad.csv")) << "time,q1,q2,q3,tau1,tau2,tau3\n0,0,0,0,0,0,0\n"
                                     "0.01,0,zero,0,0,0,0\n0.02,0,0,0,0,0,0\n";
-  const Run bad = dynid("fit " + std::string(kRobot) + " " + path("bad.csv"));
+  const Outcome bad = dynid("fit " + std::string(kRobot) + " " + path("bad.csv"));
   EXPECT_EQ(bad.exit_code, 1);
   EXPECT_NE(bad.out.find("bad.csv:3:8: error:"), std::string::npos) << bad.out;
-  const Run missing = dynid("fit " + path("none.robot") + " " + path("bad.csv"));
+  const Outcome missing = dynid("fit " + path("none.robot") + " " + path("bad.csv"));
   EXPECT_EQ(missing.exit_code, 1);
   EXPECT_NE(missing.out.find("none.robot"), std::string::npos);
   std::ofstream(path("bad.qr")) << "dyngenqr and then nothing";
