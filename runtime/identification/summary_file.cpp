@@ -72,10 +72,12 @@ class Writer {
 
 class Reader {
  public:
-  Reader(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
+  /// @param start  where in the file these bytes begin
+  Reader(std::string_view bytes, std::size_t start, std::string name)
+      : bytes_(bytes), start_(start), name_(std::move(name)) {}
 
   [[noreturn]] void fail(const std::string& reason) const {
-    throw SummaryFileError(fmt::format("{}: error: byte {}: {}", name_, place_, reason));
+    throw SummaryFileError(fmt::format("{}: error: byte {}: {}", name_, start_ + place_, reason));
   }
   std::uint64_t number(int bytes) {
     if (place_ + static_cast<std::size_t>(bytes) > bytes_.size()) fail("the file ends too early");
@@ -127,6 +129,7 @@ class Reader {
 
  private:
   std::string_view bytes_;
+  std::size_t start_;
   std::string name_;
   std::size_t place_ = 0;
 };
@@ -221,8 +224,9 @@ RobotSummaries read_summaries(const std::string& bytes, const std::string& name)
     throw SummaryFileError(fmt::format("{}: error: the file ends too early", name));
   }
   const std::string_view content = all_bytes.substr(0, all_bytes.size() - 4);
-  const std::uint64_t stored = Reader(all_bytes.substr(content.size()), name).number(4);
-  Reader reader(content.substr(kWord.size()), name);
+  const std::uint64_t stored =
+      Reader(all_bytes.substr(content.size()), content.size(), name).number(4);
+  Reader reader(content.substr(kWord.size()), kWord.size(), name);
   const std::uint64_t version = reader.number(4);
   if (version != kVersion) {
     throw SummaryFileError(
