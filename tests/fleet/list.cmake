@@ -7,7 +7,7 @@ set(all part/0.csv part/1.csv part/2.csv part/3.csv)
 # The same as one .qr file of all of them.
 run(text 0 ${DYNID} fit ${robot} --list part/list.txt -o list.robot --json list.json)
 expect_text(--list "${text}" "4 recordings, ")
-expect_no_text(--list "${text}" "left out")
+expect_no_text(--list "${text}" "left out: ")
 run(text 0 ${DYNID} accumulate ${robot} ${all} -o all.qr)
 run(text 0 ${DYNID} fit ${robot} all.qr -o qr.robot --json qr.json)
 expect_same_file("--list and .qr" ${WORK}/list.robot ${WORK}/qr.robot)
