@@ -69,6 +69,10 @@ run(text 1 ${MPIRUN} -n 1 -wdir ${WORK}/one ${DYNID} fit arm.robot --list part/l
   : -n 1 -wdir ${WORK}/other ${DYNID} fit arm.robot --list part/list.txt)
 expect_times("${text}" "process 1: arm.robot" 1)
 
+# A process that dies takes the others with it.
+run(text 137 ${MPIRUN} -n 1 ${DYNID} fit ${robot} --list part/list.txt : -n 1 sh -c "kill -9 $$")
+run(text 3 ${MPIRUN} -n 1 ${DYNID} fit ${robot} --list part/list.txt : -n 1 sh -c "exit 3")
+
 # The list is read by process 0 alone.
 file(WRITE ${WORK}/other/arm.robot "${content}")
 run(text 0 ${MPIRUN} -n 1 -wdir ${WORK}/one ${DYNID} fit arm.robot --list part/list.txt -o arm.out
