@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -21,7 +22,7 @@ struct RecordingSummary {
   MotionExtent extent;
   double row_time = 0;  ///< s between instants; the mean where recordings differ
   double lowest_cutoff = 0, highest_cutoff = 0;  ///< Hz
-  int recordings = 0;
+  std::int64_t recordings = 0;
 
   /// Instants at which there may be equations: some joints may rest at any of them.
   [[nodiscard]] double instants() const { return regressor_noise.samples(); }

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::string_view kWord = "dyngenqr";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint64_t kMost = 1'000'000;  // of anything: a count above it is damage
 
 /// CRC-32 of IEEE 802.3.
@@ -149,7 +149,7 @@ void read_factor(Reader& reader, TorqueFactor& factor) {
 }
 
 void write_summary(Writer& writer, const RecordingSummary& summary) {
-  writer.count(static_cast<std::size_t>(summary.recordings));
+  writer.number(static_cast<std::uint64_t>(summary.recordings), 8);
   for (const double value : {summary.row_time, summary.lowest_cutoff, summary.highest_cutoff}) {
     writer.real(value);
   }
@@ -169,7 +169,7 @@ void write_summary(Writer& writer, const RecordingSummary& summary) {
 RecordingSummary read_summary(Reader& reader, const std::vector<std::vector<int>>& columns,
                               int parameters) {
   RecordingSummary summary = empty_summary(columns, parameters);
-  summary.recordings = static_cast<int>(reader.count());
+  summary.recordings = static_cast<std::int64_t>(reader.number(8));
   for (double* value : {&summary.row_time, &summary.lowest_cutoff, &summary.highest_cutoff}) {
     *value = reader.real();
   }

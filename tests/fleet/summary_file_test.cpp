@@ -86,6 +86,15 @@ TEST(SummaryFile, ReadsBackExactlyWhatWasWritten) {
   EXPECT_EQ(write_summaries(again), bytes);
 }
 
+TEST(SummaryFile, HoldsTheRecordingsOfAFleetForAYear) {
+  RobotSummaries all = two_robots();
+  all.robots.begin()->second.recordings = 10'000LL * 525'960;  // one a minute
+  all.robots.begin()->second.equations.joints[0].rows = 1e13;
+  const RobotSummaries again = read_summaries(write_summaries(all), "year.qr");
+  EXPECT_EQ(again.robots.begin()->second.recordings, 5'259'600'000);
+  EXPECT_EQ(again.robots.begin()->second.equations.joints[0].rows, 1e13);
+}
+
 TEST(SummaryFile, AnyFlippedByteIsRefusedByName) {
   const std::string bytes = write_summaries(two_robots());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -94,7 +103,7 @@ TEST(SummaryFile, AnyFlippedByteIsRefusedByName) {
     const std::string reason = refusal(damaged);
     ASSERT_TRUE(reason.starts_with("part.qr: error: ")) << "byte " << i << ": " << reason;
     const char* expected = i < 8    ? "expected it to begin with 'dyngenqr'"
-                           : i < 12 ? "of the format, expected 1"
+                           : i < 12 ? "of the format, expected 2"
                                     : "the checksum does not fit";
     ASSERT_NE(reason.find(expected), std::string::npos) << "byte " << i << ": " << reason;
   }
@@ -116,9 +125,9 @@ TEST(SummaryFile, AnotherVersionIsRefusedEvenWhereTheChecksumFits) {
   std::string content = write_summaries(two_robots());
   content.resize(content.size() - 4);
   ASSERT_EQ(content + checksum(content), write_summaries(two_robots()));
-  content[8] = 2;
+  content[8] = 3;
   EXPECT_EQ(refusal(content + checksum(content)),
-            "part.qr: error: version 2 of the format, expected 1");
+            "part.qr: error: version 3 of the format, expected 2");
 }
 
 TEST(SummaryFile, WrongContentIsRefusedEvenWhereTheChecksumFits) {

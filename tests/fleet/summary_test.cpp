@@ -132,6 +132,24 @@ TEST_F(Fleet, TheGroupingOfMergesDoesNotMatter) {
   expect_same(in_order, tree);
 }
 
+TEST_F(Fleet, TenThousandMergesOfTheSameGiveAHundredTimesTheFactor) {
+  // One after the other: the worst order. Each adds a rounding of its own, in any direction.
+  TorqueFactor sum = parts_[0].equations;
+  for (int i = 1; i < 10000; ++i) merge(sum, parts_[0].equations);
+  TorqueFactor hundredfold = parts_[0].equations;
+  for (JointFactor& joint : hundredfold.joints) {
+    joint.R *= 100;
+    joint.rows *= 10000;
+  }
+  const Estimate a = weighted_least_squares(sum), b = weighted_least_squares(hundredfold);
+  const double factor = difference(sum, hundredfold);
+  const double beta = (a.beta - b.beta).norm() / b.beta.norm();
+  RecordProperty("factor", std::to_string(1e12 * factor) + "e-12");
+  RecordProperty("beta", std::to_string(1e12 * beta) + "e-12");
+  EXPECT_LT(factor, kRounding);
+  EXPECT_LT(beta, kRounding);
+}
+
 TEST_F(Fleet, SecondsAreThoseOfAllRecordings) {
   double seconds = 0;
   for (const RecordingSummary& part : parts_) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <iostream>
 #include <map>
 #include <stdexcept>
@@ -74,7 +75,7 @@ RobotSummaries summaries_of(const Message& message, const LinearModel& model) {
 
 /// How much there is of a robot that has a name.
 struct RobotCount {
-  int recordings = 0;
+  std::int64_t recordings = 0;
   double seconds = 0;
 };
 
