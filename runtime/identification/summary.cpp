@@ -38,7 +38,8 @@ void merge(RecordingSummary& summary, const RecordingSummary& other) {
     summary.lowest_cutoff = other.lowest_cutoff;
     summary.highest_cutoff = other.highest_cutoff;
   }
-  const double mine = summary.equations.samples(), theirs = other.equations.samples();
+  // these add up, as equations.samples(), the most of any joint, does not
+  const double mine = summary.instants(), theirs = other.instants();
   summary.row_time =
       (summary.row_time * mine + other.row_time * theirs) / std::max(mine + theirs, 1.0);
   merge(summary.equations, other.equations);

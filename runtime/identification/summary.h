@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -19,11 +20,13 @@ struct RecordingSummary {
   NoiseFactor noise;
   TorqueFactor regressor_noise;
   MotionExtent extent;
-  double row_time = 0;  ///< s between equations; the mean where recordings differ
+  double row_time = 0;  ///< s between instants; the mean where recordings differ
   double lowest_cutoff = 0, highest_cutoff = 0;  ///< Hz
-  int recordings = 0;
+  std::int64_t recordings = 0;
 
-  [[nodiscard]] double seconds() const { return row_time * equations.samples(); }
+  /// Instants at which there may be equations: some joints may rest at any of them.
+  [[nodiscard]] double instants() const { return regressor_noise.samples(); }
+  [[nodiscard]] double seconds() const { return row_time * instants(); }
 };
 
 /// A summary of nothing, of a robot with these columns.

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::string_view kWord = "dyngenqr";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint64_t kMost = 1'000'000;  // of anything: a count above it is damage
 
 /// CRC-32 of IEEE 802.3.
@@ -72,10 +72,12 @@ class Writer {
 
 class Reader {
  public:
-  Reader(std::string_view bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
+  /// @param start  where in the file these bytes begin
+  Reader(std::string_view bytes, std::size_t start, std::string name)
+      : bytes_(bytes), start_(start), name_(std::move(name)) {}
 
   [[noreturn]] void fail(const std::string& reason) const {
-    throw SummaryFileError(fmt::format("{}: error: byte {}: {}", name_, place_, reason));
+    throw SummaryFileError(fmt::format("{}: error: byte {}: {}", name_, start_ + place_, reason));
   }
   std::uint64_t number(int bytes) {
     if (place_ + static_cast<std::size_t>(bytes) > bytes_.size()) fail("the file ends too early");
@@ -127,6 +129,7 @@ class Reader {
 
  private:
   std::string_view bytes_;
+  std::size_t start_;
   std::string name_;
   std::size_t place_ = 0;
 };
@@ -146,7 +149,7 @@ void read_factor(Reader& reader, TorqueFactor& factor) {
 }
 
 void write_summary(Writer& writer, const RecordingSummary& summary) {
-  writer.count(static_cast<std::size_t>(summary.recordings));
+  writer.number(static_cast<std::uint64_t>(summary.recordings), 8);
   for (const double value : {summary.row_time, summary.lowest_cutoff, summary.highest_cutoff}) {
     writer.real(value);
   }
@@ -166,7 +169,7 @@ void write_summary(Writer& writer, const RecordingSummary& summary) {
 RecordingSummary read_summary(Reader& reader, const std::vector<std::vector<int>>& columns,
                               int parameters) {
   RecordingSummary summary = empty_summary(columns, parameters);
-  summary.recordings = static_cast<int>(reader.count());
+  summary.recordings = static_cast<std::int64_t>(reader.number(8));
   for (double* value : {&summary.row_time, &summary.lowest_cutoff, &summary.highest_cutoff}) {
     *value = reader.real();
   }
@@ -221,8 +224,9 @@ RobotSummaries read_summaries(const std::string& bytes, const std::string& name)
     throw SummaryFileError(fmt::format("{}: error: the file ends too early", name));
   }
   const std::string_view content = all_bytes.substr(0, all_bytes.size() - 4);
-  const std::uint64_t stored = Reader(all_bytes.substr(content.size()), name).number(4);
-  Reader reader(content.substr(kWord.size()), name);
+  const std::uint64_t stored =
+      Reader(all_bytes.substr(content.size()), content.size(), name).number(4);
+  Reader reader(content.substr(kWord.size()), kWord.size(), name);
   const std::uint64_t version = reader.number(4);
   if (version != kVersion) {
     throw SummaryFileError(

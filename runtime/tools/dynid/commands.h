@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/tools/dynid/options.h"
+#include "runtime/tools/dynid/process_group.h"
 
 namespace dyngen::runtime {
 
@@ -10,7 +11,8 @@ inline constexpr int kDone = 0, kInputWrong = 1, kUsage = 2, kCannotAnswer = 3, 
 
 /// The commands; each prints its result and returns the exit code.
 /// @throws ModelError, RecordingError, SummaryFileError, OutputError, std::invalid_argument
-int run_fit(const ToolOptions& options);
+/// run_fit: in process 0 of the group; the others serve().
+int run_fit(const ToolOptions& options, ProcessGroup& group);
 int run_check(const ToolOptions& options);
 int run_accumulate(const ToolOptions& options);
 int run_merge(const ToolOptions& options);

@@ -12,6 +12,7 @@
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/commands.h"
 #include "runtime/tools/dynid/consistent_fit.h"
+#include "runtime/tools/dynid/file_summaries.h"
 #include "runtime/tools/dynid/loading.h"
 
 namespace dyngen::runtime {
@@ -124,6 +125,19 @@ std::string path_of_robot(const std::string& output, const std::string& name) {
   return output.substr(0, cut) + "." + (name.empty() ? "unnamed" : name) + output.substr(cut);
 }
 
+/// File by file, in several processes if there are any.
+void load_by_file(const ToolOptions& options, ProcessGroup& group, ProgressLine& progress,
+                  FitReport& report) {
+  if (options.heldout_part > 0) {
+    throw std::invalid_argument(
+        "--holdout-part goes with recordings that are given directly, to one process: "
+        "hold whole recordings out by --holdout");
+  }
+  FileSummaries found = summarise_files(report.robot, options, group, progress);
+  report.data.summary = std::move(found.sum);
+  report.notes.insert(report.notes.end(), found.notes.begin(), found.notes.end());
+}
+
 std::vector<FitMethod> methods_of(const ToolOptions& options, const FitData& data) {
   std::vector<FitMethod> methods;
   if (!options.every_method) return options.fit.methods;
@@ -156,14 +170,15 @@ void write_outputs(const ToolOptions& options, const FitReport& report) {
 
 }  // namespace
 
-int run_fit(const ToolOptions& options) {
+int run_fit(const ToolOptions& options, ProcessGroup& group) {
   ProgressLine progress("dynid");
   FitReport report;
-  report.robot = describe_robot(options.robot, options.consistent ? OpenParameters::kEverything
-                                                                  : OpenParameters::kAbsentRows);
+  report.robot = describe_robot(options.robot, opened_by(options));
   const LinearModel& model = report.robot.linear;
   LoadedRecordings train, heldout;
-  if (are_summaries(options.recordings)) {
+  if (!options.list.empty() || group.size() > 1) {
+    load_by_file(options, group, progress, report);
+  } else if (are_summaries(options.recordings)) {
     load_summaries(options, report);
   } else {
     train = load_recordings(options.recordings, options, false, progress);

@@ -7,6 +7,10 @@
 
 namespace dyngen::runtime {
 
+OpenParameters opened_by(const ToolOptions& options) {
+  return options.consistent ? OpenParameters::kEverything : OpenParameters::kAbsentRows;
+}
+
 RecordingLine describe(const MotionSource& source, const ToolOptions& options, bool heldout) {
   const RowPlan plan = plan_rows(source, options.rows);
   RecordingLine line;

@@ -17,6 +17,9 @@ struct LoadedRecordings {
   std::vector<RecordingLine> lines;
 };
 
+/// What of the robot file a fit asks about.
+OpenParameters opened_by(const ToolOptions& options);
+
 /// Reads all; repairs are printed to standard error.
 LoadedRecordings load_recordings(const std::vector<std::string>& paths, const ToolOptions& options,
                                  bool heldout, ProgressLine& progress);

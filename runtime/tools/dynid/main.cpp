@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: MIT
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
+#include <string>
 
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/tool/output_files.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/recordings/notice.h"
 #include "runtime/tools/dynid/commands.h"
+#include "runtime/tools/dynid/file_summaries.h"
 #include "runtime/tools/dynid/options.h"
+#include "runtime/tools/dynid/process_group.h"
 
 namespace dyngen::runtime {
 namespace {
 
-int run(const ToolOptions& options) {
+int run(const ToolOptions& options, ProcessGroup& group) {
   switch (options.command) {
     case Command::kFit:
-      return run_fit(options);
+      return run_fit(options, group);
     case Command::kCheck:
       return run_check(options);
     case Command::kAccumulate:
@@ -27,11 +31,18 @@ int run(const ToolOptions& options) {
   return kUsage;
 }
 
-int guarded_main(int argc, const char* const* argv) {
-  const ParsedOptions parsed = parse_options(argc, argv);
-  if (parsed.exit_code >= 0) return parsed.exit_code;
+/// By hand, since a process other than 0 has no std::cerr.
+int our_bug(const std::exception& error, const ToolOptions& options) {
+  const std::string text = std::string("dynid: internal error: ") + error.what() +
+                           "\nThis is a bug of dynid. Please report it with the file " +
+                           options.robot + ".\n";
+  std::fputs(text.c_str(), stderr);
+  return kOurBug;
+}
+
+int guarded_run(const ToolOptions& options, ProcessGroup& group) {
   try {
-    return run(parsed.options);
+    return run(with_list(options), group);
   } catch (const ModelError& error) {
     std::cerr << error.what();
     return kInputWrong;
@@ -48,14 +59,41 @@ int guarded_main(int argc, const char* const* argv) {
     std::cerr << "dynid: error: " << error.what() << "\n";
     return kInputWrong;
   } catch (const std::exception& error) {
-    std::cerr << "dynid: internal error: " << error.what()
-              << "\nThis is a bug of dynid. Please report it with the file " << parsed.options.robot
-              << ".\n";
-    return kOurBug;
+    return our_bug(error, options);
   }
+}
+
+int guarded_serve(const ToolOptions& options, ProcessGroup& group) {
+  try {
+    return serve(options, group);
+  } catch (const std::exception& error) {
+    return our_bug(error, options);
+  }
+}
+
+int main_of_group(int argc, const char* const* argv, ProcessGroup& group) {
+  // The command line is the same for all; only process 0 speaks.
+  if (group.rank() > 0) {
+    std::cout.rdbuf(nullptr);
+    std::cerr.rdbuf(nullptr);
+  }
+  const ParsedOptions parsed = parse_options(argc, argv);
+  if (parsed.exit_code >= 0) return parsed.exit_code;
+  const int code =
+      group.rank() > 0 ? guarded_serve(parsed.options, group) : guarded_run(parsed.options, group);
+  std::cout << std::flush;
+  // where the others are is not known
+  if (code == kOurBug) group.abort(code);
+  if (group.rank() == 0) dismiss(group, code);
+  return code;
 }
 
 }  // namespace
 }  // namespace dyngen::runtime
 
-int main(int argc, char** argv) { return dyngen::runtime::guarded_main(argc, argv); }
+int main(int argc, char** argv) {
+  dyngen::runtime::ProcessGroup group;
+  const int code = dyngen::runtime::main_of_group(argc, argv, group);
+  group.finish();
+  return code;
+}

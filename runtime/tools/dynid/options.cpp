@@ -5,9 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <stdexcept>
 
 namespace dyngen::runtime {
 namespace {
@@ -31,7 +34,6 @@ struct Words {
   std::vector<std::string> methods;
   std::string state = "lowpass";
   std::string period = "auto";
-  std::string list;
 };
 
 void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
@@ -61,16 +63,18 @@ void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
       ->capture_default_str();
 }
 
-void add_recordings(CLI::App& command, ToolOptions& options, Words& words, const char* text) {
+void add_recordings(CLI::App& command, ToolOptions& options, const char* text) {
   command.add_option("recordings", options.recordings, text);
-  command.add_option("--list", words.list, "a file with one recording per line");
+  command.add_option("--list", options.list,
+                     "a file with one recording per line; fit goes through them one by one, in "
+                     "as many processes as mpirun starts");
 }
 
 void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* fit = tool.add_subcommand("fit", "identify a robot's parameters from recordings");
   fit->add_option("robot", options.robot, "robot file; its rows that are absent or * are estimated")
       ->required();
-  add_recordings(*fit, options, words, "recordings, or .qr files of 'dynid accumulate'");
+  add_recordings(*fit, options, "recordings, or .qr files of 'dynid accumulate'");
   fit->add_option("--holdout", options.heldout, "recordings that are not fitted but predicted");
   fit->add_option("--holdout-part", options.heldout_part,
                   "hold out the last part of every recording: 0.4 is the last 40 %")
@@ -107,21 +111,21 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
 void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* check = tool.add_subcommand("check", "residuals of a robot file, without a fit");
   check->add_option("robot", options.robot, "robot file with numbers")->required();
-  add_recordings(*check, options, words, "recordings");
+  add_recordings(*check, options, "recordings");
   check->add_option("--json", options.json, "all results for programs");
   add_motion_options(*check, options, words);
 
   CLI::App* accumulate =
       tool.add_subcommand("accumulate", "sum recordings up in a .qr file that merges with others");
   accumulate->add_option("robot", options.robot, "robot file")->required();
-  add_recordings(*accumulate, options, words, "recordings");
+  add_recordings(*accumulate, options, "recordings");
   accumulate->add_option("-o,--output", options.output, "the .qr file")->required();
   accumulate->add_option("--name", options.robot_name,
                          "whose recordings these are; robots of different names stay apart");
   add_motion_options(*accumulate, options, words);
 
   CLI::App* merge = tool.add_subcommand("merge", "merge .qr files");
-  add_recordings(*merge, options, words, ".qr files");
+  add_recordings(*merge, options, ".qr files");
   merge->add_option("-o,--output", options.output, "the merged .qr file")->required();
 }
 
@@ -156,15 +160,9 @@ std::string understand(const Words& words, ToolOptions& options) {
     }
     options.fit.methods.push_back(*method);
   }
-  if (!words.list.empty()) {
-    std::ifstream stream(words.list);
-    if (!stream) return fmt::format("--list: cannot read {}", words.list);
-    for (std::string line; std::getline(stream, line);) {
-      if (!line.empty() && line.back() == '\r') line.pop_back();
-      if (!line.empty() && line[0] != '#') options.recordings.push_back(line);
-    }
+  if (options.recordings.empty() && options.list.empty()) {
+    return "there is no recording: expected at least one";
   }
-  if (options.recordings.empty()) return "there is no recording: expected at least one";
   return "";
 }
 
@@ -200,6 +198,24 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   const std::string message = understand(words, parsed.options);
   if (!message.empty()) parsed.exit_code = usage(message);
   return parsed;
+}
+
+ToolOptions with_list(ToolOptions options) {
+  if (options.list.empty()) return options;
+  errno = 0;
+  std::ifstream stream(options.list);
+  if (!stream) {
+    throw std::invalid_argument(
+        fmt::format("--list: cannot read {}: {}", options.list, std::strerror(errno)));
+  }
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (!line.empty() && line[0] != '#') options.recordings.push_back(line);
+  }
+  if (options.recordings.empty()) {
+    throw std::invalid_argument(fmt::format("--list: no recording in {}", options.list));
+  }
+  return options;
 }
 
 }  // namespace dyngen::runtime

@@ -17,6 +17,7 @@ struct ToolOptions {
   Command command = Command::kFit;
   std::string robot;                    ///< path of the robot file
   std::vector<std::string> recordings;  ///< .csv, .csv.gz; of fit also .qr; of merge .qr
+  std::string list;                     ///< a file with one more of them per line; empty: none
   std::vector<std::string> heldout;
   double heldout_part = 0;    ///< the last part of every recording is held out: 0 .. 0.9
   std::string output;         ///< empty: none
@@ -38,5 +39,9 @@ struct ParsedOptions {
   int exit_code = -1;  ///< -1: go on
 };
 ParsedOptions parse_options(int argc, const char* const* argv);
+
+/// The same with the recordings that the list names; '#' begins a comment line.
+/// @throws std::invalid_argument  if the list cannot be read or there is no recording
+ToolOptions with_list(ToolOptions options);
 
 }  // namespace dyngen::runtime
