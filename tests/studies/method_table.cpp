@@ -27,6 +27,17 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+/// Mean and its standard error over the recordings, in percent: parameters of one recording do not
+/// err independently.
+std::string share(const std::vector<double>& covered) {
+  if (covered.size() < 2) return covered.empty() ? "-" : fmt::format("{:.1f}", 100 * covered[0]);
+  const double mean = mean_of(covered);
+  double squares = 0;
+  for (const double one : covered) squares += (one - mean) * (one - mean);
+  const double count = static_cast<double>(covered.size());
+  return fmt::format("{:.1f} ± {:.1f}", 100 * mean, 100 * std::sqrt(squares / (count - 1) / count));
+}
+
 /// "93.1", or "-" if there is nothing to say.
 std::string cell(double value, const char* format) {
   return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value);
@@ -37,8 +48,8 @@ std::string row_of(const MethodSummary& method) {
       "| {} | {:.3f} | {:.3f} | {} | {} | {} | {:.0f} |", method.name,
       100 * median(method.torque_errors),
       100 * *std::max_element(method.torque_errors.begin(), method.torque_errors.end()),
-      cell(median(method.errors), "{:.2f}"), cell(100 * method.coverage(), "{:.1f}"),
-      cell(100 * method.textbook_coverage(), "{:.1f}"), 1000 * median(method.seconds));
+      cell(median(method.errors), "{:.2f}"), share(method.covered), share(method.textbook_covered),
+      1000 * median(method.seconds));
 }
 
 void print_head(const StudyRobot& robot, const StudyPlan& plan, const char* what) {
@@ -73,7 +84,6 @@ void MethodSummary::add(const MethodScore& score) {
 }
 
 double MethodSummary::coverage() const { return mean_of(covered); }
-double MethodSummary::textbook_coverage() const { return mean_of(textbook_covered); }
 
 void print_methods(const StudyRobot& robot, const StudyPlan& plan) {
   const HeldoutMotion heldout = heldout_motion(robot);
@@ -127,6 +137,12 @@ void print_causes(const StudyRobot& robot, const StudyPlan& plan) {
       {"periods not averaged",
        [](ClosedLoopOptions&, MotionOptions& o) { o.average_periods = false; }},
       {"true q, dq, ddq", recorded, true},
+      {"true states, white torque noise only",
+       [recorded](ClosedLoopOptions& loop, MotionOptions& o) {
+         recorded(loop, o);
+         loop.coloured_part = 0;
+       },
+       true},
       {"exact encoder",
        [](ClosedLoopOptions& loop, MotionOptions&) { loop.encoder_step.setZero(); }},
       {"encoder 20 times coarser",
@@ -171,11 +187,10 @@ void print_causes(const StudyRobot& robot, const StudyPlan& plan) {
       iv.add(scores[2]);
     }
     fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {:.4f} | {:.4f} | {:.0f} | {:.2f} |\n",
-               cause.name, cell(100 * ls.coverage(), "{:.1f}"),
-               cell(100 * ls.textbook_coverage(), "{:.1f}"), cell(100 * wls.coverage(), "{:.1f}"),
-               cell(100 * wls.textbook_coverage(), "{:.1f}"), cell(100 * iv.coverage(), "{:.1f}"),
-               median(wls.errors), 100 * median(wls.torque_errors), 100 * median(iv.torque_errors),
-               median(rows), median(cutoffs));
+               cause.name, share(ls.covered), share(ls.textbook_covered), share(wls.covered),
+               share(wls.textbook_covered), share(iv.covered), median(wls.errors),
+               100 * median(wls.torque_errors), 100 * median(iv.torque_errors), median(rows),
+               median(cutoffs));
     std::fflush(stdout);
   }
 }

@@ -24,8 +24,7 @@ struct MethodSummary {
   std::vector<double> torque_errors, errors, covered, textbook_covered, seconds, p_values;
   std::vector<double> conditions, parameter_errors;
   void add(const MethodScore& score);
-  [[nodiscard]] double coverage() const;  ///< part of all parameters of all repetitions
-  [[nodiscard]] double textbook_coverage() const;
+  [[nodiscard]] double coverage() const;  ///< mean over the repetitions
 };
 
 /// Markdown: every method over all repetitions.
