@@ -63,6 +63,17 @@ TEST(ClosedLoop, TrueStatesSatisfyInverseDynamics) {
   EXPECT_GT(compared, 1000);
 }
 
+TEST(ClosedLoop, JointsStandWhereFrictionHoldsThem) {
+  const StudyRobot robot = study_robot("ur10e");
+  ClosedLoopOptions loop = robot.loop;
+  loop.seconds = 1;
+  loop.lead_in = 3;  // the arm sags from the reference, comes to rest, and does not chatter
+  const FourierMotion still{robot.limits.centre, {}, {}, {}};
+  const ClosedLoopRun run = simulate(robot.truth, still, loop, 1);
+  EXPECT_EQ(run.truth.dq.cwiseAbs().maxCoeff(), 0);
+  EXPECT_GT((run.truth.q - run.reference.q).cwiseAbs().maxCoeff(), 1e-3);
+}
+
 TEST(ClosedLoop, TrueBaseParametersGiveTheTorqueOfTheTruth) {
   for (const char* name : {"puma3", "ur10e"}) {
     const StudyRobot robot = study_robot(name);
@@ -71,16 +82,23 @@ TEST(ClosedLoop, TrueBaseParametersGiveTheTorqueOfTheTruth) {
   }
 }
 
+// Over twenty recordings wls errs by 0.76 % (puma3) and 0.53 % (ur10e) in the median, and 92 % and
+// 91 % of its intervals cover the truth. Torque: twice that. Coverage: three standard deviations of
+// a binomial share below (150 parameters: 2.2 %; 232: 1.9 %). The median error in stated deviations
+// is 0.67 if all is well; 0.45 would be intervals half as wide again as they should be.
 TEST(Identification, WlsPredictsTorqueAndStatesHowWellItDoes) {
-  const std::vector<FitMethod> methods = {FitMethod::kWls, FitMethod::kIv};
-  const StudyRobot puma = study_robot("puma3");
-  const auto of_puma = study(puma, 6, methods, puma.loop);
-  EXPECT_LT(median(of_puma[0].torque_errors), 0.02);
-  EXPECT_GT(of_puma[0].coverage(), 0.85);
-  const StudyRobot ur = study_robot("ur10e");
-  const auto of_ur = study(ur, 4, methods, ur.loop);
-  EXPECT_LT(median(of_ur[0].torque_errors), 0.02);
-  EXPECT_GT(of_ur[0].coverage(), 0.85);
+  struct Bound {
+    const char* robot;
+    int repetitions;
+    double torque_error;
+  };
+  for (const Bound& bound : {Bound{"puma3", 6, 0.015}, Bound{"ur10e", 4, 0.011}}) {
+    const StudyRobot robot = study_robot(bound.robot);
+    const auto wls = study(robot, bound.repetitions, {FitMethod::kWls}, robot.loop).front();
+    EXPECT_LT(median(wls.torque_errors), bound.torque_error) << bound.robot;
+    EXPECT_GT(wls.coverage(), 0.85) << bound.robot;
+    EXPECT_GT(median(wls.errors), 0.45) << bound.robot;
+  }
 }
 
 TEST(Identification, RobustWeightsHelpAgainstWildTorques) {

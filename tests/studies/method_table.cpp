@@ -43,6 +43,11 @@ std::string cell(double value, const char* format) {
   return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value);
 }
 
+/// In how many recordings iv's test finds noise in the regressor.
+std::ptrdiff_t found(const MethodSummary& iv) {
+  return std::count_if(iv.p_values.begin(), iv.p_values.end(), [](double p) { return p < 0.05; });
+}
+
 std::string row_of(const MethodSummary& method) {
   return fmt::format(
       "| {} | {:.3f} | {:.3f} | {} | {} | {} | {:.0f} |", method.name,
@@ -88,6 +93,7 @@ double MethodSummary::coverage() const { return mean_of(covered); }
 void print_methods(const StudyRobot& robot, const StudyPlan& plan) {
   const HeldoutMotion heldout = heldout_motion(robot);
   std::vector<MethodSummary> methods(kEvery.size());
+  MethodSummary bayes;
   std::vector<double> rows, cutoffs, simulated;
   for (unsigned r = 0; r < static_cast<unsigned>(plan.repetitions); ++r) {
     const unsigned seed = plan.first_seed + r;
@@ -104,6 +110,8 @@ void print_methods(const StudyRobot& robot, const StudyPlan& plan) {
     options.prior = prior_of(robot, options.prior_relative, seed);
     const auto scores = run_methods(robot, data, heldout, kEvery, options);
     for (std::size_t m = 0; m < scores.size(); ++m) methods[m].add(scores[m]);
+    options.lambda = 1;
+    bayes.add(run_methods(robot, data, heldout, {FitMethod::kRidge}, options).front());
     fmt::print(stderr, "{} {}/{}\n", robot.name, r + 1, plan.repetitions);
   }
   print_head(robot, plan, "methods");
@@ -112,14 +120,16 @@ void print_methods(const StudyRobot& robot, const StudyPlan& plan) {
       "{:.0f}, {:.1f} s to simulate a recording. Noise in the regressor is found (iv, p < "
       "0.05) in {} of {}.\n\n",
       median(rows), median(cutoffs), median(methods[1].conditions), median(simulated),
-      std::count_if(methods.back().p_values.begin(), methods.back().p_values.end(),
-                    [](double p) { return p < 0.05; }),
-      plan.repetitions);
+      found(methods.back()), plan.repetitions);
   fmt::print(
       "| method | held-out torque error, median % | worst % | parameter error, median in "
       "stated sigma | covered by 95 % intervals, % | textbook's, % | ms |\n"
       "|---|---|---|---|---|---|---|\n");
-  for (const MethodSummary& method : methods) fmt::print("{}\n", row_of(method));
+  bayes.name = "ridge, lambda 1";
+  for (const MethodSummary& method : methods) {
+    fmt::print("{}\n", row_of(method));
+    if (method.name == "ridge") fmt::print("{}\n", row_of(bayes));
+  }
 }
 
 void print_causes(const StudyRobot& robot, const StudyPlan& plan) {
@@ -165,7 +175,8 @@ void print_causes(const StudyRobot& robot, const StudyPlan& plan) {
   fmt::print(
       "| recording | ls covered, % | textbook's | wls covered, % | textbook's | iv covered, "
       "% | wls error, median in sigma | wls torque error, median % | iv torque error, median "
-      "% | equations | cut-off, Hz |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "% | noise found in the regressor | equations | cut-off, Hz "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Cause& cause : causes) {
     MethodSummary ls, wls, iv;
     std::vector<double> rows, cutoffs;
@@ -186,11 +197,12 @@ void print_causes(const StudyRobot& robot, const StudyPlan& plan) {
       wls.add(scores[1]);
       iv.add(scores[2]);
     }
-    fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {:.4f} | {:.4f} | {:.0f} | {:.2f} |\n",
-               cause.name, share(ls.covered), share(ls.textbook_covered), share(wls.covered),
-               share(wls.textbook_covered), share(iv.covered), median(wls.errors),
-               100 * median(wls.torque_errors), 100 * median(iv.torque_errors), median(rows),
-               median(cutoffs));
+    fmt::print(
+        "| {} | {} | {} | {} | {} | {} | {:.2f} | {:.4f} | {:.4f} | {}/{} | {:.0f} | {:.2f} |\n",
+        cause.name, share(ls.covered), share(ls.textbook_covered), share(wls.covered),
+        share(wls.textbook_covered), share(iv.covered), median(wls.errors),
+        100 * median(wls.torque_errors), 100 * median(iv.torque_errors), found(iv),
+        plan.repetitions, median(rows), median(cutoffs));
     std::fflush(stdout);
   }
 }
