@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/identification/hierarchy.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/QR>
 #include <stdexcept>
 
@@ -82,6 +84,12 @@ HierarchyFit fit_own_friction(const LinearModel& model, const RobotSummaries& al
   for (int i = 0; i < model.size(); ++i) {
     (is_own(model.parameters[static_cast<std::size_t>(i)].kind) ? fit.own : fit.shared)
         .push_back(i);
+  }
+  if (fit.own.empty() || fit.shared.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{} has {} parameters of friction and {} others: robots that share inertia and "
+                    "keep their friction need both",
+                    model.name, fit.own.size(), fit.shared.size()));
   }
   if (weights.size() == 0) weights = weighted_least_squares(pooled(all).equations).joint_weights;
   const Index shared = static_cast<Index>(fit.shared.size());

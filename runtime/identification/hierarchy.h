@@ -32,7 +32,8 @@ struct HierarchyFit {
 /// Each robot's own parameters are eliminated from its triangular factor first, so the work grows
 /// with the number of robots and not with its cube.
 /// @param joint_weights  (n) 1/sigma; empty: of the weighted fit to all robots as one
-/// @throws std::invalid_argument  if there is no robot
+/// @throws std::invalid_argument  if there is no robot, or the model has no friction or nothing
+/// else
 HierarchyFit fit_own_friction(const LinearModel& model, const RobotSummaries& all,
                               Eigen::VectorXd joint_weights = {});
 

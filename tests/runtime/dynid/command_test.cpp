@@ -44,7 +44,7 @@ std::string content(const fs::path& path) {
 
 class Commands : public testing::Test {
  protected:
-  static constexpr const char* kRobot = DYNGEN_SOURCE_DIR "/robots/puma560_3dof.robot";
+  static constexpr const char* kRobot = DYNGEN_SOURCE_DIR "/tests/studies/robots/puma3.robot";
 
   void SetUp() override {
     folder_ = fs::path(testing::TempDir()) /
@@ -76,8 +76,8 @@ class Commands : public testing::Test {
 TEST_F(Commands, FitChecksAndSaysHowWell) {
   const std::string train = record("train.csv", {.seconds = 20, .torque_noise = 0.3});
   const std::string test = record("test.csv.gz", {.torque_noise = 0.3, .seed = 2});
-  const Outcome fit = dynid("fit " + std::string(kRobot) + " " + train + " --holdout " + test + " -o " +
-                        path("id.robot") + " --json " + path("fit.json"));
+  const Outcome fit = dynid("fit " + std::string(kRobot) + " " + train + " --holdout " + test +
+                            " -o " + path("id.robot") + " --json " + path("fit.json"));
   ASSERT_EQ(fit.exit_code, 0) << fit.out;
   EXPECT_NE(fit.out.find("condition number"), std::string::npos);
   EXPECT_NE(fit.out.find("bias susceptibility"), std::string::npos);
@@ -106,7 +106,7 @@ TEST_F(Commands, AccumulatedAndMergedRecordingsFitAsRecordingsDo) {
         record("r" + std::to_string(seed) + ".csv", {.torque_noise = 0.3, .seed = seed});
     const std::string part = path("p" + std::to_string(seed) + ".qr");
     const Outcome accumulate = dynid("accumulate " + std::string(kRobot) + " " + file +
-                                 " --cutoff 10 --still 0.05 -o " + part);
+                                     " --cutoff 10 --still 0.05 -o " + part);
     ASSERT_EQ(accumulate.exit_code, 0) << accumulate.out;
     all += " " + file;
     parts += " " + part;

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 DescribedRobot puma() {
-  return describe_robot(DYNGEN_SOURCE_DIR "/robots/puma560_3dof.robot",
+  return describe_robot(DYNGEN_SOURCE_DIR "/tests/studies/robots/puma3.robot",
                         OpenParameters::kAbsentRows);
 }
 
