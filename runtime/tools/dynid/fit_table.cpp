@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/estimation/covariance.h"
@@ -20,8 +21,11 @@ std::string number(double value) {
 std::string shortened(const std::string& formula) {
   constexpr std::size_t kMost = 44;
   if (formula.size() <= kMost) return formula;
-  const std::size_t cut = formula.rfind(" + ", kMost);
-  return formula.substr(0, cut == std::string::npos ? kMost : cut) + " + ...";
+  const std::size_t plus = formula.rfind(" + ", kMost), minus = formula.rfind(" - ", kMost);
+  const std::size_t cut = plus == std::string::npos    ? minus
+                          : minus == std::string::npos ? plus
+                                                       : std::max(plus, minus);
+  return formula.substr(0, cut == std::string::npos ? kMost : cut) + " ...";
 }
 
 std::string heading(const FitReport& report) {

@@ -75,12 +75,15 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   fit->add_option("robot", options.robot, "robot file; its rows that are absent or * are estimated")
       ->required();
   add_recordings(*fit, options, "recordings, or .qr files of 'dynid accumulate'");
-  fit->add_option("--holdout", options.heldout, "recordings that are not fitted but predicted");
+  fit->add_option("--holdout", options.heldout,
+                  "a recording that is not fitted but predicted; may be given again")
+      ->allow_extra_args(false);
   fit->add_option("--holdout-part", options.heldout_part,
                   "hold out the last part of every recording: 0.4 is the last 40 %")
       ->check(CLI::Range(0.0, 0.9));
   fit->add_option("--method", words.methods,
                   fmt::format("{}, or all: side by side", fmt::join(fit_method_names(), ", ")))
+      ->allow_extra_args(false)
       ->default_str("wls");
   fit->add_flag("--consistent", options.consistent,
                 "full parameters of bodies that can exist, near the file's values");
