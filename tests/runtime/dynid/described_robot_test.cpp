@@ -10,6 +10,7 @@
 #include "runtime/tools/dynid/identified_file.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/numeric_dynamics.h"
+#include "tests/support/temporary_path.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -72,7 +73,7 @@ TEST_P(DescribedRobots, GroupTheFilesOwnParameters) {
 TEST_P(DescribedRobots, ComeBackFromTheirIdentifiedFile) {
   const DescribedRobot robot = describe_robot(robot_path(GetParam()), OpenParameters::kAsWritten);
   const VectorXd beta = beta_of(robot);
-  const std::string path = testing::TempDir() + "identified.robot";
+  const std::string path = test::temporary_path("identified.robot");
   std::ofstream(path) << identified_text(robot, carried(robot, beta), {"identified"});
   const DescribedRobot again = describe_robot(path, OpenParameters::kAsWritten);
   ASSERT_EQ(again.linear.joints(), robot.linear.joints());
@@ -91,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Files, DescribedRobots,
                                          "tests/robots/puma560_corke_std.robot"));
 
 TEST(DescribeRobot, OpensAbsentRowsAndKeepsWrittenZeros) {
-  const std::string path = testing::TempDir() + "open.robot";
+  const std::string path = test::temporary_path("open.robot");
   std::ofstream(path) << "number_link 2\nsigma 0 0\nal 0 pi/2\nd 0 0.3\nth 0 0\nr 0 0\n"
                          "mY 0 0\nFs 0 *\ngx 0\ngy 0\ngz 9.81\n";
   const DescribedRobot robot = describe_robot(path, OpenParameters::kAbsentRows);
@@ -110,7 +111,7 @@ TEST(DescribeRobot, OpensAbsentRowsAndKeepsWrittenZeros) {
 }
 
 TEST(DescribeRobot, WantsNumbersForLengths) {
-  const std::string path = testing::TempDir() + "unknown_length.robot";
+  const std::string path = test::temporary_path("unknown_length.robot");
   std::ofstream(path) << "number_link 2\nsigma 0 0\nal 0 0\nd 0 *\nth 0 0\nr 0 0\n"
                          "gx 0\ngy 0\ngz 9.81\n";
   try {

@@ -11,6 +11,7 @@
 #include "runtime/recordings/writer.h"
 #include "runtime/tools/dynid/described_robot.h"
 #include "tests/runtime/dynid/multisine.h"
+#include "tests/support/temporary_path.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -105,7 +106,7 @@ TEST(Fit, ALargeFileIsReadInPiecesWithTheSameResult) {
   Recording recording = test::multisine(robot.linear, truth, {.seconds = 60, .torque_noise = 0.2});
   recording.dq.resize(0, 0);
   recording.ddq.resize(0, 0);
-  const std::string path = testing::TempDir() + "pieces.csv";
+  const std::string path = test::temporary_path("pieces.csv");
   write_recording(recording, path);
   MotionOptions options = options_of(StateMethod::kLowPass);
   options.state.cutoff_hz = 20;

@@ -12,6 +12,7 @@
 #include "runtime/estimation/rows.h"
 #include "runtime/tools/dynid/described_robot.h"
 #include "tests/runtime/dynid/multisine.h"
+#include "tests/support/temporary_path.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -36,7 +37,7 @@ TEST_P(Numpy, SolvesTheSameEquationsAlike) {
   TorqueFactor factor = empty_factor(model.columns, model.size());
   absorb(factor, block);
 
-  const std::string path = testing::TempDir() + "lstsq.csv";
+  const std::string path = test::temporary_path("lstsq.csv");
   FILE* file = std::fopen(path.c_str(), "w");
   for (Index j = 0; j < recording.tau.cols(); ++j) {
     for (Index k = 0; k < recording.samples(); ++k) {
