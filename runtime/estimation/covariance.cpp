@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/estimation/covariance.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "runtime/estimation/decompositions.h"
 #include "runtime/estimation/distributions.h"
 
 namespace dyngen::runtime {
@@ -28,9 +28,7 @@ MatrixXd spread(const MatrixXd& triangle, const std::vector<int>& columns, const
 
 /// Orthonormal directions besides the unseen ones.
 MatrixXd seen_directions(const MatrixXd& unseen, Index parameters) {
-  if (unseen.cols() == 0) return MatrixXd::Identity(parameters, parameters);
-  const MatrixXd Q = unseen.householderQr().householderQ();
-  return Q.rightCols(parameters - unseen.cols());
+  return unseen.cols() == 0 ? MatrixXd::Identity(parameters, parameters) : complement_of(unseen);
 }
 
 /// What each joint adds to the matrices of the sandwich, over the seen directions.
@@ -54,7 +52,7 @@ Sandwich sandwich(const TorqueFactor& factor, const std::vector<MatrixXd>& F,
     parts.middle.push_back(noisy.transpose() * noisy);
     sum += parts.outer.back();
   }
-  parts.inverse = sum.completeOrthogonalDecomposition().pseudoInverse();
+  parts.inverse = pseudo_inverse(sum);
   return parts;
 }
 
@@ -70,6 +68,23 @@ MatrixXd in_parameters(const MatrixXd& covariance, const MatrixXd& basis, const 
 }
 
 }  // namespace
+
+MatrixXd noise_rows(const NoiseFactor& noise, const std::vector<std::vector<int>>& columns,
+                    int parameters, const VectorXd& joint_weights) {
+  Index count = 0;
+  for (const MatrixXd& F : noise.F) count += F.rows();
+  MatrixXd rows = MatrixXd::Zero(count, parameters);
+  Index start = 0;
+  for (std::size_t j = 0; j < noise.F.size(); ++j) {
+    const MatrixXd& F = noise.F[j];
+    const double w = joint_weights[static_cast<Index>(j)];
+    for (std::size_t i = 0; i < columns[j].size(); ++i) {
+      rows.col(columns[j][i]).segment(start, F.rows()) = w * w * F.col(static_cast<Index>(i));
+    }
+    start += F.rows();
+  }
+  return rows;
+}
 
 void give_back_fitted_noise(NoiseFactor& noise, const TorqueFactor& factor,
                             const VectorXd& joint_weights, const VectorXd& scale,

@@ -2,11 +2,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "runtime/estimation/least_squares.h"
 #include "runtime/estimation/noise_model.h"
 
 namespace dyngen::runtime {
+
+/// The noise of all joints over all parameters: rows F with F'F = sum_j w_j^4 Y_j' Omega_j Y_j.
+/// @param columns  of LinearModel       @return (m x nb)
+Eigen::MatrixXd noise_rows(const NoiseFactor& noise, const std::vector<std::vector<int>>& columns,
+                           int parameters, const Eigen::VectorXd& joint_weights);
 
 /// A residual is smaller than the noise because parameters were fitted to it: what that takes away
 /// follows from the same matrices and is given back. For the fit from which the residual comes.

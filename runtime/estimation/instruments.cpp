@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/estimation/instruments.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "runtime/estimation/covariance.h"
+#include "runtime/estimation/decompositions.h"
 #include "runtime/estimation/distributions.h"
 #include "runtime/estimation/noise_model.h"
 
@@ -53,9 +52,8 @@ std::vector<MatrixXd> first_stage(const TorqueFactor& pairs) {
   std::vector<MatrixXd> stages;
   for (const JointFactor& joint : pairs.joints) {
     const Index half = (joint.R.cols() - 1) / 2;
-    stages.push_back(joint.R.topLeftCorner(half, half)
-                         .completeOrthogonalDecomposition()
-                         .solve(joint.R.block(0, half, half, half)));
+    stages.push_back(
+        least_norm_solution(joint.R.topLeftCorner(half, half), joint.R.block(0, half, half, half)));
   }
   return stages;
 }
@@ -107,9 +105,9 @@ void test_exogeneity(const InstrumentSource& source, const std::vector<std::vect
   const MatrixXd spread = scale.cwiseInverse().asDiagonal() *
                           covariance.bottomRightCorner(parameters, parameters) *
                           scale.cwiseInverse().asDiagonal();
-  const Eigen::JacobiSVD<MatrixXd> svd(spread, Eigen::ComputeFullU);
-  const VectorXd& variances = svd.singularValues();
-  const VectorXd along = svd.matrixU().transpose() * gamma;
+  const SingularValues svd = decomposed(spread);
+  const VectorXd& variances = svd.values;
+  const VectorXd along = svd.U.transpose() * gamma;
   for (Index i = 0; i < parameters; ++i) {
     if (variances[i] <= 1e-12 * variances[0]) break;
     result.hausman += along[i] * along[i] / variances[i];
@@ -137,31 +135,26 @@ InstrumentalEstimate instrumental_variables(const InstrumentSource& source,
   MatrixXd all(rows.W.rows(), 2 * nb + 1);
   all << rows.W.leftCols(nb) * z_scale.asDiagonal(), rows.W.rightCols(nb) * scale.asDiagonal(),
       rows.tau;
-  const MatrixXd R = all.householderQr().matrixQR().topRows(nb);
+  const MatrixXd R = triangle_in_place(all).topRows(nb);
   const MatrixXd R_ZW = R.middleCols(nb, nb);
-  const Eigen::JacobiSVD<MatrixXd> svd(R_ZW, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const SingularValues svd = decomposed(R_ZW);
 
   InstrumentalEstimate result;
   Estimate& estimate = result.estimate;
   estimate.joint_weights = joint_weights;
   estimate.scale = scale;
-  estimate.beta = scale.cwiseProduct(R_ZW.colPivHouseholderQr().solve(R.rightCols(1)));
-  estimate.rank =
-      static_cast<int>((svd.singularValues().array() > 1e-9 * svd.singularValues()[0]).count());
-  estimate.unseen = svd.matrixV().rightCols(nb - estimate.rank);
+  estimate.beta = scale.cwiseProduct(least_norm_solution(R_ZW, R.rightCols(1)).col(0));
+  estimate.rank = static_cast<int>((svd.values.array() > 1e-9 * svd.values[0]).count());
+  estimate.unseen = svd.V.rightCols(nb - estimate.rank);
   if (estimate.rank < nb) {
     estimate.status = EstimateStatus::kRankDeficient;
     estimate.message = "instruments do not see all parameters";
   }
   const MatrixXd W = rows.W.rightCols(nb) * scale.asDiagonal();
-  estimate.condition = condition_number(Eigen::JacobiSVD<MatrixXd>(W).singularValues());
-  estimate.raw_condition =
-      condition_number(Eigen::JacobiSVD<MatrixXd>(rows.W.rightCols(nb)).singularValues());
-  const Eigen::HouseholderQR<MatrixXd> of_w(W);
-  const MatrixXd triangle = of_w.matrixQR().topRows(nb).triangularView<Eigen::Upper>();
-  const MatrixXd cosines =
-      triangle.transpose().completeOrthogonalDecomposition().solve(R_ZW.transpose());
-  result.relevance = Eigen::JacobiSVD<MatrixXd>(cosines).singularValues()[nb - 1];
+  estimate.condition = condition_number(singular_values(W));
+  estimate.raw_condition = condition_number(singular_values(rows.W.rightCols(nb)));
+  const MatrixXd cosines = least_norm_solution(triangle_of(W).transpose(), R_ZW.transpose());
+  result.relevance = singular_values(cosines)[nb - 1];
 
   VectorXd squares = VectorXd::Zero(joint_weights.size());
   double samples = 0;
@@ -179,17 +172,11 @@ InstrumentalEstimate instrumental_variables(const InstrumentSource& source,
     });
   };
   const NoiseFactor noise = noise_factor(z_rows, columns, VectorXd::Zero(nb));
-  MatrixXd middle = MatrixXd::Zero(nb, nb);
-  for (std::size_t j = 0; j < columns.size(); ++j) {
-    MatrixXd F = MatrixXd::Zero(noise.F[j].rows(), nb);
-    for (std::size_t i = 0; i < columns[j].size(); ++i) {
-      F.col(columns[j][i]) = noise.F[j].col(static_cast<Index>(i)) * z_scale[columns[j][i]];
-    }
-    F *= std::pow(joint_weights[static_cast<Index>(j)], 2);
-    middle += F.transpose() * F;
-  }
+  const MatrixXd noisy =
+      noise_rows(noise, columns, parameters, joint_weights) * z_scale.asDiagonal();
+  const MatrixXd middle = noisy.transpose() * noisy;
   const MatrixXd ZW = (rows.W.leftCols(nb) * z_scale.asDiagonal()).transpose() * W;
-  const MatrixXd inverse = ZW.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd inverse = pseudo_inverse(ZW);
   estimate.covariance =
       scale.asDiagonal() * inverse * middle * inverse.transpose() * scale.asDiagonal();
   test_exogeneity(source, columns, parameters, joint_weights, pairs, result);

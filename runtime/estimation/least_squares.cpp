@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -34,11 +34,10 @@ void check_weights(const TorqueFactor& factor, const VectorXd& joint_weights) {
 
 /// The solution in scaled parameters that keeps the prior where nothing is seen.
 void solve_svd(const MatrixXd& A, const VectorXd& tau, const VectorXd& prior, int rank,
-               const Eigen::JacobiSVD<MatrixXd>& svd, Estimate& estimate) {
-  const MatrixXd seen = svd.matrixV().leftCols(rank);
-  const VectorXd rest = svd.matrixU().leftCols(rank).transpose() * (tau - A * prior);
-  estimate.unseen = svd.matrixV().rightCols(A.cols() - rank);
-  estimate.beta = prior + seen * rest.cwiseQuotient(svd.singularValues().head(rank));
+               const SingularValues& svd, Estimate& estimate) {
+  const VectorXd rest = svd.U.leftCols(rank).transpose() * (tau - A * prior);
+  estimate.unseen = svd.V.rightCols(A.cols() - rank);
+  estimate.beta = prior + svd.V.leftCols(rank) * rest.cwiseQuotient(svd.values.head(rank));
 }
 
 }  // namespace
@@ -71,8 +70,8 @@ Estimate least_squares(const TorqueFactor& factor, const VectorXd& joint_weights
   const MatrixXd A = rows.W * estimate.scale.asDiagonal();
   const Index parameters = A.cols();
 
-  const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const VectorXd& singular = svd.singularValues();
+  const SingularValues svd = decomposed(A);
+  const VectorXd& singular = svd.values;
   estimate.condition = condition_number(singular);
   estimate.rank = static_cast<int>(
       (singular.array() > options.tolerance * std::max(singular[0], 1e-300)).count());
@@ -81,7 +80,7 @@ Estimate least_squares(const TorqueFactor& factor, const VectorXd& joint_weights
       std::min(estimate.rank, static_cast<int>(parameters) - options.dropped_directions);
 
   if (options.decomposition == Decomposition::kQr && !deficient && rank == parameters) {
-    estimate.beta = A.householderQr().solve(rows.tau);
+    estimate.beta = least_norm_solution(A, rows.tau).col(0);
     estimate.unseen = MatrixXd::Zero(parameters, 0);
   } else {
     const VectorXd prior = options.prior.size() != 0
@@ -165,7 +164,7 @@ VectorXd singular_values(const TorqueFactor& factor, const VectorXd& joint_weigh
                          const VectorXd& scale) {
   MatrixXd W = stacked(factor, joint_weights).W;
   if (scale.size() != 0) W *= scale.asDiagonal();
-  return Eigen::JacobiSVD<MatrixXd>(W).singularValues();
+  return singular_values(W);
 }
 
 double condition_number(const VectorXd& singular) {

@@ -168,7 +168,8 @@ AutoregressiveNoise fit_autoregression(const VectorXd& autocovariance, double sa
   return best;
 }
 
-MatrixXd residual_autocovariance(const RowSource& source, const VectorXd& beta, Index most_lags) {
+ResidualAutocovariance residual_autocovariance(const RowSource& source, const VectorXd& beta,
+                                               Index most_lags) {
   MatrixXd sums, past;  // past: the last residuals of the run
   double samples = 0;
   source([&](const RowBlock& block) {
@@ -191,7 +192,7 @@ MatrixXd residual_autocovariance(const RowSource& source, const VectorXd& beta, 
     samples += static_cast<double>(rest.rows());
   });
   if (samples > 0) sums /= samples;
-  return sums;
+  return {sums, samples};
 }
 
 NoiseFactor empty_noise(const std::vector<std::vector<int>>& columns) {
@@ -207,11 +208,9 @@ NoiseFactor empty_noise(const std::vector<std::vector<int>>& columns) {
 
 NoiseFactor noise_factor(const RowSource& source, const std::vector<std::vector<int>>& columns,
                          const VectorXd& beta) {
-  double samples = 0;
-  source([&](const RowBlock& block) { samples += static_cast<double>(block.tau.rows()); });
   NoiseFactor factor = empty_noise(columns);
+  const auto [covariances, samples] = residual_autocovariance(source, beta, kMostOrder);
   if (samples == 0) return factor;
-  const MatrixXd covariances = residual_autocovariance(source, beta, kMostOrder);
   std::vector<AutoregressiveNoise> noise;
   for (Index j = 0; j < covariances.cols(); ++j) {
     noise.push_back(fit_autoregression(covariances.col(j), samples));

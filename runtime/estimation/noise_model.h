@@ -24,10 +24,13 @@ struct AutoregressiveNoise {
 /// Source: the Levinson-Durbin recursion on the Yule-Walker equations.
 AutoregressiveNoise fit_autoregression(const Eigen::VectorXd& autocovariance, double samples);
 
-/// Autocovariances of the residual of every joint, lags 0 .. most_lags; runs are not joined.
-/// @return (most_lags + 1 x n)
-Eigen::MatrixXd residual_autocovariance(const RowSource& source, const Eigen::VectorXd& beta,
-                                        Eigen::Index most_lags);
+/// Of the residual of every joint; runs are not joined.
+struct ResidualAutocovariance {
+  Eigen::MatrixXd lags;  ///< (most_lags + 1 x n), from lag 0; 0 x 0 where there are no samples
+  double samples = 0;
+};
+ResidualAutocovariance residual_autocovariance(const RowSource& source, const Eigen::VectorXd& beta,
+                                               Eigen::Index most_lags);
 
 /// What the noise of the torque does to the normal equations: per joint a triangle F with
 /// F'F = Y'Omega Y, Omega the covariance of that joint's noise over all samples.

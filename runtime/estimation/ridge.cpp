@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <cmath>
 #include <stdexcept>
+
+#include "runtime/estimation/covariance.h"
+#include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -55,8 +56,7 @@ Estimate ridge(const TorqueFactor& factor, const VectorXd& joint_weights, const 
   A << rows.W * prior.stddev.asDiagonal(), lambda * MatrixXd::Identity(nb, nb);
   VectorXd b(m + nb);
   b << rows.tau - rows.W * prior.beta, VectorXd::Zero(nb);
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(A);
-  estimate.beta = prior.beta + prior.stddev.cwiseProduct(qr.solve(b));
+  estimate.beta = prior.beta + prior.stddev.cwiseProduct(least_norm_solution(A, b).col(0));
   if (lambda > 0) {  // the prior says what the data do not
     estimate.unseen = MatrixXd::Zero(nb, 0);
   }
@@ -68,15 +68,18 @@ Estimate ridge(const TorqueFactor& factor, const VectorXd& joint_weights, const 
   return estimate;
 }
 
-MatrixXd ridge_covariance(const TorqueFactor& factor, const VectorXd& joint_weights,
-                          const Prior& prior, double lambda) {
+MatrixXd ridge_covariance(const TorqueFactor& factor, const NoiseFactor& noise,
+                          const VectorXd& joint_weights, const Prior& prior, double lambda) {
   check(factor, prior, lambda);
+  // all in multiples of the prior's deviations
   const MatrixXd W = stacked(factor, joint_weights).W * prior.stddev.asDiagonal();
-  MatrixXd information = W.transpose() * W;
-  information.diagonal().array() += lambda * lambda;
-  const MatrixXd inverse =
-      information.llt().solve(MatrixXd::Identity(information.rows(), information.cols()));
-  return prior.stddev.asDiagonal() * inverse * prior.stddev.asDiagonal();
+  const MatrixXd F = noise_rows(noise, factor.columns, factor.parameters, joint_weights) *
+                     prior.stddev.asDiagonal();
+  MatrixXd information = W.transpose() * W, middle = F.transpose() * F;
+  information.diagonal().array() += std::pow(lambda, 2);
+  middle.diagonal().array() += std::pow(lambda, 4);
+  const MatrixXd L = prior.stddev.asDiagonal() * pseudo_inverse(information);
+  return L * middle * L.transpose();
 }
 
 std::vector<LCurvePoint> l_curve(const TorqueFactor& factor, const VectorXd& joint_weights,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/estimation/least_squares.h"
+#include "runtime/estimation/noise_model.h"
 
 namespace dyngen::runtime {
 
@@ -29,9 +30,13 @@ Prior make_prior(const TorqueFactor& factor, const Eigen::VectorXd& joint_weight
 Estimate ridge(const TorqueFactor& factor, const Eigen::VectorXd& joint_weights, const Prior& prior,
                double lambda);
 
-/// Of the ridge estimate at lambda = 1: (sum w^2 Y'Y + diag(1/stddev^2))^-1, for white noise.
-Eigen::MatrixXd ridge_covariance(const TorqueFactor& factor, const Eigen::VectorXd& joint_weights,
-                                 const Prior& prior, double lambda);
+/// Of the ridge estimate: M^-1 (sum w^4 Y'Omega Y + lambda^4 diag(1/stddev^2)) M^-1 with
+/// M = sum w^2 Y'Y + lambda^2 diag(1/stddev^2), Omega the covariance of the noise. It holds where
+/// the truth is as far from the prior as the prior's standard deviations say, whatever lambda is;
+/// with white noise, weights 1/sigma and lambda = 1 it is M^-1.
+Eigen::MatrixXd ridge_covariance(const TorqueFactor& factor, const NoiseFactor& noise,
+                                 const Eigen::VectorXd& joint_weights, const Prior& prior,
+                                 double lambda);
 
 /// A point of the L-curve.
 struct LCurvePoint {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/estimation/significance.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "runtime/estimation/covariance.h"
+#include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -107,11 +106,11 @@ Significance remove_dependent(const TorqueFactor& factor, const VectorXd& joint_
   for (;;) {
     const MatrixXd W = stacked(with_columns(factor, result.kept), joint_weights).W *
                        scale(result.kept).asDiagonal();
-    const Eigen::JacobiSVD<MatrixXd> svd(W, Eigen::ComputeThinV);
-    result.condition_after = condition_number(svd.singularValues());
+    const SingularValues svd = decomposed(W);
+    result.condition_after = condition_number(svd.values);
     if (result.condition_after <= most || result.kept.size() == 1) break;
     Index worst = 0;
-    svd.matrixV().col(W.cols() - 1).cwiseAbs().maxCoeff(&worst);
+    svd.V.col(W.cols() - 1).cwiseAbs().maxCoeff(&worst);
     result.removed.push_back(result.kept[static_cast<std::size_t>(worst)]);
     result.kept.erase(result.kept.begin() + worst);
   }
@@ -127,11 +126,10 @@ Significance drop_weakest(const TorqueFactor& factor, const VectorXd& joint_weig
   const Estimate full = least_squares(factor, joint_weights, options);
   result.condition_before = full.condition;
   const StackedRows rows = stacked(factor, joint_weights);
-  const Eigen::JacobiSVD<MatrixXd> svd(rows.W * full.scale.asDiagonal(),
-                                       Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const SingularValues svd = decomposed(rows.W * full.scale.asDiagonal());
   const Index nb = factor.parameters;
   if (directions < 0) {
-    const VectorXd components = svd.matrixU().transpose() * rows.tau;
+    const VectorXd components = svd.U.transpose() * rows.tau;
     const VectorXd sigma = residual_deviation(factor, full.beta).cwiseProduct(joint_weights);
     const double noise = sigma.maxCoeff();
     directions = 0;
@@ -141,8 +139,7 @@ Significance drop_weakest(const TorqueFactor& factor, const VectorXd& joint_weig
   }
   options.dropped_directions = std::min(directions, static_cast<int>(nb) - 1);
   result.estimate = least_squares(factor, joint_weights, options);
-  const VectorXd& singular = svd.singularValues();
-  result.condition_after = condition_number(singular.head(nb - options.dropped_directions));
+  result.condition_after = condition_number(svd.values.head(nb - options.dropped_directions));
   return result;
 }
 

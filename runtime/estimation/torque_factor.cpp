@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <stdexcept>
+
+#include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -12,24 +13,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// The triangle of a factorisation, with a diagonal that is not negative: the factor is then
-/// unique.
-MatrixXd positive_triangle(const MatrixXd& qr, Index size) {
-  MatrixXd R = MatrixXd::Zero(size, size);
-  const Index rows = std::min(size, qr.rows());
-  R.topRows(rows) = qr.topRows(rows).triangularView<Eigen::Upper>();
-  for (Index i = 0; i < rows; ++i) {
-    if (R(i, i) < 0) R.row(i) = -R.row(i);
-  }
-  return R;
-}
-
-MatrixXd triangle_of(MatrixXd& A) {
-  const Index size = A.cols();
-  const Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> qr(A);
-  return positive_triangle(qr.matrixQR(), size);
-}
 
 Index place(Index joint, int parameter, Index parameters) { return joint * parameters + parameter; }
 
@@ -61,10 +44,10 @@ TorqueFactor empty_factor(const std::vector<std::vector<int>>& columns, int para
 void absorb(JointFactor& joint, MatrixXd& A) {
   const Index size = joint.R.rows(), rows = A.rows();
   joint.rows += static_cast<double>(rows);
-  MatrixXd block = rows > size ? triangle_of(A) : A;
+  MatrixXd block = rows > size ? triangle_in_place(A) : A;
   MatrixXd both(size + block.rows(), size);
   both << joint.R, block;
-  joint.R = triangle_of(both);
+  joint.R = triangle_in_place(both);
 }
 
 void absorb(TorqueFactor& factor, const MatrixXd& Y, const MatrixXd& tau) {

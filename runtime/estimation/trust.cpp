@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/estimation/trust.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
+
+#include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
 
@@ -19,7 +19,7 @@ Trust measure_trust(const TorqueFactor& factor, const Estimate& estimate,
   const StackedRows rows = stacked(factor, weights);
   const MatrixXd H = rows.W * estimate.scale.asDiagonal();
   const VectorXd B = estimate.beta.cwiseQuotient(estimate.scale);
-  const VectorXd singular = Eigen::JacobiSVD<MatrixXd>(H).singularValues();
+  const VectorXd singular = singular_values(H);
   const double largest = singular[0], smallest = singular[singular.size() - 1];
   const double residual = (rows.tau - H * B).norm();
   const double samples = std::max(factor.samples(), 1.0);
@@ -30,7 +30,7 @@ Trust measure_trust(const TorqueFactor& factor, const Estimate& estimate,
     const MatrixXd D = stacked(regressor_noise, weights).W * estimate.scale.asDiagonal();
     C = D.transpose() * D;
   }
-  const double noise = Eigen::JacobiSVD<MatrixXd>(C).singularValues()[0];
+  const double noise = singular_values(C)[0];
   trust.regressor_noise = std::sqrt(noise);
   trust.torque_noise = residual;
 
@@ -44,7 +44,7 @@ Trust measure_trust(const TorqueFactor& factor, const Estimate& estimate,
         (largest * left) / B.norm();
   }
 
-  const MatrixXd inverse_R = (H.transpose() * H).completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd inverse_R = pseudo_inverse(H.transpose() * H);
   trust.attenuation = estimate.scale.cwiseProduct(inverse_R * (C * B));
   trust.worst_bias =
       estimate.scale.cwiseProduct(inverse_R.diagonal().cwiseMax(0.0).cwiseSqrt()) * residual;

@@ -20,20 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool needs_samples(FitMethod method) {
-  switch (method) {
-    case FitMethod::kIrls:
-    case FitMethod::kLms:
-    case FitMethod::kLmsMode:
-    case FitMethod::kRls:
-    case FitMethod::kKalman:
-    case FitMethod::kIv:
-      return true;
-    default:
-      return false;
-  }
-}
-
 std::string_view name_of(FitMethod method) {
   return fit_method_names()[static_cast<std::size_t>(method)];
 }
@@ -103,9 +89,14 @@ class Fitter {
   }
 
   /// @param rows  empty: the noise of the summary, taken at the fits of its recordings
+  NoiseFactor noise_of(const Estimate& estimate, const TorqueFactor& equations,
+                       const RowSource& rows) const {
+    return rows ? noise_at(estimate, equations, rows) : data_.summary.noise;
+  }
+
   void add_covariance(MethodFit& fit, const TorqueFactor& equations, const RowSource& rows) {
     Estimate& estimate = fit.estimate;
-    const NoiseFactor noise = rows ? noise_at(estimate, equations, rows) : data_.summary.noise;
+    const NoiseFactor noise = noise_of(estimate, equations, rows);
     estimate.covariance = correlated_covariance(equations, noise, estimate.joint_weights,
                                                 estimate.scale, estimate.unseen);
     fit.interval = interval_of(equations, noise);
@@ -137,7 +128,9 @@ class Fitter {
     fit.l_curve = l_curve(equations, weights, prior);
     fit.lambda = options_.lambda >= 0 ? options_.lambda : corner(fit.l_curve);
     fit.estimate = ridge(equations, weights, prior, fit.lambda);
-    fit.estimate.covariance = ridge_covariance(equations, weights, prior, fit.lambda);
+    const NoiseFactor noise = noise_of(fit.estimate, equations, data_.rows);
+    fit.estimate.covariance = ridge_covariance(equations, noise, weights, prior, fit.lambda);
+    fit.interval = interval_of(equations, noise);
     fit.messages.push_back(fmt::format(
         "lambda {:.3g}{}; prior: {}", fit.lambda,
         options_.lambda >= 0 ? "" : " at the corner of the L-curve",
@@ -171,6 +164,20 @@ class Fitter {
 };
 
 }  // namespace
+
+bool needs_samples(FitMethod method) {
+  switch (method) {
+    case FitMethod::kIrls:
+    case FitMethod::kLms:
+    case FitMethod::kLmsMode:
+    case FitMethod::kRls:
+    case FitMethod::kKalman:
+    case FitMethod::kIv:
+      return true;
+    default:
+      return false;
+  }
+}
 
 const std::vector<std::string_view>& fit_method_names() {
   static const std::vector<std::string_view> names = {"ls",  "wls",      "irls", "ridge",  "svd",

@@ -34,6 +34,8 @@ enum class FitMethod {
 const std::vector<std::string_view>& fit_method_names();
 /// @return empty if there is no such method
 std::optional<FitMethod> parse_fit_method(std::string_view name);
+/// Whether it looks at single samples, so that a summary is not enough for it.
+bool needs_samples(FitMethod method);
 
 /// What there is to fit.
 struct FitData {

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <stdexcept>
 
+#include "runtime/estimation/covariance.h"
+#include "runtime/estimation/decompositions.h"
 #include "runtime/estimation/least_squares.h"
 
 namespace dyngen::runtime {
@@ -14,6 +15,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+constexpr double kSeen = 1e-9;  // of the strongest direction
 
 bool is_own(ParameterKind kind) {
   return kind == ParameterKind::kViscous || kind == ParameterKind::kCoulomb ||
@@ -35,8 +38,7 @@ Eliminated eliminate(const TorqueFactor& factor, const VectorXd& weights, const 
               shared = static_cast<Index>(fit.shared.size());
   MatrixXd all(rows.W.rows(), own + shared + 1);
   all << rows.W(Eigen::all, fit.own), rows.W(Eigen::all, fit.shared), rows.tau;
-  const MatrixXd R = MatrixXd(all.householderQr().matrixQR().topRows(own + shared + 1))
-                         .triangularView<Eigen::Upper>();
+  const MatrixXd R = triangle_in_place(all);
   Eliminated parts;
   parts.own = R.topLeftCorner(own, own);
   parts.mixed = R.block(0, own, own, shared);
@@ -44,28 +46,9 @@ Eliminated eliminate(const TorqueFactor& factor, const VectorXd& weights, const 
   parts.shared = R.block(own, own, shared, shared);
   parts.shared_tau = R.col(own + shared).segment(own, shared);
   // friction of a joint that never moved is not seen: zero, and no deviation
-  parts.own_inverse = parts.own.completeOrthogonalDecomposition().pseudoInverse();
+  parts.own_inverse = pseudo_inverse(parts.own);
   parts.projection = parts.own_inverse * parts.mixed;
   return parts;
-}
-
-/// Noise of all joints over all parameters: (rows x nb), each joint times its weight squared.
-MatrixXd noise_rows(const RecordingSummary& summary, const VectorXd& weights) {
-  const TorqueFactor& factor = summary.equations;
-  Index count = 0;
-  for (const MatrixXd& F : summary.noise.F) count += F.rows();
-  MatrixXd rows = MatrixXd::Zero(count, factor.parameters);
-  Index start = 0;
-  for (std::size_t j = 0; j < summary.noise.F.size(); ++j) {
-    const MatrixXd& F = summary.noise.F[j];
-    const double w = weights[static_cast<Index>(j)];
-    for (std::size_t i = 0; i < factor.columns[j].size(); ++i) {
-      rows.col(factor.columns[j][i]).segment(start, F.rows()) =
-          w * w * F.col(static_cast<Index>(i));
-    }
-    start += F.rows();
-  }
-  return rows;
 }
 
 }  // namespace
@@ -101,19 +84,18 @@ HierarchyFit fit_own_friction(const LinearModel& model, const RobotSummaries& al
     parts.push_back(eliminate(summary.equations, weights, fit));
     MatrixXd stack(2 * shared, shared + 1);
     stack << sum, parts.back().shared, parts.back().shared_tau;
-    sum = MatrixXd(stack.householderQr().matrixQR().topRows(shared)).triangularView<Eigen::Upper>();
-    const MatrixXd noise = noise_rows(summary, weights);
+    sum = triangle_in_place(stack).topRows(shared);
+    const MatrixXd noise =
+        noise_rows(summary.noise, summary.equations.columns, model.size(), weights);
     const MatrixXd left =
         noise(Eigen::all, fit.shared) - noise(Eigen::all, fit.own) * parts.back().projection;
     middle += left.transpose() * left;
   }
   const MatrixXd R = sum.leftCols(shared);
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(R.rows(), R.cols());
-  decomposition.setThreshold(1e-9);
-  decomposition.compute(R);
-  fit.rank = static_cast<int>(decomposition.rank());
-  fit.shared_beta = decomposition.solve(sum.col(shared));
-  const MatrixXd inverse = decomposition.pseudoInverse();
+  const VectorXd singular = singular_values(R);
+  fit.rank = static_cast<int>((singular.array() > kSeen * singular[0]).count());
+  fit.shared_beta = least_norm_solution(R, sum.col(shared), kSeen);
+  const MatrixXd inverse = pseudo_inverse(R, kSeen);
   const MatrixXd information = inverse * inverse.transpose();
   const MatrixXd covariance = information * middle * information;
   fit.shared_stddev = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
@@ -124,8 +106,10 @@ HierarchyFit fit_own_friction(const LinearModel& model, const RobotSummaries& al
     HierarchyFit::Robot robot;
     robot.name = name;
     robot.own_beta = part.own_inverse * (part.own_tau - part.mixed * fit.shared_beta);
-    const MatrixXd noise = noise_rows(summary, weights)(Eigen::all, fit.own) *
-                           (part.own_inverse * part.own_inverse.transpose());
+    const MatrixXd rows =
+        noise_rows(summary.noise, summary.equations.columns, model.size(), weights);
+    const MatrixXd noise =
+        rows(Eigen::all, fit.own) * (part.own_inverse * part.own_inverse.transpose());
     const MatrixXd own =
         noise.transpose() * noise + part.projection * covariance * part.projection.transpose();
     robot.own_stddev = own.diagonal().cwiseMax(0.0).cwiseSqrt();

@@ -157,49 +157,25 @@ RowSource joined(std::vector<RowSource> sources) {
   };
 }
 
-MotionExtent extent_of(const MotionSource& source) {
-  MotionExtent extent;
-  source.pieces([&](const StreamPiece& piece) {
-    extent.add(piece.motion.q, piece.motion.dq, piece.motion.ddq);
-  });
-  return extent;
-}
-
-TorqueFactor regressor_noise(const LinearModel& model, const MotionSource& source,
-                             const RowPlan& plan, Index most) {
-  check_joints(model, source);
+TorqueFactor regressor_noise(const LinearModel& model, const MatrixXd& postures,
+                             const RowPlan& plan, double equations) {
   TorqueFactor factor = empty_factor(model.columns, model.size());
-  Index samples = 0;
-  source.pieces([&](const StreamPiece& piece) { samples += piece.motion.samples(); });
-  const Index step = std::max<Index>(1, samples / most);
+  if (postures.rows() == 0) return factor;
   const int n = model.joints();
-  Index place = 0, taken = 0;
-  source.pieces([&](const StreamPiece& piece) {
-    const Index first = (step - place % step) % step;
-    place += piece.motion.samples();
-    const Index count =
-        first < piece.motion.samples() ? (piece.motion.samples() - first - 1) / step + 1 : 0;
-    if (count == 0) return;
-    taken += count;
-    const auto chosen = Eigen::seqN(first, count, step);
-    const MatrixXd q = piece.motion.q(chosen, Eigen::all), zero = MatrixXd::Zero(count, n);
-    MatrixXd standing, accelerated;
-    model.regressor(q, zero, zero, standing);
-    for (int i = 0; i < n; ++i) {
-      MatrixXd ddq = zero;
-      ddq.col(i).setOnes();
-      model.regressor(q, zero, ddq, accelerated);
-      accelerated = (accelerated - standing) * plan.acceleration_noise[i];
-      absorb(factor, accelerated, zero);
-    }
-  });
-  const double rows = static_cast<double>(samples) / static_cast<double>(plan.decimation);
-  if (taken > 0) {
-    const double up = std::sqrt(rows / static_cast<double>(taken));
-    for (JointFactor& joint : factor.joints) {
-      joint.R *= up;
-      joint.rows = rows;
-    }
+  const MatrixXd zero = MatrixXd::Zero(postures.rows(), n);
+  MatrixXd standing, accelerated;
+  model.regressor(postures, zero, zero, standing);
+  for (int i = 0; i < n; ++i) {
+    MatrixXd ddq = zero;
+    ddq.col(i).setOnes();
+    model.regressor(postures, zero, ddq, accelerated);
+    accelerated = (accelerated - standing) * plan.acceleration_noise[i];
+    absorb(factor, accelerated, zero);
+  }
+  const double up = std::sqrt(equations / static_cast<double>(postures.rows()));
+  for (JointFactor& joint : factor.joints) {
+    joint.R *= up;
+    joint.rows = equations;
   }
   return factor;
 }

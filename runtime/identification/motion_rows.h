@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "runtime/estimation/rows.h"
-#include "runtime/estimation/unseen.h"
 #include "runtime/identification/motion_source.h"
 #include "runtime/model/linear_model.h"
 
@@ -41,13 +40,11 @@ RowSource rows_of(const LinearModel& model, const MotionSource& source, const Ro
 /// All rows of several sources, one after the other.
 RowSource joined(std::vector<RowSource> sources);
 
-/// How the joints moved.
-MotionExtent extent_of(const MotionSource& source);
-
 /// What acceleration noise adds to the regressor, as equations with torque 0: R'R is the expected
-/// sum of dH'dH over the source's rows. From at most `most` samples, counted up.
+/// sum of dH'dH over a recording.
+/// @param postures   (N x n) spread evenly over the recording       @param equations  a joint has
 /// Source: the thesis, (5.3).
-TorqueFactor regressor_noise(const LinearModel& model, const MotionSource& source,
-                             const RowPlan& plan, Eigen::Index most = 2000);
+TorqueFactor regressor_noise(const LinearModel& model, const Eigen::MatrixXd& postures,
+                             const RowPlan& plan, double equations);
 
 }  // namespace dyngen::runtime

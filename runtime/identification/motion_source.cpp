@@ -127,7 +127,7 @@ MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
 
 /// What the first part of a large file says of all of it.
 MotionSource stream_of_file(const std::string& path, MotionOptions options) {
-  constexpr Index kFirstPart = 500000;
+  constexpr Index kFirstPart = 200000;
   RecordingReader reader(path);
   Recording first;
   reader.next(first, kFirstPart);
@@ -166,7 +166,9 @@ MotionSource motion_of(Recording recording, const MotionOptions& options) {
 MotionSource motion_of_file(const std::string& path, const MotionOptions& options) {
   std::error_code ignored;
   const auto bytes = std::filesystem::file_size(path, ignored);
-  if (!ignored && bytes > options.stream_above && options.state.method == StateMethod::kLowPass) {
+  constexpr std::size_t kPacked = 4;  // a compressed file holds several times as much text
+  const std::size_t text = path.ends_with(".gz") ? kPacked * bytes : bytes;
+  if (!ignored && text > options.stream_above && options.state.method == StateMethod::kLowPass) {
     return stream_of_file(path, options);
   }
   RecordingCondition condition;
@@ -176,14 +178,17 @@ MotionSource motion_of_file(const std::string& path, const MotionOptions& option
 
 MotionSource part_of(const MotionSource& source, double from, double to) {
   MotionSource part = source;
-  part.pieces = [all = source.pieces, from,
-                 to](const std::function<void(const StreamPiece&)>& visit) {
-    // lengths of the runs first: pieces of a run do not know how long it is
-    std::vector<Index> lengths;
-    all([&](const StreamPiece& piece) {
-      if (!piece.continues_run) lengths.push_back(0);
-      lengths.back() += piece.motion.samples();
-    });
+  // lengths of the runs first: pieces of a run do not know how long it is
+  auto known = std::make_shared<std::vector<Index>>();
+  part.pieces = [all = source.pieces, from, to,
+                 known](const std::function<void(const StreamPiece&)>& visit) {
+    std::vector<Index>& lengths = *known;
+    if (lengths.empty()) {
+      all([&](const StreamPiece& piece) {
+        if (!piece.continues_run) lengths.push_back(0);
+        lengths.back() += piece.motion.samples();
+      });
+    }
     std::size_t run = 0;
     Index place = 0;
     bool any = false;

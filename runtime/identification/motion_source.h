@@ -19,8 +19,8 @@ struct MotionOptions {
   JointStateOptions state;
   bool average_periods = true;   ///< where the motion repeats, its periods are averaged
   std::optional<double> period;  ///< s; none: looked for
-  /// Bytes of a file above which it is not read into memory but gone through piece by piece
-  /// (low-pass method only; periods are not looked for then).
+  /// Bytes of text (four times the bytes of a .gz) above which a file is not read into memory but
+  /// gone through piece by piece (low-pass method only; periods are not looked for then).
   std::size_t stream_above = 400'000'000;
 };
 

@@ -23,6 +23,35 @@ void check_same(const std::vector<std::string>& mine, const std::vector<std::str
   }
 }
 
+/// Postures spread evenly over a recording whose length is not known beforehand: every other one
+/// goes whenever there are too many.
+class PostureSample {
+ public:
+  void add(const Eigen::MatrixXd& q) {
+    for (Eigen::Index i = 0; i < q.rows(); ++i, ++place_) {
+      if (place_ % step_ != 0) continue;
+      if (count_ == kMost) thin(q.cols());
+      if (place_ % step_ != 0) continue;
+      if (kept_.rows() == 0) kept_.resize(kMost, q.cols());
+      kept_.row(count_++) = q.row(i);
+    }
+  }
+  [[nodiscard]] Eigen::MatrixXd postures() const { return kept_.topRows(count_); }
+
+ private:
+  static constexpr Eigen::Index kMost = 4000;
+
+  void thin(Eigen::Index joints) {
+    count_ = kMost / 2;
+    kept_.topRows(count_) =
+        Eigen::MatrixXd(kept_(Eigen::seqN(0, count_, 2), Eigen::seqN(0, joints)));
+    step_ *= 2;
+  }
+
+  Eigen::MatrixXd kept_;
+  Eigen::Index count_ = 0, place_ = 0, step_ = 1;
+};
+
 }  // namespace
 
 RecordingSummary empty_summary(const std::vector<std::vector<int>>& columns, int parameters) {
@@ -58,20 +87,35 @@ NoiseFactor noise_at(const Estimate& estimate, const TorqueFactor& equations,
   return noise;
 }
 
-RecordingSummary summarise(const LinearModel& model, const MotionSource& source,
-                           const RowOptions& options, const Eigen::VectorXd& beta) {
+RecordingSummary summarise_without_noise(const LinearModel& model, const MotionSource& source,
+                                         const RowOptions& options) {
+  RecordingSummary summary = empty_summary(model.columns, model.size());
+  PostureSample postures;
+  MotionSource watched = source;
+  watched.pieces = [&](const std::function<void(const StreamPiece&)>& visit) {
+    source.pieces([&](const StreamPiece& piece) {
+      summary.extent.add(piece.motion.q, piece.motion.dq, piece.motion.ddq);
+      postures.add(piece.motion.q);
+      visit(piece);
+    });
+  };
   const RowPlan plan = plan_rows(source, options);
-  const RowSource rows = rows_of(model, source, options);
-  RecordingSummary summary;
-  summary.equations = factor_of(rows, model.columns, model.size());
-  Estimate fit = weighted_least_squares(summary.equations);
-  if (beta.size() != 0) fit.beta = beta;
-  summary.noise = noise_at(fit, summary.equations, rows);
-  summary.regressor_noise = regressor_noise(model, source, plan);
-  summary.extent = extent_of(source);
+  summary.equations = factor_of(rows_of(model, watched, options), model.columns, model.size());
+  summary.regressor_noise =
+      regressor_noise(model, postures.postures(), plan,
+                      summary.extent.samples / static_cast<double>(plan.decimation));
   summary.row_time = plan.row_time;
   summary.lowest_cutoff = summary.highest_cutoff = source.cutoff.hz;
   summary.recordings = 1;
+  return summary;
+}
+
+RecordingSummary summarise(const LinearModel& model, const MotionSource& source,
+                           const RowOptions& options, const Eigen::VectorXd& beta) {
+  RecordingSummary summary = summarise_without_noise(model, source, options);
+  Estimate fit = weighted_least_squares(summary.equations);
+  if (beta.size() != 0) fit.beta = beta;
+  summary.noise = noise_at(fit, summary.equations, rows_of(model, source, options));
   return summary;
 }
 

@@ -35,8 +35,12 @@ RecordingSummary empty_summary(const std::vector<std::vector<int>>& columns, int
 /// Adds other recordings. Associative and commutative but for rounding.
 void merge(RecordingSummary& summary, const RecordingSummary& other);
 
-/// Goes through a recording: once for its equations, and three times for its noise, at the fit to
-/// this recording alone (or at `beta`, if it is not empty).
+/// All but the noise, in one pass over the recording.
+RecordingSummary summarise_without_noise(const LinearModel& model, const MotionSource& source,
+                                         const RowOptions& options);
+
+/// Goes through a recording: once for its equations, and twice for its noise, at the fit to this
+/// recording alone (or at `beta`, if it is not empty).
 RecordingSummary summarise(const LinearModel& model, const MotionSource& source,
                            const RowOptions& options, const Eigen::VectorXd& beta = {});
 

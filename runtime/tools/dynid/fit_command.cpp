@@ -138,16 +138,31 @@ void load_by_file(const ToolOptions& options, ProcessGroup& group, ProgressLine&
   report.notes.insert(report.notes.end(), found.notes.begin(), found.notes.end());
 }
 
+/// What summaries cannot answer is said before hours are spent on them.
+void check_what_is_summed_up(const ToolOptions& options, bool file_by_file, bool summaries) {
+  if (options.own_friction && (file_by_file || !summaries)) {
+    throw std::invalid_argument(
+        "--own-friction goes with .qr files of named robots that are given directly, not by --list "
+        "and not to several processes: see 'dynid accumulate --name'");
+  }
+  if (!file_by_file && !summaries) return;
+  for (const FitMethod method : options.fit.methods) {
+    if (!needs_samples(method)) continue;
+    throw std::invalid_argument(fmt::format(
+        "method {} looks at single samples: it needs recordings that are given directly, not sums "
+        "of them",
+        fit_method_names()[static_cast<std::size_t>(method)]));
+  }
+}
+
 std::vector<FitMethod> methods_of(const ToolOptions& options, const FitData& data) {
-  std::vector<FitMethod> methods;
   if (!options.every_method) return options.fit.methods;
-  methods =
+  std::vector<FitMethod> methods =
       options.fit.methods.empty() ? std::vector<FitMethod>{FitMethod::kWls} : options.fit.methods;
   for (std::size_t i = 0; i < fit_method_names().size(); ++i) {
     const FitMethod method = static_cast<FitMethod>(i);
-    const bool possible = (data.rows || method == FitMethod::kLs || method == FitMethod::kWls ||
-                           method == FitMethod::kRidge || method == FitMethod::kSvd) &&
-                          (data.instruments || method != FitMethod::kIv);
+    const bool possible =
+        (data.rows || !needs_samples(method)) && (data.instruments || method != FitMethod::kIv);
     if (possible && std::find(methods.begin(), methods.end(), method) == methods.end()) {
       methods.push_back(method);
     }
@@ -176,9 +191,12 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   report.robot = describe_robot(options.robot, opened_by(options));
   const LinearModel& model = report.robot.linear;
   LoadedRecordings train, heldout;
-  if (!options.list.empty() || group.size() > 1) {
+  const bool file_by_file = !options.list.empty() || group.size() > 1;
+  const bool summaries = !file_by_file && are_summaries(options.recordings);
+  check_what_is_summed_up(options, file_by_file, summaries);
+  if (file_by_file) {
     load_by_file(options, group, progress, report);
-  } else if (are_summaries(options.recordings)) {
+  } else if (summaries) {
     load_summaries(options, report);
   } else {
     train = load_recordings(options.recordings, options, false, progress);

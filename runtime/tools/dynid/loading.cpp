@@ -56,15 +56,7 @@ RecordingSummary summarise_together(const LinearModel& model,
   const std::vector<RowSource> rows = rows_of_all(model, sources, options);
   for (std::size_t i = 0; i < sources.size(); ++i) {
     progress.show("equations of " + sources[i].name, i, sources.size());
-    const RowPlan plan = plan_rows(sources[i], options.rows);
-    RecordingSummary one = empty_summary(model.columns, model.size());
-    one.equations = factor_of(rows[i], model.columns, model.size());
-    one.regressor_noise = regressor_noise(model, sources[i], plan);
-    one.extent = extent_of(sources[i]);
-    one.row_time = plan.row_time;
-    one.lowest_cutoff = one.highest_cutoff = sources[i].cutoff.hz;
-    one.recordings = 1;
-    merge(all, one);
+    merge(all, summarise_without_noise(model, sources[i], options.rows));
   }
   progress.show("noise", 0, 1);
   const Estimate fit = weighted_least_squares(all.equations);

@@ -132,6 +132,38 @@ TEST_F(Commands, AccumulatedAndMergedRecordingsFitAsRecordingsDo) {
   }
 }
 
+TEST_F(Commands, RobotsOfOneTypeKeepTheirOwnFriction) {
+  std::string parts;
+  for (const std::string name : {"left", "right"}) {
+    const std::string file = record(
+        name + ".csv", {.seconds = 20, .torque_noise = 0.1, .seed = name == "left" ? 3U : 4U});
+    ASSERT_EQ(dynid("accumulate " + std::string(kRobot) + " " + file + " --name " + name + " -o " +
+                    path(name + ".qr"))
+                  .exit_code,
+              0);
+    parts += " " + path(name + ".qr");
+  }
+  const Outcome fit =
+      dynid("fit " + std::string(kRobot) + parts + " --own-friction -o " + path("arm.robot"));
+  ASSERT_EQ(fit.exit_code, 0) << fit.out;
+  for (const std::string name : {"left", "right"}) {
+    EXPECT_EQ(
+        dynid("check " + path("arm." + name + ".robot") + " " + path(name + ".csv")).exit_code, 0);
+  }
+}
+
+TEST_F(Commands, WhatSumsCannotAnswerIsSaidAtOnce) {
+  std::ofstream(path("files.txt")) << path("none.csv") << "\n";  // would be an error of its own
+  const std::string list = " --list " + path("files.txt");
+  const Outcome method = dynid("fit " + std::string(kRobot) + list + " --method irls");
+  EXPECT_EQ(method.exit_code, 1);
+  EXPECT_NE(method.out.find("method irls looks at single samples"), std::string::npos)
+      << method.out;
+  const Outcome friction = dynid("fit " + std::string(kRobot) + list + " --own-friction");
+  EXPECT_EQ(friction.exit_code, 1);
+  EXPECT_NE(friction.out.find("--own-friction goes with .qr files"), std::string::npos);
+}
+
 TEST_F(Commands, SayWhatIsNotSeenAndExitWith3) {
   Recording recording = test::multisine(robot_.linear, test::plausible_beta(robot_.linear, 1), {});
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(recording.samples(), 1);

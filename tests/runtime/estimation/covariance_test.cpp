@@ -5,6 +5,7 @@
 
 #include <iostream>
 
+#include "runtime/estimation/ridge.h"
 #include "tests/runtime/estimation/random_equations.h"
 
 namespace dyngen::runtime {
@@ -68,6 +69,45 @@ TEST(Covariance, IntervalsHoldWhenNoiseIsWhite) {
   EXPECT_GT(coverage.correlated, 0.93);
   EXPECT_LT(coverage.correlated, 0.97);
   EXPECT_GT(coverage.white, 0.93);
+}
+
+/// Truths drawn from the prior: how often intervals of the ridge estimate contain them.
+double coverage_of_ridge(double lambda) {
+  constexpr int kRuns = 200, kParameters = 10;
+  std::mt19937_64 random(20261121);
+  std::normal_distribution<double> normal;
+  double inside = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    const test::RandomEquations equations(kParameters, 1500, 900 + static_cast<unsigned>(run));
+    Prior prior{VectorXd::Constant(kParameters, 1.0), VectorXd::Constant(kParameters, 0.2)};
+    VectorXd truth = prior.beta;
+    for (double& value : truth) value += 0.2 * normal(random);
+    // the rows of these equations, with the truth of this run
+    Eigen::MatrixXd tau = equations.noisy(0.9, {4.0, 4.0}, random);
+    for (Eigen::Index j = 0; j < 2; ++j) {
+      tau.col(j) +=
+          equations.Y.middleCols(j * kParameters, kParameters) * (truth - equations.truth);
+    }
+    const RowSource source = equations.source(tau);
+    const TorqueFactor factor = factor_of(source, equations.columns, kParameters);
+    const VectorXd weights = VectorXd::Constant(2, 1 / 4.0);
+    const Estimate fit = ridge(factor, weights, prior, lambda);
+    NoiseFactor noise = noise_factor(source, equations.columns, fit.beta);
+    give_back_fitted_noise(noise, factor, weights, fit.scale, fit.unseen);
+    const VectorXd bound =
+        1.96 * ridge_covariance(factor, noise, weights, prior, lambda).diagonal().cwiseSqrt();
+    inside += static_cast<double>(((fit.beta - truth).array().abs() < bound.array()).count());
+  }
+  return inside / kRuns / kParameters;
+}
+
+TEST(Covariance, IntervalsOfRidgeHoldWhateverLambdaIs) {
+  for (const double lambda : {0.3, 1.0, 3.0, 10.0}) {
+    const double coverage = coverage_of_ridge(lambda);
+    std::cout << "ridge, lambda " << lambda << ": coverage " << 100 * coverage << " %\n";
+    EXPECT_GT(coverage, 0.93) << lambda;
+    EXPECT_LT(coverage, 0.97) << lambda;
+  }
 }
 
 }  // namespace

@@ -115,9 +115,18 @@ TEST(Ridge, IsTheWeightedSumOfDataAndPrior) {
   const VectorXd wanted = information.ldlt().solve(right);
   const Estimate fit = ridge(factor, ones(), prior, lambda);
   EXPECT_LT((fit.beta - wanted).norm(), 1e-10 * wanted.norm());
+  // noise of 2 N m, white: what the data add to the middle of the sandwich is 4 Y'Y
+  NoiseFactor noise = empty_noise(factor.columns);
+  for (std::size_t j = 0; j < factor.joints.size(); ++j) {
+    noise.F[j] = 2 * factor.joints[j].R.leftCols(static_cast<Index>(factor.columns[j].size()));
+  }
   const MatrixXd inverse = information.inverse();
-  EXPECT_LT((ridge_covariance(factor, ones(), prior, lambda) - inverse).norm(),
-            1e-8 * inverse.norm());
+  const MatrixXd drawn = prior.stddev.cwiseAbs2().cwiseInverse().asDiagonal();
+  const MatrixXd middle =
+      4 * (information - std::pow(lambda, 2) * drawn) + std::pow(lambda, 4) * drawn;
+  const MatrixXd covariance = inverse * middle * inverse;
+  EXPECT_LT((ridge_covariance(factor, noise, ones(), prior, lambda) - covariance).norm(),
+            1e-8 * covariance.norm());
 }
 
 TEST(Ridge, RunsFromTheDataToThePriorAlongTheLCurve) {

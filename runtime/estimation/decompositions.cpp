@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/estimation/decompositions.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace dyngen::runtime {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+Eigen::CompleteOrthogonalDecomposition<MatrixXd> orthogonal(const MatrixXd& A, double tolerance) {
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(A.rows(), A.cols());
+  if (tolerance > 0) decomposition.setThreshold(tolerance);
+  decomposition.compute(A);
+  return decomposition;
+}
+
+}  // namespace
+
+SingularValues decomposed(const MatrixXd& A) {
+  const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
+}
+
+VectorXd singular_values(const MatrixXd& A) {
+  return Eigen::JacobiSVD<MatrixXd>(A).singularValues();
+}
+
+MatrixXd triangle_of(const MatrixXd& A) {
+  MatrixXd workspace = A;
+  return triangle_in_place(workspace);
+}
+
+MatrixXd triangle_in_place(MatrixXd& A) {
+  const Index size = A.cols(), rows = std::min(size, A.rows());
+  const Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> qr(A);
+  MatrixXd R = MatrixXd::Zero(size, size);
+  R.topRows(rows) = qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
+  for (Index i = 0; i < rows; ++i) {
+    if (R(i, i) < 0) R.row(i) = -R.row(i);
+  }
+  return R;
+}
+
+MatrixXd least_norm_solution(const MatrixXd& A, const MatrixXd& B, double tolerance) {
+  return orthogonal(A, tolerance).solve(B);
+}
+
+MatrixXd pseudo_inverse(const MatrixXd& A, double tolerance) {
+  return orthogonal(A, tolerance).pseudoInverse();
+}
+
+MatrixXd complement_of(const MatrixXd& Q) {
+  if (Q.cols() == 0) return MatrixXd::Identity(Q.rows(), Q.rows());
+  const MatrixXd all = Eigen::HouseholderQR<MatrixXd>(Q).householderQ();
+  return all.rightCols(Q.rows() - Q.cols());
+}
+
+}  // namespace dyngen::runtime
