@@ -156,7 +156,7 @@ AutoregressiveNoise fit_autoregression(const VectorXd& autocovariance, double sa
     next[p - 1] = reflection;
     a = std::move(next);
     error *= 1 - reflection * reflection;
-    const double criterion = samples * std::log(error) + 2.0 * static_cast<double>(p);
+    const double criterion = samples * std::log(error) + std::log(samples) * static_cast<double>(p);
     if (criterion < least) {
       least = criterion;
       best.coefficients = a;
