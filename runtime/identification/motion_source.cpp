@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 
@@ -125,6 +126,17 @@ MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
   return source;
 }
 
+/// About how many bytes of text a file holds; 0 if it cannot be read, which its reader will say.
+std::size_t bytes_of_text(const std::string& path) {
+  constexpr std::size_t kPacked = 4;  // times as much text as gzip, at least
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  if (error) return 0;
+  std::ifstream stream(path, std::ios::binary);
+  const bool packed = stream.get() == 0x1f && stream.get() == 0x8b;
+  return packed ? kPacked * bytes : bytes;
+}
+
 /// What the first part of a large file says of all of it.
 MotionSource stream_of_file(const std::string& path, MotionOptions options) {
   constexpr Index kFirstPart = 200000;
@@ -164,11 +176,7 @@ MotionSource motion_of(Recording recording, const MotionOptions& options) {
 }
 
 MotionSource motion_of_file(const std::string& path, const MotionOptions& options) {
-  std::error_code ignored;
-  const auto bytes = std::filesystem::file_size(path, ignored);
-  constexpr std::size_t kPacked = 4;  // a compressed file holds several times as much text
-  const std::size_t text = path.ends_with(".gz") ? kPacked * bytes : bytes;
-  if (!ignored && text > options.stream_above && options.state.method == StateMethod::kLowPass) {
+  if (bytes_of_text(path) > options.stream_above && options.state.method == StateMethod::kLowPass) {
     return stream_of_file(path, options);
   }
   RecordingCondition condition;
