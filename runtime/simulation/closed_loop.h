@@ -21,13 +21,13 @@ struct ClosedLoopOptions {
   /// The controller acts at every moment instead, for proofs; `rate` is that of the recording
   /// alone. Sensors must be exact then, and the delay 0.
   bool continuous = false;
-  double delay = 0;               ///< s, from a sample to its torque at the joints
-  double duration = 0;            ///< s; 0: as long as the trajectory
-  Eigen::VectorXd encoder_step;   ///< (n) rad or m, positions are rounded to it; empty or 0: exact
-  double velocity_cutoff_hz = 0;  ///< Hz, of VelocityFilter behind the encoder; 0: exact velocity
-  TorqueNoiseOptions torque_noise;  ///< of the recorded torque; the drive's has none
+  double delay = 0;                ///< s, from a sample to its torque at the joints
+  double duration = 0;             ///< s; 0: as long as the trajectory
+  Eigen::VectorXd encoder_step{};  ///< (n) rad or m, positions are rounded to it; empty or 0: exact
+  double velocity_cutoff_hz = 0;   ///< Hz, of VelocityFilter behind the encoder; 0: exact velocity
+  TorqueNoiseOptions torque_noise{};  ///< of the recorded torque; the drive's has none
   std::uint64_t seed = 1;
-  IntegrationOptions integration;
+  IntegrationOptions integration{};
 
   /// @throws std::invalid_argument  naming the option, what was found and what was expected
   void validate(int joints) const;

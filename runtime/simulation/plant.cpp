@@ -28,6 +28,13 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 constexpr double kEventTime = 1e-13;  ///< s
 
+constexpr double kWild = 1e5;  ///< rad, m, rad/s, m/s: no robot is there
+
+std::runtime_error runaway(double time) {
+  return std::runtime_error(fmt::format(
+      "the motion does not stay bounded after {:.6g} s: expected a stable controller", time));
+}
+
 double sign(double x) { return static_cast<double>((x > 0) - (x < 0)); }
 
 /// The dynamics while no joint changes between standing and sliding.
@@ -212,7 +219,7 @@ double Plant::State::try_step(const TorqueSource& torque, double longest, Values
     }
     if (!std::isfinite(h)) break;
   }
-  throw std::runtime_error(fmt::format("the motion does not stay finite after {:.6g} s", time));
+  throw runaway(time);
 }
 
 /// The smallest distance of all joints from their next event: velocity in the direction of
@@ -262,7 +269,7 @@ void Plant::State::locate(const TorqueSource& torque, double taken, const Values
   // positive.
   for (double h = taken / 2; h > kEventTime; h /= 2) {
     const double margin = margin_after(h);
-    if (margin > 0) {
+    if (margin >= 0) {
       early = h;
       early_margin = margin;
       break;
@@ -277,7 +284,7 @@ void Plant::State::locate(const TorqueSource& torque, double taken, const Values
     double h = (early * late_margin - late * early_margin) / (late_margin - early_margin);
     if (k % 4 == 3 || !(h > early && h < late)) h = (early + late) / 2;
     const double margin = margin_after(h);
-    if (margin > 0) {
+    if (margin >= 0) {
       early = h;
       early_margin = margin;
       if (side == -1) late_margin /= 2;
@@ -299,7 +306,7 @@ void Plant::State::take_event(const TorqueSource& torque, double at, const Value
   bool reversal = false;
   for (Index j = 0; j < regime.direction.size(); ++j) {
     double& dq = x[n + static_cast<std::size_t>(j)];
-    if (!regime.has_coulomb(j) || regime.stuck[j] || regime.direction[j] * dq > 0) continue;
+    if (!regime.has_coulomb(j) || regime.stuck[j] || regime.direction[j] * dq >= 0) continue;
     dq = 0;
     reversal = true;
   }
@@ -316,9 +323,8 @@ void Plant::State::advance(const TorqueSource& torque, double until) {
     const double taken = try_step(torque, left, after);
     ++counts.steps;
     const bool last = taken >= left;
-    if (!std::all_of(after.begin(), after.end(), [](double v) { return std::isfinite(v); })) {
-      throw std::runtime_error(fmt::format("the motion does not stay finite after {:.6g} s", time));
-    }
+    const auto wild = [](double v) { return !(std::abs(v) < kWild); };
+    if (std::any_of(after.begin(), after.end(), wild)) throw runaway(time);
     if (least_margin(torque, time + taken, after) >= 0) {
       pass(last ? until : time + taken, after);
       continue;

@@ -46,7 +46,8 @@ class Plant {
   Plant& operator=(Plant&&) noexcept;
 
   /// Moves on to the time `until`, s.
-  /// @throws std::runtime_error  if the motion does not stay finite, or events do not come to an
+  /// @throws std::runtime_error  if the motion does not stay below 1e5 (SI units), or events do not
+  /// come to an
   ///         end
   void advance(const TorqueSource& torque, double until);
 

@@ -8,9 +8,9 @@
 namespace dyngen::runtime {
 
 struct TorqueNoiseOptions {
-  Eigen::VectorXd deviation;   ///< (n) standard deviation, N m or N; empty: none
-  double coloured_part = 0.5;  ///< of the variance that is AR(1), 0 .. 1; the rest is white
-  double pole = 0.9;           ///< of the AR(1) part, per sample: 0 .. 1, not 1
+  Eigen::VectorXd deviation{};  ///< (n) standard deviation, N m or N; empty: none
+  double coloured_part = 0.5;   ///< of the variance that is AR(1), 0 .. 1; the rest is white
+  double pole = 0.9;            ///< of the AR(1) part, per sample: 0 .. 1, not 1
 
   /// @throws std::invalid_argument
   void validate(int joints) const;
