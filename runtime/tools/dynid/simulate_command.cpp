@@ -37,7 +37,8 @@ ControlLaw law_of(const std::string& name) {
   return ControlLaw::kComputedTorque;
 }
 
-/// Of the model's mass matrix.
+/// The diagonal of the plant's mass matrix: gains are tuned on the machine, whatever the model
+/// says.
 VectorXd inertia_at(const SimulatedRobot& robot, const VectorXd& q) {
   Eigen::MatrixXd M(robot.joints(), robot.joints());
   robot.plant.mass_matrix(q.data(), M.data());
@@ -52,20 +53,20 @@ VectorXd inertia_at(const SimulatedRobot& robot, const VectorXd& q) {
   return inertia;
 }
 
-ControllerOptions controller_options(const SimulateOptions& options, const SimulatedRobot& robot,
+ControllerOptions controller_options(const SimulateOptions& options, const SimulatedRobot& plant,
                                      const VectorXd& posture) {
   ControllerOptions result;
   result.law = law_of(options.controller);
   result.gains = result.law == ControlLaw::kComputedTorque
-                     ? acceleration_gains(robot.joints(), options.bandwidth, options.damping)
-                     : torque_gains(inertia_at(robot, posture), options.bandwidth, options.damping);
+                     ? acceleration_gains(plant.joints(), options.bandwidth, options.damping)
+                     : torque_gains(inertia_at(plant, posture), options.bandwidth, options.damping);
   const bool has_motion_model =
       result.law == ControlLaw::kFeedforward || result.law == ControlLaw::kComputedTorque;
   result.friction = options.friction == "on" || (options.friction == "auto" && has_motion_model);
   if (options.friction_velocity == "measured") {
     result.friction_velocity = FrictionVelocity::kMeasured;
   }
-  result.friction_band = per_joint("--friction-band", options.friction_band, robot.joints());
+  result.friction_band = per_joint("--friction-band", options.friction_band, plant.joints());
   return result;
 }
 
@@ -144,7 +145,7 @@ int run_simulate(const SimulateOptions& options) {
       options.saturate == "on"
           ? plant.torque_limit
           : VectorXd::Constant(plant.joints(), std::numeric_limits<double>::infinity());
-  ControllerOptions chosen = controller_options(options, model, trajectory.q.row(0));
+  ControllerOptions chosen = controller_options(options, plant, trajectory.q.row(0));
   chosen.torque_limit = limit;
   Controller controller(model.control, chosen);
   std::optional<StartState> start;
