@@ -90,9 +90,8 @@ void rates() {
   for (const char* name : {"puma3", "ur10e", "panda"}) {
     const StudyRobot study = study_robot(name);
     // computed torque with the true model; no Coulomb friction, which is compensated but for a band
-    const SimulatedRobot robot = runtime::read_simulated_robot(
-        file_without("tests/studies/robots/" + std::string(name) + ".robot", {"Fs"}),
-        RobotUse::kPlant);
+    const ChangedFile file("tests/studies/robots/" + std::string(name) + ".robot", {"Fs"});
+    const SimulatedRobot robot = runtime::read_simulated_robot(file.path(), RobotUse::kPlant);
     const auto trajectory = study_trajectory(study, 5);
     const auto error = [&](runtime::ClosedLoopOptions loop) {
       return tracking_error(robot, robot.control, ControlLaw::kComputedTorque, {}, trajectory,
@@ -166,10 +165,10 @@ void geared() {
   for (const bool with_gears : {true, false}) {
     const std::vector<std::string> dropped =
         with_gears ? std::vector<std::string>{} : std::vector<std::string>{"IA", "Fs", "Fv", "off"};
-    const std::string file = file_without("tests/studies/robots/puma3.robot", dropped);
-    const SimulatedRobot plant = runtime::read_simulated_robot(file, RobotUse::kPlant);
+    const ChangedFile file("tests/studies/robots/puma3.robot", dropped);
+    const SimulatedRobot plant = runtime::read_simulated_robot(file.path(), RobotUse::kPlant);
     const VectorXd inertia = mass_matrix_of(plant.plant, study.limits.centre).diagonal();
-    NumericRobot actuators = numeric_robot(build_model(read_robot_file(file)));
+    NumericRobot actuators = numeric_robot(build_model(read_robot_file(file.path())));
     for (NumericJoint& joint : actuators.joints) joint.inertial.fill(0);
     std::string row =
         with_gears ? "| geared (the file)" : "| direct drive (no rotors, no friction)";

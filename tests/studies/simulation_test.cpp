@@ -68,8 +68,9 @@ TEST(FreeSwing, KeepsItsEnergyForAMinute) {
   const std::vector<std::string> friction = {"Fs", "Fv", "off"};
   for (const char* file : {"robots/planar2r.robot", "tests/studies/robots/puma3.robot",
                            "tests/studies/robots/panda.robot"}) {
+    const ChangedFile frictionless(file, friction);
     const SimulatedRobot robot =
-        runtime::read_simulated_robot(file_without(file, friction), RobotUse::kPlant);
+        runtime::read_simulated_robot(frictionless.path(), RobotUse::kPlant);
     const NumericRobot judge = without_friction(numeric_robot(read_model(file)));
     const Index n = robot.joints();
     std::mt19937_64 random(7);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <stdexcept>
 
 #include "gen/tool/progress_line.h"
+#include "runtime/control/linearised_error.h"
 #include "runtime/recordings/trajectory_file.h"
 #include "runtime/recordings/writer.h"
 #include "runtime/simulation/closed_loop.h"
@@ -37,12 +39,16 @@ ControlLaw law_of(const std::string& name) {
   return ControlLaw::kComputedTorque;
 }
 
+Eigen::MatrixXd mass_matrix_of(const SimulatedRobot& robot, const VectorXd& q) {
+  Eigen::MatrixXd M(robot.joints(), robot.joints());
+  robot.plant.mass_matrix(q.data(), M.data());
+  return M;
+}
+
 /// The diagonal of the plant's mass matrix: gains are tuned on the machine, whatever the model
 /// says.
 VectorXd inertia_at(const SimulatedRobot& robot, const VectorXd& q) {
-  Eigen::MatrixXd M(robot.joints(), robot.joints());
-  robot.plant.mass_matrix(q.data(), M.data());
-  const VectorXd inertia = M.diagonal();
+  const VectorXd inertia = mass_matrix_of(robot, q).diagonal();
   for (Index j = 0; j < inertia.size(); ++j) {
     if (inertia[j] > 0) continue;
     throw std::invalid_argument(
@@ -106,6 +112,17 @@ std::string conditions(const SimulateOptions& options, const Controller& control
   return text;
 }
 
+/// What computed torque survives, and how wrong the model is where the motion begins.
+std::string robustness(const Controller& controller, const SimulatedRobot& model,
+                       const SimulatedRobot& plant, const VectorXd& q) {
+  const SurvivedError bound = largest_survived_error(controller.options().gains);
+  const Eigen::MatrixXd E = inertia_error(mass_matrix_of(plant, q), mass_matrix_of(model, q));
+  return fmt::format(
+      "stable for every inertia error ||M^-1 M_model - I|| below {:.3g}; this model's is {:.3g} "
+      "where the motion begins\n",
+      bound.norm, Eigen::JacobiSVD<Eigen::MatrixXd>(E).singularValues()[0]);
+}
+
 std::string table(const SimulatedRobot& plant, const ClosedLoopRun& run, const VectorXd& limit) {
   const Tracking tracking = tracking_of(run);
   std::string text =
@@ -167,8 +184,11 @@ int run_simulate(const SimulateOptions& options) {
   progress.clear();
   write_recording(run.measured, options.output);
   if (!options.truth.empty()) write_recording(run.truth, options.truth);
-  std::cout << conditions(options, controller, plant, run) << table(plant, run, limit)
-            << "\nwritten: " << options.output
+  std::cout << conditions(options, controller, plant, run)
+            << (chosen.law == ControlLaw::kComputedTorque
+                    ? robustness(controller, model, plant, trajectory.q.row(0))
+                    : "")
+            << table(plant, run, limit) << "\nwritten: " << options.output
             << (options.truth.empty() ? "" : ", " + options.truth) << "\n";
   return kDone;
 }
