@@ -36,8 +36,8 @@ std::string in_project(const std::string& path) {
   return std::string(DYNGEN_SOURCE_DIR) + "/" + path;
 }
 
-runtime::Trajectory study_trajectory(const StudyRobot& robot, double seconds) {
-  const FourierMotion motion = random_motion(robot.limits, 0.1, {1, 2, 3, 5}, 10, kSeed);
+runtime::Trajectory study_trajectory(const MotionLimits& limits, double seconds) {
+  const FourierMotion motion = random_motion(limits, 0.1, {1, 2, 3, 5}, 10, kSeed);
   const double step = 1e-3;
   const Index samples = 1 + std::lround(seconds / step), n = motion.centre.size();
   runtime::Trajectory trajectory;
@@ -92,7 +92,7 @@ void rates() {
     // computed torque with the true model; no Coulomb friction, which is compensated but for a band
     const ChangedFile file("tests/studies/robots/" + std::string(name) + ".robot", {"Fs"});
     const SimulatedRobot robot = runtime::read_simulated_robot(file.path(), RobotUse::kPlant);
-    const auto trajectory = study_trajectory(study, 5);
+    const auto trajectory = study_trajectory(study.limits, 5);
     const auto error = [&](runtime::ClosedLoopOptions loop) {
       return tracking_error(robot, robot.control, ControlLaw::kComputedTorque, {}, trajectory,
                             loop);
@@ -131,7 +131,7 @@ void errors() {
     const std::string file = "tests/studies/robots/" + std::string(name) + ".robot";
     const SimulatedRobot plant = runtime::read_simulated_robot(in_project(file), RobotUse::kPlant);
     const NumericRobot truth = numeric_robot(read_model(file));
-    const auto trajectory = study_trajectory(study, 10);
+    const auto trajectory = study_trajectory(study.limits, 10);
     const VectorXd inertia = mass_matrix_of(plant.plant, study.limits.centre).diagonal();
     std::printf(
         "\n%s, rms tracking error in mrad, median of %d models (seed %u)\n\n"
@@ -156,38 +156,50 @@ void errors() {
   }
 }
 
+/// What a feedforward of single joints knows: a constant inertia of each joint, and gravity.
+runtime::ControlModel joint_by_joint(runtime::ControlModel model, const VectorXd& inertia) {
+  model.rigid = [gravity = model.gravity, inertia](const double* q, const double*,
+                                                   const double* ddq, double* tau) {
+    gravity(q, tau);
+    for (Index j = 0; j < inertia.size(); ++j) tau[j] += inertia[j] * ddq[j];
+  };
+  return model;
+}
+
+MotionLimits puma_limits() {
+  const auto six = [](double a, double b, double c, double d, double e, double f) {
+    return (VectorXd(6) << a, b, c, d, e, f).finished();
+  };
+  return {six(0, -0.8, 0.5, 0, 0.5, 0), six(1.8, 1.2, 1.4, 2, 1.5, 2),
+          six(1.4, 1.0, 1.6, 2.5, 2.5, 2.5), six(4, 3, 5, 8, 8, 8)};
+}
+
 void geared() {
   std::printf(
-      "\n| Puma, 3 joints | pd | pd + gravity | ff | ff, inertia of the links left out | ct "
+      "\n| Puma 560 | pd | pd + gravity | ff, joint by joint | ff | ct "
       "|\n|---|---|---|---|---|---|\n");
-  const StudyRobot study = study_robot("puma3");
-  const auto trajectory = study_trajectory(study, 10);
-  for (const bool with_gears : {true, false}) {
-    const std::vector<std::string> dropped =
-        with_gears ? std::vector<std::string>{} : std::vector<std::string>{"IA", "Fs", "Fv", "off"};
-    const ChangedFile file("tests/studies/robots/puma3.robot", dropped);
+  struct Variant {
+    const char* name;
+    std::vector<std::string> left_out;
+  };
+  const std::vector<Variant> variants = {{"geared (the file)", {}},
+                                         {"rotors, no friction", {"Fs", "Fv", "off"}},
+                                         {"direct drive: neither", {"Fs", "Fv", "off", "IA"}}};
+  const MotionLimits limits = puma_limits();
+  const auto trajectory = study_trajectory(limits, 10);
+  for (const Variant& variant : variants) {
+    const ChangedFile file("robots/puma560.robot", variant.left_out);
     const SimulatedRobot plant = runtime::read_simulated_robot(file.path(), RobotUse::kPlant);
-    const VectorXd inertia = mass_matrix_of(plant.plant, study.limits.centre).diagonal();
-    NumericRobot actuators = numeric_robot(build_model(read_robot_file(file.path())));
-    for (NumericJoint& joint : actuators.joints) joint.inertial.fill(0);
-    std::string row =
-        with_gears ? "| geared (the file)" : "| direct drive (no rotors, no friction)";
+    const VectorXd inertia = mass_matrix_of(plant.plant, limits.centre).diagonal();
+    std::string row = fmt::format("| {}", variant.name);
     const auto add = [&](ControlLaw law, const runtime::ControlModel& model) {
-      row += fmt::format(" | {:.3f}", 1000 * tracking_error(plant, model, law, inertia, trajectory,
-                                                            usual_loop(3)));
+      row += fmt::format(" | {:.2f}", 1000 * tracking_error(plant, model, law, inertia, trajectory,
+                                                            usual_loop(plant.joints())));
     };
     add(ControlLaw::kPd, plant.control);
     add(ControlLaw::kGravity, plant.control);
+    add(ControlLaw::kFeedforward, joint_by_joint(plant.control, inertia));
     add(ControlLaw::kFeedforward, plant.control);
-    // what a drive's own feedforward knows: its rotor and its friction, and the arm's gravity
-    runtime::ControlModel drive = numeric_control(actuators);
-    drive.rigid = [rotor = drive.rigid, gravity = plant.control.gravity, left = VectorXd(3)](
-                      const double* q, const double* dq, const double* ddq, double* tau) mutable {
-      rotor(q, dq, ddq, tau);
-      gravity(q, left.data());
-      for (int j = 0; j < 3; ++j) tau[j] += left[j];
-    };
-    add(ControlLaw::kFeedforward, drive);
     add(ControlLaw::kComputedTorque, plant.control);
     std::printf("%s |\n", row.c_str());
   }
