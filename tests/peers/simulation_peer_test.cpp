@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <numbers>
 
 #include "runtime/simulation/closed_loop.h"
 #include "tests/peers/mujoco_model.h"
@@ -29,7 +30,7 @@ runtime::Trajectory cosines(Index joints, double seconds) {
   for (Index k = 0; k < samples; ++k) {
     const double t = trajectory.time[k] = static_cast<double>(k) * step;
     for (Index j = 0; j < joints; ++j) {
-      const double w = 2 * M_PI * 0.4 * (1 + 0.2 * static_cast<double>(j));
+      const double w = 2 * std::numbers::pi * 0.4 * (1 + 0.2 * static_cast<double>(j));
       trajectory.q(k, j) = 0.6 * (1 - std::cos(w * t));
       trajectory.dq(k, j) = 0.6 * w * std::sin(w * t);
       trajectory.ddq(k, j) = 0.6 * w * w * std::cos(w * t);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <numbers>
 #include <random>
 
 #include "runtime/simulation/closed_loop.h"
@@ -26,7 +27,7 @@ class Sarcos : public testing::Test {
 
 TEST_F(Sarcos, PlantHasTheIdentifiedGravityAndCanMove) {
   std::mt19937_64 random(20261121);
-  std::uniform_real_distribution<double> angle(-M_PI, M_PI);
+  std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi);
   double least = 1e9;
   for (int k = 0; k < 2000; ++k) {
     const VectorXd q = VectorXd::NullaryExpr(7, [&] { return angle(random); });

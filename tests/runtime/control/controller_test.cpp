@@ -9,6 +9,7 @@
 
 #include "puma560.h"
 #include "runtime/control/velocity_filter.h"
+#include "runtime/recordings/trajectory_file.h"
 #include "tests/runtime/recursive/allocation_count.h"
 
 namespace dyngen::runtime {
@@ -193,8 +194,13 @@ TEST(Controller, StepsWithoutAllocation) {
     all.torque_limit = VectorXd::Constant(kJoints, 50);
     Controller controller(control_model(puma()), all);
     VelocityFilter filter({}, s.q, s.dq);
+    const Trajectory trajectory{Eigen::Vector2d(0, 1), Eigen::MatrixXd::Zero(2, kJoints),
+                                Eigen::MatrixXd::Zero(2, kJoints),
+                                Eigen::MatrixXd::Zero(2, kJoints)};
+    VectorXd q(kJoints), dq(kJoints), ddq(kJoints);
     const long before = test::allocation_count();
     for (int k = 0; k < 1000; ++k) {
+      motion_at(trajectory, 1e-3 * k, q.data(), dq.data(), ddq.data());
       filter.update(s.q_ref.data());
       controller.step(s.input(), tau.data());
     }

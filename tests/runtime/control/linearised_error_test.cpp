@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <random>
 
 namespace dyngen::runtime {
@@ -52,7 +53,7 @@ TEST(InertiaError, IsZeroForTheTrueModelAndScales) {
 
 TEST(ErrorEigenvalues, AreThoseOfOscillatorsWithTheTrueModel) {
   const Gains gains = acceleration_gains(2, 1, 0.5);
-  const double w = 2 * M_PI;
+  const double w = 2 * std::numbers::pi;
   for (const std::complex<double>& s : error_eigenvalues(gains, MatrixXd::Zero(2, 2))) {
     EXPECT_NEAR(s.real(), -w / 2, 1e-6);
     EXPECT_NEAR(std::abs(s.imag()), w * std::sqrt(0.75), 1e-6);
@@ -122,7 +123,7 @@ TEST(LargestSurvivedError, CriticalDampingSurvives87PerCent) {
   // |T| = |(2 w s + w^2) / (s + w)^2| is largest at s = i w / sqrt(2): 2 / sqrt(3)
   const SurvivedError bound = largest_survived_error(acceleration_gains(3, 5, 1));
   EXPECT_NEAR(bound.norm, std::sqrt(3) / 2, 1e-12);
-  EXPECT_NEAR(bound.speed, 10 * M_PI / std::sqrt(2), 1e-9);
+  EXPECT_NEAR(bound.speed, 10 * std::numbers::pi / std::sqrt(2), 1e-9);
 }
 
 TEST(GuaranteedDecay, IsNeverViolated) {
@@ -144,8 +145,8 @@ TEST(GuaranteedDecay, IsNeverViolated) {
 
 TEST(GuaranteedDecay, IsTheSlowestRootWithoutError) {
   // a double root of the square: half of the digits
-  EXPECT_NEAR(guaranteed_decay(acceleration_gains(2, 1, 0.5), 0), M_PI, 1e-6);
-  const double w = 2 * M_PI;
+  EXPECT_NEAR(guaranteed_decay(acceleration_gains(2, 1, 0.5), 0), std::numbers::pi, 1e-6);
+  const double w = 2 * std::numbers::pi;
   EXPECT_NEAR(guaranteed_decay(acceleration_gains(2, 1, 2), 0), w * (2 - std::sqrt(3)), 1e-6);
   EXPECT_EQ(guaranteed_decay(acceleration_gains(2, 1, 1), 0.9), 0);
   EXPECT_THROW(guaranteed_decay(acceleration_gains(2, 1, 1), -1), std::invalid_argument);

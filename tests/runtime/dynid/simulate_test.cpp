@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "runtime/recordings/reader.h"
@@ -63,7 +64,8 @@ class Simulate : public testing::Test {
     for (auto* part : {&trajectory.q, &trajectory.dq, &trajectory.ddq}) part->resize(samples, 3);
     for (Index k = 0; k < samples; ++k) {
       for (Index j = 0; j < 3; ++j) {
-        const double w = 2 * M_PI * (0.4 + 0.13 * static_cast<double>(j)), t = trajectory.time[k];
+        const double w = 2 * std::numbers::pi * (0.4 + 0.13 * static_cast<double>(j)),
+                     t = trajectory.time[k];
         trajectory.q(k, j) = 0.7 * (1 - std::cos(w * t));
         trajectory.dq(k, j) = 0.7 * w * std::sin(w * t);
         trajectory.ddq(k, j) = 0.7 * w * w * std::cos(w * t);

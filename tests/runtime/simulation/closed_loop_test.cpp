@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "tests/runtime/simulation/simulated_arms.h"
@@ -59,7 +60,7 @@ TEST(ClosedLoop, AStartAsideDecaysAsTheGainsSay) {
   const ClosedLoopRun run =
       simulate(test::numeric_plant(robot), controller, test::constant_trajectory(goal, 1), options,
                StartState{VectorXd::Zero(3), VectorXd::Zero(3)});
-  const double w = 6 * M_PI;
+  const double w = 6 * std::numbers::pi;
   for (Index k = 0; k < run.truth.samples(); k += 50) {
     const double t = run.truth.time[k];
     const double left = (1 + w * t) * std::exp(-w * t);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "tests/runtime/simulation/simulated_arms.h"
@@ -87,17 +88,17 @@ TEST(Plant, ADrivenMassSticksAndSlides) {
   Plant plant = slide(0, 0);
   plant.advance(
       [](double t, const double*, const double*, double* tau) { tau[0] = 4 * std::sin(t); },
-      2 * M_PI);
+      2 * std::numbers::pi);
   EXPECT_EQ(plant.counts().releases, 2);
   EXPECT_EQ(plant.counts().reversals, 2);
   const double first = std::asin(0.75);
   // v(t) = (4 (cos(first) - cos(t)) - 3 (t - first)) / 2 is zero again at `stop`
-  double low = first + 0.5, high = M_PI;
+  double low = first + 0.5, high = std::numbers::pi;
   for (int k = 0; k < 60; ++k) {
     const double t = (low + high) / 2;
     (4 * (std::cos(first) - std::cos(t)) - 3 * (t - first) > 0 ? low : high) = t;
   }
-  EXPECT_NEAR(plant.stuck_time()[0], 2 * M_PI - 2 * (low - first), 1e-7);
+  EXPECT_NEAR(plant.stuck_time()[0], 2 * std::numbers::pi - 2 * (low - first), 1e-7);
   EXPECT_NEAR(plant.q()[0], 0, 1e-9);  // as far back as it went
 }
 
@@ -110,7 +111,7 @@ TEST(Plant, SeveralJointsStopAndStay) {
   const VectorXd before = plant.q();
   plant.advance(none(3), 40);
   EXPECT_EQ(plant.q(), before);  // what holds it is friction: it does not hang straight down
-  EXPECT_GT((before - Eigen::Vector3d(-M_PI / 2, 0, 0)).norm(), 1e-3);
+  EXPECT_GT((before - Eigen::Vector3d(-std::numbers::pi / 2, 0, 0)).norm(), 1e-3);
 }
 
 TEST(Plant, FrictionTakesAsMuchEnergyAsItsWork) {

@@ -2,6 +2,7 @@
 #include "tests/runtime/simulation/simulated_arms.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace dyngen::test {
 
@@ -47,7 +48,7 @@ runtime::Trajectory cosine_trajectory(Index joints, double seconds, double ampli
   for (Index k = 0; k < samples; ++k) {
     const double t = trajectory.time[k] = static_cast<double>(k) * step;
     for (Index j = 0; j < joints; ++j) {
-      const double w = 2 * M_PI * hz * (1 + 0.3 * static_cast<double>(j));
+      const double w = 2 * std::numbers::pi * hz * (1 + 0.3 * static_cast<double>(j));
       trajectory.q(k, j) = amplitude * (1 - std::cos(w * t));
       trajectory.dq(k, j) = amplitude * w * std::sin(w * t);
       trajectory.ddq(k, j) = amplitude * w * w * std::cos(w * t);
