@@ -16,5 +16,6 @@ int run_fit(const ToolOptions& options, ProcessGroup& group);
 int run_check(const ToolOptions& options);
 int run_accumulate(const ToolOptions& options);
 int run_merge(const ToolOptions& options);
+int run_simulate(const SimulateOptions& options);
 
 }  // namespace dyngen::runtime

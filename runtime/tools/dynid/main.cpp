@@ -27,6 +27,12 @@ int run(const ToolOptions& options, ProcessGroup& group) {
       return run_accumulate(options);
     case Command::kMerge:
       return run_merge(options);
+    case Command::kSimulate:
+#ifdef DYNGEN_WITH_SIMULATION
+      return run_simulate(options.simulate);
+#else
+      throw std::invalid_argument("simulate is left out of this dynid (it needs libboost-dev)");
+#endif
   }
   return kUsage;
 }

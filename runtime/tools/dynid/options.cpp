@@ -180,6 +180,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   tool.require_subcommand(1);
   add_fit(tool, parsed.options, words);
   add_others(tool, parsed.options, words);
+  add_simulate(tool, parsed.options.simulate);
   try {
     tool.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -196,8 +197,10 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   const std::map<std::string, Command> commands = {{"fit", Command::kFit},
                                                    {"check", Command::kCheck},
                                                    {"accumulate", Command::kAccumulate},
-                                                   {"merge", Command::kMerge}};
+                                                   {"merge", Command::kMerge},
+                                                   {"simulate", Command::kSimulate}};
   parsed.options.command = commands.at(name);
+  if (parsed.options.command == Command::kSimulate) return parsed;
   const std::string message = understand(words, parsed.options);
   if (!message.empty()) parsed.exit_code = usage(message);
   return parsed;

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "gen/tool/progress_line.h"
+#include "runtime/control/linearised_error.h"
+#include "runtime/recordings/trajectory_file.h"
+#include "runtime/recordings/writer.h"
+#include "runtime/simulation/closed_loop.h"
+#include "runtime/tools/dynid/commands.h"
+#include "runtime/tools/dynid/simulated_robot.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// One value for all joints, or one a joint.
+VectorXd per_joint(const char* option, const std::vector<double>& values, int joints) {
+  if (values.size() == 1) return VectorXd::Constant(joints, values[0]);
+  if (values.size() != static_cast<std::size_t>(joints)) {
+    throw std::invalid_argument(fmt::format("{}: found {} values, expected 1 or {}, one a joint",
+                                            option, values.size(), joints));
+  }
+  return Eigen::Map<const VectorXd>(values.data(), joints);
+}
+
+ControlLaw law_of(const std::string& name) {
+  for (const ControlLaw law : {ControlLaw::kPd, ControlLaw::kGravity, ControlLaw::kFeedforward}) {
+    if (law_name(law) == name) return law;
+  }
+  return ControlLaw::kComputedTorque;
+}
+
+Eigen::MatrixXd mass_matrix_of(const SimulatedRobot& robot, const VectorXd& q) {
+  Eigen::MatrixXd M(robot.joints(), robot.joints());
+  robot.plant.mass_matrix(q.data(), M.data());
+  return M;
+}
+
+/// The diagonal of the plant's mass matrix: gains are tuned on the machine, whatever the model
+/// says.
+VectorXd inertia_at(const SimulatedRobot& robot, const VectorXd& q) {
+  const VectorXd inertia = mass_matrix_of(robot, q).diagonal();
+  for (Index j = 0; j < inertia.size(); ++j) {
+    if (inertia[j] > 0) continue;
+    throw std::invalid_argument(
+        fmt::format("{}: the inertia about joint {} is {}, expected a positive one: gains of pd, "
+                    "gravity and ff come from it",
+                    robot.name, j + 1, inertia[j]));
+  }
+  return inertia;
+}
+
+ControllerOptions controller_options(const SimulateOptions& options, const SimulatedRobot& plant,
+                                     const VectorXd& posture) {
+  ControllerOptions result;
+  result.law = law_of(options.controller);
+  result.gains = result.law == ControlLaw::kComputedTorque
+                     ? acceleration_gains(plant.joints(), options.bandwidth, options.damping)
+                     : torque_gains(inertia_at(plant, posture), options.bandwidth, options.damping);
+  const bool has_motion_model =
+      result.law == ControlLaw::kFeedforward || result.law == ControlLaw::kComputedTorque;
+  result.friction = options.friction == "on" || (options.friction == "auto" && has_motion_model);
+  if (options.friction_velocity == "measured") {
+    result.friction_velocity = FrictionVelocity::kMeasured;
+  }
+  result.friction_band = per_joint("--friction-band", options.friction_band, plant.joints());
+  return result;
+}
+
+ClosedLoopOptions loop_options(const SimulateOptions& options, int joints) {
+  ClosedLoopOptions loop;
+  loop.continuous = options.rate == 0;
+  loop.rate = loop.continuous ? SimulateOptions::kContinuousRecordRate : options.rate;
+  loop.delay = options.delay;
+  loop.duration = options.duration;
+  loop.encoder_step = per_joint("--encoder", options.encoder, joints);
+  loop.velocity_cutoff_hz = options.velocity_cutoff;
+  loop.torque_noise.deviation = per_joint("--torque-noise", options.torque_noise, joints);
+  loop.seed = options.seed;
+  loop.integration.tolerance = options.tolerance;
+  return loop;
+}
+
+void check_joints(const std::string& what, int found, const SimulatedRobot& robot) {
+  if (found == robot.joints()) return;
+  throw std::invalid_argument(
+      fmt::format("{} has {} joints, {} has {}", what, found, robot.name, robot.joints()));
+}
+
+std::string conditions(const SimulateOptions& options, const Controller& controller,
+                       const SimulatedRobot& plant, const ClosedLoopRun& run) {
+  const Index samples = run.measured.samples();
+  std::string text = fmt::format(
+      "{}: {} joints, controller {}, bandwidth {:.6g} Hz, damping {:.6g}, {}\n", plant.name,
+      plant.joints(), options.controller, options.bandwidth, options.damping,
+      options.rate > 0 ? fmt::format("{:.6g} Hz", options.rate) : "continuous");
+  text += fmt::format("friction compensation {}, delay {:.6g} s, seed {}\n",
+                      controller.options().friction ? "on" : "off", options.delay, options.seed);
+  text += fmt::format(
+      "{} samples, {:.6g} s; {} integration steps, {} reversals and {} releases located\n", samples,
+      run.measured.time[samples - 1] - run.measured.time[0], run.counts.steps, run.counts.reversals,
+      run.counts.releases);
+  return text;
+}
+
+/// What computed torque survives, and how wrong the model is where the motion begins.
+std::string robustness(const Controller& controller, const SimulatedRobot& model,
+                       const SimulatedRobot& plant, const VectorXd& q) {
+  const SurvivedError bound = largest_survived_error(controller.options().gains);
+  const Eigen::MatrixXd E = inertia_error(mass_matrix_of(plant, q), mass_matrix_of(model, q));
+  return fmt::format(
+      "stable for every inertia error ||M^-1 M_model - I|| below {:.3g}; this model's is {:.3g} "
+      "where the motion begins\n",
+      bound.norm, Eigen::JacobiSVD<Eigen::MatrixXd>(E).singularValues()[0]);
+}
+
+std::string table(const SimulatedRobot& plant, const ClosedLoopRun& run, const VectorXd& limit) {
+  const Tracking tracking = tracking_of(run);
+  std::string text =
+      fmt::format("\n{:<16}{:>12}{:>12}{:>4}{:>13}{:>11}{:>4}{:>11}{:>8}\n", "joint", "rms error",
+                  "worst", "", "peak torque", "limit", "", "saturated", "stuck");
+  for (Index j = 0; j < plant.joints(); ++j) {
+    const bool revolute = plant.revolute[static_cast<std::size_t>(j)];
+    text += fmt::format(
+        "{:<16}{:>12.4g}{:>12.4g} {:<3}{:>13.5g}{:>11} {:<3}{:>9.1f} %{:>6.1f} %\n",
+        fmt::format("{} {}", j + 1, plant.joint_names[static_cast<std::size_t>(j)]).substr(0, 15),
+        tracking.rms[j], tracking.worst[j], revolute ? "rad" : "m", run.largest_torque[j],
+        std::isfinite(limit[j]) ? fmt::format("{:.5g}", limit[j]) : "none", revolute ? "N m" : "N",
+        100 * run.saturated_share[j], 100 * run.stuck_share[j]);
+  }
+  return text;
+}
+
+}  // namespace
+
+int run_simulate(const SimulateOptions& options) {
+  ProgressLine progress("dynid");
+  std::vector<Notice> repairs;
+  const Trajectory trajectory = read_trajectory(options.trajectory, &repairs);
+  for (const Notice& notice : repairs) std::cerr << notice.text() << "\n";
+  progress.show("equations of " + options.robot, 0, 1);
+  const bool same = options.plant.empty();
+  const SimulatedRobot model =
+      read_simulated_robot(options.robot, same ? RobotUse::kPlant : RobotUse::kController);
+  if (!same) progress.show("equations of " + options.plant, 0, 1);
+  const SimulatedRobot plant = same ? model : read_simulated_robot(options.plant, RobotUse::kPlant);
+  for (const std::string& warning : model.warnings) std::cerr << warning << "\n";
+  check_joints(options.trajectory, trajectory.joints(), model);
+  check_joints("the plant " + plant.name, plant.joints(), model);
+
+  // limits are the drive's: of the plant's file
+  const VectorXd limit =
+      options.saturate == "on"
+          ? plant.torque_limit
+          : VectorXd::Constant(plant.joints(), std::numeric_limits<double>::infinity());
+  ControllerOptions chosen = controller_options(options, plant, trajectory.q.row(0));
+  chosen.torque_limit = limit;
+  Controller controller(model.control, chosen);
+  std::optional<StartState> start;
+  if (!options.start.empty()) {
+    start = StartState{per_joint("--start", options.start, plant.joints()),
+                       VectorXd::Zero(plant.joints())};
+  }
+  ClosedLoopRun run;
+  try {
+    run = simulate(plant.plant, controller, trajectory, loop_options(options, plant.joints()),
+                   start, [&](double share) {
+                     progress.show("simulation", static_cast<std::size_t>(1000 * share), 1000);
+                   });
+  } catch (const std::runtime_error& error) {
+    progress.clear();
+    std::cerr << "dynid: " << error.what() << "\n";
+    return kCannotAnswer;
+  }
+  progress.clear();
+  write_recording(run.measured, options.output);
+  if (!options.truth.empty()) write_recording(run.truth, options.truth);
+  std::cout << conditions(options, controller, plant, run)
+            << (chosen.law == ControlLaw::kComputedTorque
+                    ? robustness(controller, model, plant, trajectory.q.row(0))
+                    : "")
+            << table(plant, run, limit) << "\nwritten: " << options.output
+            << (options.truth.empty() ? "" : ", " + options.truth) << "\n";
+  return kDone;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "gen/program/evaluator.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "gen/generator/generator.h"
+#include "tests/support/model_bridge.h"
+
+namespace dyngen::test {
+namespace {
+
+Program program_of(const std::string& function) {
+  GeneratorOptions options;
+  options.functions = {function};
+  CodeModel code = make_code_model(read_model("robots/puma560.robot"), with_short_search(options));
+  return lower(write_functions(code, with_short_search(options)).front().trace);
+}
+
+TEST(ProgramEvaluator, RoundsAsTheEvaluationOfManySamples) {
+  const Program program = program_of("id");
+  ProgramEvaluator evaluator(program, {"q", "dq", "ddq"}, "tau");
+  ProgramEvaluator copy = evaluator;
+  for (const MotionSample& sample : random_samples(6, 20, 1)) {
+    std::vector<double> batch(6), single(6), copied(6);
+    evaluate(program, 1, {{"q", sample.q}, {"dq", sample.dq}, {"ddq", sample.ddq}},
+             {{"tau", batch}});
+    evaluator.run({sample.q.data(), sample.dq.data(), sample.ddq.data()}, single.data());
+    copy.run({sample.q.data(), sample.dq.data(), sample.ddq.data()}, copied.data());
+    EXPECT_EQ(single, batch);
+    EXPECT_EQ(copied, batch);
+  }
+}
+
+TEST(ProgramEvaluator, RefusesArraysThatItDoesNotKnow) {
+  const Program program = program_of("id");
+  EXPECT_THROW(ProgramEvaluator(program, {"q", "dq"}, "tau"), std::invalid_argument);
+  EXPECT_THROW(ProgramEvaluator(program, {"q", "dq", "ddq"}, "M"), std::invalid_argument);
+  EXPECT_NO_THROW(ProgramEvaluator(program, {"chi", "q", "dq", "ddq"}, "tau"));
+}
+
+}  // namespace
+}  // namespace dyngen::test
