@@ -68,7 +68,7 @@ class HeaderReader {
   HeaderReader(std::string_view line, std::size_t line_number, NoticeLog& log)
       : line_(line), line_number_(line_number), log_(&log) {}
 
-  Columns read(int joints);
+  Columns read(int joints, bool torque_required);
 
  private:
   [[noreturn]] void fail(std::size_t column, const std::string& message) const {
@@ -175,29 +175,30 @@ void HeaderReader::place(Kind kind, int& next) {
   for (const auto& [number, place] : group(kind).fields) columns_.target[place] = next++;
 }
 
-Columns HeaderReader::read(int joints) {
+Columns HeaderReader::read(int joints, bool torque_required) {
   columns_.header_line = line_number_;
   choose_separator();
   sort_out_names();
 
-  const std::string example = "expected a header such as 'time,q1,q2,tau1,tau2'";
+  const std::string example =
+      fmt::format("expected a header such as 'time,q1,q2{}'", torque_required ? ",tau1,tau2" : "");
   if (group(Kind::kTime).fields.empty()) {
     fail(fields_.empty() ? 1 : fields_.front().column,
          fmt::format("found no column 'time' in {}, {}", quoted(trimmed(line_)), example));
   }
   for (const auto& [kind, word] : {std::pair{Kind::kQ, "q"}, std::pair{Kind::kTau, "tau"}}) {
-    if (group(kind).fields.empty()) {
+    if (group(kind).fields.empty() && (kind == Kind::kQ || torque_required)) {
       fail(fields_.back().column, fmt::format("found no column '{}1', {}", word, example));
     }
   }
   check_group(Kind::kQ, "q", joints);
   columns_.joints = group(Kind::kQ).count();
-  check_group(Kind::kTau, "tau", columns_.joints);
   const auto recorded = [&](Kind kind, std::string_view word) {
     const bool there = !group(kind).fields.empty();
     if (there) check_group(kind, word, columns_.joints);
     return there;
   };
+  columns_.tau = recorded(Kind::kTau, "tau");
   columns_.dq = recorded(Kind::kDq, "qd");
   columns_.ddq = recorded(Kind::kDdq, "qdd");
   columns_.tau_sim = recorded(Kind::kTauSim, "tausim");
@@ -220,7 +221,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t'; }
 }  // namespace
 
 std::size_t Columns::width() const {
-  const int groups = 2 + (dq ? 1 : 0) + (ddq ? 1 : 0) + (tau_sim ? 1 : 0);
+  const int groups = 1 + (tau ? 1 : 0) + (dq ? 1 : 0) + (ddq ? 1 : 0) + (tau_sim ? 1 : 0);
   return static_cast<std::size_t>(1 + groups * joints + temperatures);
 }
 
@@ -274,8 +275,9 @@ bool looks_like_header(std::string_view line) {
   return false;
 }
 
-Columns read_header(std::string_view line, std::size_t line_number, int joints, NoticeLog& log) {
-  return HeaderReader(line, line_number, log).read(joints);
+Columns read_header(std::string_view line, std::size_t line_number, int joints,
+                    bool torque_required, NoticeLog& log) {
+  return HeaderReader(line, line_number, log).read(joints, torque_required);
 }
 
 }  // namespace dyngen::runtime

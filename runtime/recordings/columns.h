@@ -20,7 +20,7 @@ struct Separator {
 /// What the header says: which field of a line goes where.
 ///
 /// The values of a sample stand in one order whatever the file's: time, q, tau, dq, ddq, tau_sim,
-/// temperature; dq, ddq, tau_sim only if recorded.
+/// temperature; tau (of a trajectory), dq, ddq, tau_sim only if recorded.
 struct Columns {
   static constexpr int kIgnored = -1;
   static constexpr int kSegment = -2;
@@ -29,7 +29,7 @@ struct Columns {
   std::vector<int> target;         ///< per field: place among the values, kIgnored or kSegment
   std::vector<std::string> names;  ///< per field, as in the file
   int joints = 0;
-  bool dq = false, ddq = false, tau_sim = false;
+  bool tau = false, dq = false, ddq = false, tau_sim = false;
   int temperatures = 0;
   std::size_t header_line = 0;
 
@@ -54,9 +54,11 @@ bool looks_like_header(std::string_view line);
 
 /// Reads the header.
 ///
-/// @param joints  how many are expected; 0: as many as there are
+/// @param joints           how many are expected; 0: as many as there are
+/// @param torque_required  false: a trajectory, which needs no tau
 /// @throws RecordingError, with line and column of the word: a column is missing, stands twice, or
 ///         the numbering has a gap
-Columns read_header(std::string_view line, std::size_t line_number, int joints, NoticeLog& log);
+Columns read_header(std::string_view line, std::size_t line_number, int joints,
+                    bool torque_required, NoticeLog& log);
 
 }  // namespace dyngen::runtime

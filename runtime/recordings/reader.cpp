@@ -23,7 +23,7 @@ namespace {
 class RowSource {
  public:
   RowSource(ByteSource source, const ReadOptions& options, NoticeLog& log)
-      : log_(&log), lines_(std::move(source), log), columns_(find_header(options.joints)) {
+      : log_(&log), lines_(std::move(source), log), columns_(find_header(options)) {
     parser_.emplace(columns_, log);
   }
 
@@ -79,11 +79,13 @@ class RowSource {
     }
   }
 
-  Columns find_header(int joints) {
+  Columns find_header(const ReadOptions& options) {
     if (!next_line()) {
       throw recording_error(log_->file(), line_.number, 1,
-                            line_.number == 0 ? "found an empty file, expected a recording"
-                                              : "found no header, expected 'time,q1,...,tau1,...'");
+                            line_.number == 0
+                                ? "found an empty file, expected a recording"
+                                : fmt::format("found no header, expected 'time,q1,...{}'",
+                                              options.torque_required ? ",tau1,..." : ""));
     }
     header_found_ = true;
     const std::string_view text = trimmed(line_.text);
@@ -91,9 +93,9 @@ class RowSource {
     if (!comment_.empty() && kNumberBegins.find(text.front()) != kNumberBegins.npos) {
       log_->add_once("comment header", comment_line_, 1, "the header is a comment; accepted");
       held_back_ = true;
-      return read_header(comment_, comment_line_, joints, *log_);
+      return read_header(comment_, comment_line_, options.joints, options.torque_required, *log_);
     }
-    return read_header(line_.text, line_.number, joints, *log_);
+    return read_header(line_.text, line_.number, options.joints, options.torque_required, *log_);
   }
 
   NoticeLog* log_;
@@ -179,10 +181,10 @@ void RecordingReader::State::take(Recording& chunk, std::size_t count) {
   chunk.run_starts.clear();
   chunk.time.resize(samples);
   chunk.q.resize(samples, n);
-  chunk.tau.resize(samples, n);
   const auto shape = [&](Eigen::MatrixXd& matrix, bool there, Eigen::Index width) {
     matrix.resize(there ? samples : 0, there ? width : 0);
   };
+  shape(chunk.tau, columns.tau, n);
   shape(chunk.dq, columns.dq, n);
   shape(chunk.ddq, columns.ddq, n);
   shape(chunk.tau_sim, columns.tau_sim, n);

@@ -14,6 +14,7 @@ namespace dyngen::runtime {
 
 struct ReadOptions {
   int joints = 0;                ///< how many are expected; 0: as many as the header names
+  bool torque_required = true;   ///< false: tau may be absent, it is 0 x 0 then
   std::size_t max_notices = 20;  ///< of different kinds; one more says how many were left out
 };
 

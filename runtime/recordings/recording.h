@@ -14,7 +14,7 @@ struct Recording {
   std::string file_name;
   Eigen::VectorXd time;         ///< (N) s, increasing within a run
   Eigen::MatrixXd q;            ///< (N x n) rad or m
-  Eigen::MatrixXd tau;          ///< (N x n) N m or N
+  Eigen::MatrixXd tau;          ///< (N x n) N m or N; 0 x 0 in what a trajectory was read from
   Eigen::MatrixXd dq;           ///< (N x n) rad/s or m/s; 0 x 0 if not recorded
   Eigen::MatrixXd ddq;          ///< (N x n); 0 x 0 if not recorded
   Eigen::MatrixXd tau_sim;      ///< (N x n) what another simulator says; 0 x 0 if absent

@@ -99,6 +99,24 @@ Eigen::MatrixXd interpolate_spline(const Eigen::VectorXd& time,
   return result;
 }
 
+Eigen::MatrixXd differentiate_spline(const Eigen::VectorXd& time,
+                                     const Eigen::Ref<const Eigen::MatrixXd>& values) {
+  check_sizes("differentiate_spline", time, values);
+  const Eigen::MatrixXd second = second_derivatives(time, values);
+  Eigen::MatrixXd result(values.rows(), values.cols());
+  const Index last = time.size() - 1;
+  for (Index k = 0; k <= last; ++k) {
+    const Index left = std::min(k, last - 1), right = left + 1;
+    const double h = time(right) - time(left);
+    // at the left end of a piece, or at the right end of the last one
+    const double left_weight = k == last ? h / 6 : -h / 3,
+                 right_weight = k == last ? h / 3 : -h / 6;
+    result.row(k) = (values.row(right) - values.row(left)) / h + left_weight * second.row(left) +
+                    right_weight * second.row(right);
+  }
+  return result;
+}
+
 Eigen::MatrixXd interpolate_linear(const Eigen::VectorXd& time,
                                    const Eigen::Ref<const Eigen::MatrixXd>& values,
                                    const Eigen::VectorXd& at) {

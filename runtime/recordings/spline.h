@@ -16,7 +16,15 @@ Eigen::MatrixXd interpolate_spline(const Eigen::VectorXd& time,
                                    const Eigen::Ref<const Eigen::MatrixXd>& values,
                                    const Eigen::VectorXd& at);
 
-/// The same along straight lines: for noisy signals, which a spline would amplify.
+/// The first derivative of that spline at its own samples. On an even grid its error is of the
+/// fourth order in the step inside, of the third at the ends.
+///
+/// @return  (N x m), units of values per second
+/// @throws  std::invalid_argument if the sizes differ or N < 2
+Eigen::MatrixXd differentiate_spline(const Eigen::VectorXd& time,
+                                     const Eigen::Ref<const Eigen::MatrixXd>& values);
+
+/// interpolate_spline() along straight lines: for noisy signals, which a spline would amplify.
 Eigen::MatrixXd interpolate_linear(const Eigen::VectorXd& time,
                                    const Eigen::Ref<const Eigen::MatrixXd>& values,
                                    const Eigen::VectorXd& at);

@@ -35,14 +35,15 @@ constexpr std::array<Part, 6> kParts = {{{"q", &Recording::q, true},
                                          {"tausim", &Recording::tau_sim, true},
                                          {"temp", &Recording::temperature, false}}};
 
-void check(const Recording& recording) {
+void check(const Recording& recording, const WriteOptions& options) {
   const auto fail = [](const std::string& message) {
     throw std::invalid_argument("write_recording(): " + message);
   };
   if (recording.q.cols() < 1) fail("the recording has no joints");
   for (const Part& part : kParts) {
     const Eigen::MatrixXd& matrix = recording.*part.matrix;
-    const bool required = part.matrix == &Recording::q || part.matrix == &Recording::tau;
+    const bool required =
+        part.matrix == &Recording::q || (part.matrix == &Recording::tau && options.torque_required);
     if (matrix.cols() == 0 && !required) continue;
     if (matrix.rows() != recording.samples() ||
         (part.per_joint && matrix.cols() != recording.q.cols())) {
@@ -137,8 +138,9 @@ void write_rows(const Recording& recording, OutputFile& file) {
 
 }  // namespace
 
-void write_recording(const Recording& recording, const std::string& path) {
-  check(recording);
+void write_recording(const Recording& recording, const std::string& path,
+                     const WriteOptions& options) {
+  check(recording, options);
   const std::string unfinished = path + ".part";
   try {
     OutputFile file(unfinished, path.ends_with(".gz"));

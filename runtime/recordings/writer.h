@@ -8,14 +8,20 @@
 
 namespace dyngen::runtime {
 
+struct WriteOptions {
+  bool torque_required = true;
+};
+
 /// Writes a recording as .csv, or as .csv.gz if the name ends in ".gz".
 ///
 /// Numbers are the shortest that read back the same; reading gives the identical recording, as long
 /// as nothing in it wants repair (docs/recordings.md). With more than one run there is a column
 /// `segment`. The file appears at once when it is complete.
 ///
+/// @param options  without torque_required tau may be 0 x 0: a trajectory
 /// @throws std::invalid_argument if the sizes in the recording do not fit together
 /// @throws RecordingError if the file cannot be written, with the system's reason
-void write_recording(const Recording& recording, const std::string& path);
+void write_recording(const Recording& recording, const std::string& path,
+                     const WriteOptions& options = {});
 
 }  // namespace dyngen::runtime
