@@ -27,6 +27,8 @@ int run(const ToolOptions& options, ProcessGroup& group) {
       return run_accumulate(options);
     case Command::kMerge:
       return run_merge(options);
+    case Command::kExcite:
+      return run_excite(options);
   }
   return kUsage;
 }

@@ -180,6 +180,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   tool.require_subcommand(1);
   add_fit(tool, parsed.options, words);
   add_others(tool, parsed.options, words);
+  add_excite(tool, parsed.options.robot, parsed.options.output, parsed.options.json,
+             parsed.options.excite);
   try {
     tool.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -196,9 +198,12 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   const std::map<std::string, Command> commands = {{"fit", Command::kFit},
                                                    {"check", Command::kCheck},
                                                    {"accumulate", Command::kAccumulate},
-                                                   {"merge", Command::kMerge}};
+                                                   {"merge", Command::kMerge},
+                                                   {"excite", Command::kExcite}};
   parsed.options.command = commands.at(name);
-  const std::string message = understand(words, parsed.options);
+  const std::string message = parsed.options.command == Command::kExcite
+                                  ? parsed.options.excite.usage_error()
+                                  : understand(words, parsed.options);
   if (!message.empty()) parsed.exit_code = usage(message);
   return parsed;
 }

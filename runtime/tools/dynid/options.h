@@ -7,10 +7,11 @@
 #include "runtime/identification/fit.h"
 #include "runtime/identification/motion_rows.h"
 #include "runtime/identification/motion_source.h"
+#include "runtime/tools/dynid/excite_options.h"
 
 namespace dyngen::runtime {
 
-enum class Command { kFit, kCheck, kAccumulate, kMerge };
+enum class Command { kFit, kCheck, kAccumulate, kMerge, kExcite };
 
 /// The command line of dynid.
 struct ToolOptions {
@@ -30,6 +31,7 @@ struct ToolOptions {
   MotionOptions motion;
   RowOptions rows;
   FitOptions fit;
+  ExciteOptions excite;
 };
 
 /// Reads the command line. @return what to do, or the exit code if there is nothing left to do
