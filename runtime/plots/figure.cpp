@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/plots/figure.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr Index kSlices = 1500;  // more than a panel has pixels
+
+/// Colours that people tell apart who see colours differently (Okabe and Ito, 2008).
+constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                    "#e69f00", "#56b4e9", "#000000"};
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c == '\n' ? ' ' : c;
+  }
+  return result + "\"";
+}
+
+/// Places of the least and largest value of each slice, ascending.
+std::vector<Index> visible(const VectorXd& y) {
+  std::vector<Index> places;
+  if (y.size() <= 2 * kSlices) {
+    for (Index i = 0; i < y.size(); ++i) places.push_back(i);
+    return places;
+  }
+  for (Index slice = 0; slice < kSlices; ++slice) {
+    const Index from = slice * y.size() / kSlices, to = (slice + 1) * y.size() / kSlices;
+    Index least = 0, most = 0;
+    y.segment(from, to - from).minCoeff(&least);
+    y.segment(from, to - from).maxCoeff(&most);
+    places.push_back(from + std::min(least, most));
+    if (least != most) places.push_back(from + std::max(least, most));
+  }
+  return places;
+}
+
+/// The data of a series as gnuplot's inline data block; a gap where a value is not finite.
+std::string data_block(const Series& series, const std::string& name) {
+  std::string text = "$" + name + " << EOD\n";
+  for (const Index i : visible(series.y)) {
+    if (std::isfinite(series.x[i]) && std::isfinite(series.y[i])) {
+      text += fmt::format("{:.7g} {:.7g}\n", series.x[i], series.y[i]);
+    } else {
+      text += "\n";
+    }
+  }
+  return text + "EOD\n";
+}
+
+std::string panel_script(const Panel& panel, const std::string& name) {
+  std::string data, plots;
+  for (std::size_t i = 0; i < panel.series.size(); ++i) {
+    const Series& series = panel.series[i];
+    const std::string block = fmt::format("{}_{}", name, i);
+    data += data_block(series, block);
+    plots += fmt::format("{}${} using 1:2 with lines linewidth 1.5 linecolor rgb \"{}\"{} {}",
+                         plots.empty() ? "" : ", \\\n  ", block, kColours[i % std::size(kColours)],
+                         series.dashed ? " dashtype 2" : "",
+                         series.name.empty() ? "notitle" : "title " + quoted(series.name));
+  }
+  for (const double level : panel.levels) {
+    plots +=
+        fmt::format("{}{:.9g} with lines linewidth 1 dashtype 3 linecolor rgb \"#999999\" notitle",
+                    plots.empty() ? "" : ", \\\n  ", level);
+  }
+  std::string text = data;
+  text += "set title " + quoted(panel.title) + " noenhanced\n";
+  text += "set xlabel " + quoted(panel.x_label) + " noenhanced\n";
+  text += "set ylabel " + quoted(panel.y_label) + " noenhanced\n";
+  text += panel.logarithmic_x ? "set logscale x\n" : "unset logscale x\n";
+  text += panel.logarithmic_y ? "set logscale y\n" : "unset logscale y\n";
+  if (plots.empty()) plots = "NaN notitle";
+  return text + "plot " + plots + "\n";
+}
+
+/// Runs gnuplot. @return whether it was found and content with its arguments
+bool run_gnuplot(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "gnuplot");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int failed = posix_spawnp(&child, "gnuplot", &quiet, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&quiet);
+  int status = 0;
+  return failed == 0 && waitpid(child, &status, 0) == child && status == 0;
+}
+
+}  // namespace
+
+void Figure::validate() const {
+  if (panels.empty()) throw std::invalid_argument("Figure: there is no panel");
+  if (columns < 1 || panel_width < 1 || panel_height < 1) {
+    throw std::invalid_argument(
+        fmt::format("Figure: {} columns of panels of {} x {} pixels, expected positive numbers",
+                    columns, panel_width, panel_height));
+  }
+  for (const Panel& panel : panels) {
+    for (const Series& series : panel.series) {
+      if (series.x.size() == series.y.size()) continue;
+      throw std::invalid_argument(fmt::format("Figure: series '{}' has {} values of x and {} of y",
+                                              series.name, series.x.size(), series.y.size()));
+    }
+  }
+}
+
+std::string gnuplot_script(const Figure& figure, const std::string& terminal,
+                           const std::string& output) {
+  figure.validate();
+  const int rows = (static_cast<int>(figure.panels.size()) + figure.columns - 1) / figure.columns;
+  std::string text =
+      fmt::format("set terminal {} size {},{} font \"sans,11\" background rgb \"white\"\n",
+                  terminal, figure.columns * figure.panel_width,
+                  rows * figure.panel_height + (figure.title.empty() ? 0 : 30));
+  text += "set output " + quoted(output) + "\n";
+  text += "set grid linecolor rgb \"#dddddd\"\nset tics nomirror\nset border 3\n";
+  text += "set key outside right top noenhanced\n";
+  text += fmt::format("set multiplot layout {},{}", rows, figure.columns);
+  if (!figure.title.empty()) text += " title " + quoted(figure.title) + " noenhanced";
+  text += "\n";
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    text += panel_script(figure.panels[i], fmt::format("panel{}", i));
+  }
+  return text + "unset multiplot\nset output\n";
+}
+
+bool can_draw() {
+  static const bool found = run_gnuplot({"--version"});
+  return found;
+}
+
+void draw(const Figure& figure, const std::string& path) {
+  figure.validate();
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending != ".svg" && ending != ".png") {
+    throw FigureError(
+        fmt::format("{}: found the ending '{}', expected .svg or .png", path, ending));
+  }
+  if (!can_draw()) {
+    throw FigureError(path +
+                      ": pictures are drawn by gnuplot, which is not installed "
+                      "(Debian: gnuplot-nox)");
+  }
+  const std::string part = fmt::format("{}.{}.part", path, getpid());
+  const std::string script = part + ".gnuplot";
+  std::ofstream(script) << gnuplot_script(figure, ending == ".svg" ? "svg dynamic" : "pngcairo",
+                                          part);
+  const bool drawn = run_gnuplot({script});
+  std::error_code error;
+  std::filesystem::remove(script, error);
+  const auto bytes = std::filesystem::file_size(part, error);
+  if (drawn && !error && bytes > 0) {
+    std::filesystem::rename(part, path, error);
+    if (!error) return;
+  }
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  throw FigureError(fmt::format("{}: cannot be written", path));
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace dyngen::runtime {
+
+/// A curve of a panel.
+struct Series {
+  std::string name;  ///< in the key; empty: not there
+  Eigen::VectorXd x, y;
+  bool dashed = false;
+};
+
+/// A diagram with its own axes.
+struct Panel {
+  std::string title, x_label, y_label;
+  std::vector<Series> series;
+  std::vector<double> levels;  ///< horizontal dotted lines: limits
+  bool logarithmic_x = false, logarithmic_y = false;
+};
+
+/// Panels in rows, from the upper left.
+struct Figure {
+  std::string title;
+  int columns = 1;
+  int panel_width = 640, panel_height = 240;  ///< pixels
+  std::vector<Panel> panels;
+
+  /// @throws std::invalid_argument  if there is no panel, a size is not positive, or x and y of a
+  /// series differ in length
+  void validate() const;
+};
+
+/// A picture could not be drawn; what() says why.
+class FigureError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Whether pictures can be drawn here: gnuplot is installed.
+bool can_draw();
+
+/// Draws a figure with gnuplot into a .svg or .png file, which appears when it is complete.
+///
+/// Curves of more than some thousand points are thinned to what the eye can see: the least and the
+/// largest value of every slice are kept.
+/// @throws FigureError  without gnuplot, for another ending, or if the file cannot be written
+/// @throws std::invalid_argument  as validate()
+void draw(const Figure& figure, const std::string& path);
+
+/// The script and the data that gnuplot is given; the same text for the same figure.
+/// @param terminal  of gnuplot: "svg", "pngcairo"
+std::string gnuplot_script(const Figure& figure, const std::string& terminal,
+                           const std::string& output);
+
+}  // namespace dyngen::runtime
