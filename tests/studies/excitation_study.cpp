@@ -1,75 +1,110 @@
 // SPDX-License-Identifier: MIT
-// scratch
+// The figures of docs/excitation.md: excitation_study conditions | thesis | estimates
 #include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
+#include <exception>
+#include <string>
 
-#include "runtime/excitation/excitation.h"
-#include "runtime/excitation/multistage.h"
-#include "runtime/tools/dynid/excite_limits.h"
+#include "tests/studies/excitation_claims.h"
 
-using namespace dyngen::runtime;
+namespace dyngen::test {
+namespace {
+
+using runtime::Criterion;
+using runtime::TrajectoryForm;
+
+void print_conditions() {
+  fmt::print(
+      "| robot | columns | form | random, median (best of 20) | optimised | columns of length 1 | "
+      "largest share of a limit | time [s] | evaluations |\n"
+      "|---|---|---|---|---|---|---|---|---|\n");
+  for (const char* robot : {"robots/panda.robot", "robots/ur10e.robot"}) {
+    for (const bool inertial_only : {true, false}) {
+      for (const TrajectoryForm form : {TrajectoryForm::kFourier, TrajectoryForm::kSpline}) {
+        ConditionStudy study{.robot = robot, .inertial_only = inertial_only};
+        study.options.family.form = form;
+        study.options.starts = 5;
+        const ConditionFigures figures = condition_figures(study);
+        fmt::print(
+            "| {} | {} {} | {} | {:.1f} ({:.1f}) | {:.2f} | {:.2f} | {:.4f} | {:.1f} | {} |\n",
+            robot, figures.parameters, inertial_only ? "inertial" : "all",
+            form == TrajectoryForm::kFourier ? "Fourier" : "spline", figures.random_median,
+            figures.random_best, figures.optimised, figures.unit_columns, figures.shares.largest(),
+            figures.seconds, figures.evaluations);
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
+void print_thesis() {
+  const ThesisArm arm = thesis_arm();
+  fmt::print(
+      "| seed | 1/sigma at the start | after 15 iterations | after 400 | factor | largest share of "
+      "a limit | ended |\n|---|---|---|---|---|---|---|\n");
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const runtime::HeldAccelerations start = runtime::through_chosen_points(
+        arm.robot.linear, arm.limits, arm.parameters, {.seed = seed});
+    const runtime::MultistageResult result = runtime::multistage(
+        arm.robot.linear, arm.limits, start, {.parameters = arm.parameters, .iterations = 400});
+    const std::size_t fifteen = std::min<std::size_t>(15, result.cost.size() - 1);
+    fmt::print("| {} | {:.4g} | {:.4g} | {:.4g} | {:.1f} | {:.3f} | {} ({} steps) |\n", seed,
+               result.cost.front(), result.cost[fifteen], result.cost.back(),
+               result.cost.front() / result.cost.back(), result.shares.largest(), result.ended,
+               result.cost.size() - 1);
+  }
+}
+
+void print_estimates() {
+  fmt::print(
+      "| robot | criterion | random / optimised, median | least | largest | rms / foretold, median "
+      "|\n|---|---|---|---|---|---|\n");
+  for (const std::string& robot : study_robot_names()) {
+    for (const Criterion criterion :
+         {Criterion::kCondition, Criterion::kDeterminant, Criterion::kTrace}) {
+      EstimateStudy study{.robot = robot};
+      study.options.criterion.criterion = criterion;
+      const EstimateComparison comparison = compare_estimates(study);
+      const Eigen::ArrayXd ratios =
+          comparison.random_rms.array() / comparison.optimised_rms.array();
+      Eigen::ArrayXd foretold = comparison.optimised_rms.array() / comparison.predicted.array();
+      std::sort(foretold.begin(), foretold.end());
+      fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} |\n", robot,
+                 criterion == Criterion::kCondition     ? "condition"
+                 : criterion == Criterion::kDeterminant ? "d"
+                                                        : "a",
+                 comparison.median_ratio(), ratios.minCoeff(), ratios.maxCoeff(),
+                 foretold[foretold.size() / 2]);
+      std::fflush(stdout);
+    }
+  }
+}
+
+int run(int argc, char** argv) {
+  const std::string what = argc == 2 ? argv[1] : "";
+  if (what == "conditions") {
+    print_conditions();
+  } else if (what == "thesis") {
+    print_thesis();
+  } else if (what == "estimates") {
+    print_estimates();
+  } else {
+    fmt::print(stderr, "usage: excitation_study conditions|thesis|estimates\n");
+    return 2;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace dyngen::test
 
 int main(int argc, char** argv) {
-  const std::string robot_path = argv[1];
-  const std::string what = argv[2];
-  const double seconds = std::atof(argv[3]);
-  const int harmonics = std::atoi(argv[4]);
-  const double duration = std::atof(argv[5]);
-  const int starts = std::atoi(argv[6]);
-  auto t0 = std::chrono::steady_clock::now();
-  auto since = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
-  };
-  DescribedRobot robot = describe_robot(robot_path, OpenParameters::kAbsentRows, {.gradient = true});
-  fmt::print("described in {:.2f} s, {} parameters\n", since(), robot.linear.size());
-  RobotLimits limits = limits_of(robot, {});
-  for (auto& n : limits.notes) fmt::print("note: {}\n", n);
-  ExcitationOptions o;
-  if (what == "inertial") {
-    for (int i = 0; i < robot.linear.size(); ++i)
-      if (robot.linear.parameters[i].kind == ParameterKind::kInertial)
-        o.information.parameters.push_back(i);
+  try {
+    return dyngen::test::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "excitation_study: {}\n", error.what());
+    return 1;
   }
-  fmt::print("asked: {}\n", o.information.parameters.size());
-  o.family.duration = duration;
-  o.family.harmonics = harmonics;
-  if (argc > 7 && std::string(argv[7]) == "spline") o.family.form = TrajectoryForm::kSpline;
-  o.seconds = seconds;
-  o.starts = starts;
-  {
-    auto x = random_trajectory(robot.linear, limits.limits, o.family, 1);
-    auto basis = basis_at(o.family, period_times(o.family, 300));
-    auto motion = basis.motion(x);
-    t0 = std::chrono::steady_clock::now();
-    for (int i = 0; i < 20; ++i) information_of(robot.linear, motion, o.information);
-    fmt::print("information {:.2f} ms\n", since() * 50);
-    auto info = information_of(robot.linear, motion, o.information);
-    t0 = std::chrono::steady_clock::now();
-    CriterionValue v;
-    for (int i = 0; i < 20; ++i) v = evaluate(info.R, o.criterion);
-    fmt::print("criterion {:.2f} ms\n", since() * 50);
-    t0 = std::chrono::steady_clock::now();
-    for (int i = 0; i < 20; ++i)
-      information_gradient(robot.linear, motion, o.information, info, v.gradient);
-    fmt::print("gradient {:.2f} ms\n", since() * 50);
-    t0 = std::chrono::steady_clock::now();
-    for (int i = 0; i < 20; ++i) constraints_of(robot.linear, limits.limits, motion, 100);
-    fmt::print("constraints {:.2f} ms\n", since() * 50);
-  }
-  t0 = std::chrono::steady_clock::now();
-  Excitation e = excite(robot.linear, limits.limits, o);
-  fmt::print("{} {:.1f} s, {} evaluations, found {} {}\n", robot_path, since(), e.evaluations,
-             e.found, e.message);
-  for (auto& s : e.starts)
-    fmt::print("  seed {} random {:.1f} optimised {:.2f}\n", s.seed, s.random, s.optimised);
-  auto basis = basis_at(o.family, period_times(o.family, 1000));
-  fmt::print("cond {:.2f}, unit columns {:.2f}\n",
-             condition_number(robot.linear, basis.motion(e.x), o.information.parameters),
-             condition_number(robot.linear, basis.motion(e.x), o.information.parameters, true));
-  fmt::print("shares pos {:.3f} vel {:.3f} acc {:.3f} tau {:.3f}\n", e.shares.position.maxCoeff(),
-             e.shares.speed.maxCoeff(), e.shares.acceleration.maxCoeff(),
-             e.shares.torque.maxCoeff());
 }

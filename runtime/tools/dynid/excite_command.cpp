@@ -4,13 +4,25 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "runtime/tools/dynid/commands.h"
+
+#ifdef DYNGEN_WITH_NLOPT
 #include "gen/tool/output_files.h"
 #include "gen/tool/progress_line.h"
-#include "runtime/tools/dynid/commands.h"
 #include "runtime/tools/dynid/excite_picture.h"
 #include "runtime/tools/dynid/excite_report.h"
+#endif
 
 namespace dyngen::runtime {
+
+#ifndef DYNGEN_WITH_NLOPT
+
+int run_excite(const ToolOptions& /*options*/) {
+  std::cerr << "dynid: excite: this dynid was built without NLopt (libnlopt-dev)\n";
+  return kUsage;
+}
+
+#else
 
 int run_excite(const ToolOptions& options) {
   if (!options.excite.findings.empty()) {
@@ -39,5 +51,7 @@ int run_excite(const ToolOptions& options) {
   }
   return kDone;
 }
+
+#endif
 
 }  // namespace dyngen::runtime

@@ -22,7 +22,7 @@ struct ExciteOptions {
   double base_frequency = 0;  ///< Hz, 1 / duration; 0: not given
   double rate = 200;          ///< Hz, of the trajectory's rows
   int periods = 5;            ///< that are written
-  int starts = 3;
+  int starts = 10;
   std::uint64_t seed = 1;
   double seconds = 60;
   int evaluations = 0;                  ///< 0: the clock ends it

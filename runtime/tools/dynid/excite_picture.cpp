@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 
 namespace dyngen::runtime {
 namespace {
@@ -14,7 +14,10 @@ using Eigen::VectorXd;
 
 Panel panel_of(const std::string& title, const LinearModel& model, const VectorXd& time,
                const MatrixXd& values, const VectorXd& limits) {
-  Panel panel{.title = title, .x_label = "time [s]", .y_label = "share of the limit"};
+  Panel panel;
+  panel.title = title;
+  panel.x_label = "time [s]";
+  panel.y_label = "share of the limit";
   for (Index j = 0; j < values.cols(); ++j) {
     if (!std::isfinite(limits[j])) continue;
     Series series;

@@ -243,7 +243,9 @@ ExciteReport make_excite_report(const std::string& robot, const ExciteOptions& o
   report.options = options;
   const Progress tell = progress ? progress : [](const std::string&, std::size_t, std::size_t) {};
   report.robot = describe_robot(robot, OpenParameters::kAbsentRows, {.gradient = true});
-  LimitOptions wanted{.share = options.limits, .acceleration = options.acceleration};
+  LimitOptions wanted;
+  wanted.share = options.limits;
+  wanted.acceleration = options.acceleration;
   if (!options.keep_out.empty()) {
     std::copy_n(options.keep_out.begin(), 6, wanted.keep_out.emplace().begin());
   }
