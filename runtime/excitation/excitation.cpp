@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -177,28 +178,36 @@ class Search {
         budget_(options) {}
 
   Excitation run() {
-    VectorXd best;
-    double best_value = std::numeric_limits<double>::infinity();
+    std::vector<Candidate> candidates;
     for (int i = 0; i < options_.starts; ++i) {
       const VectorXd y = from_start(i);
-      if (y.size() == 0) continue;
-      const double value = problem_.sharp_value(y);
-      if (best.size() > 0 && !(value < best_value)) continue;
-      best = y;
-      best_value = value;
+      if (y.size() > 0) candidates.push_back({y, problem_.sharp_value(y)});
     }
-    if (best.size() == 0) {
+    if (candidates.empty()) {
       result_.message =
           "no random trajectory keeps the limits of torque and the box, however small its motion";
       return std::move(result_);
     }
-    finish(best);
+    std::stable_sort(candidates.begin(), candidates.end(), better);
+    candidates.resize(std::min(candidates.size(), kFinalists));
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      tell(fmt::format("the best {}", candidates.size()), options_.starts + static_cast<int>(i));
+      sharpen(candidates[i], static_cast<double>(candidates.size()));
+    }
+    prove(std::min_element(candidates.begin(), candidates.end(), better)->y);
     result_.evaluations = budget_.used;
     return std::move(result_);
   }
 
  private:
-  static constexpr double kPartOfStarts = 0.5, kPartOfStage = 0.1;
+  static constexpr double kPartOfStarts = 0.5, kPartOfFinalists = 0.4, kPartOfRound = 0.02;
+  static constexpr std::size_t kFinalists = 3;
+
+  struct Candidate {
+    VectorXd y;
+    double value = 0;  ///< of the criterion, without its smoothing
+  };
+  static bool better(const Candidate& a, const Candidate& b) { return a.value < b.value; }
 
   void tell(const std::string& what, int place) const {
     if (options_.progress) {
@@ -223,26 +232,40 @@ class Search {
     return y;
   }
 
-  /// Harder and harder edges, then the proof.
-  void finish(VectorXd y) {
-    Sharpness sharpness;
-    int place = options_.starts;
-    for (const double power : {8.0, 16.0, 40.0}) {
-      tell("the best of them", place++);
-      sharpness = {.power = power, .constraint = 40 * power};
-      y = minimise(problem_, y, sharpness, budget_.part(kPartOfStage), budget_);
+  /// Harder and harder edges.
+  void sharpen(Candidate& candidate, double finalists) {
+    const std::array<double, 3> powers = {8, 16, kHardest};
+    const double share = kPartOfFinalists / (finalists * powers.size());
+    for (const double power : powers) {
+      MinimumOptions part = budget_.part(share);
+      part.tolerance = 1e-5;
+      candidate.y = minimise(problem_, candidate.y, edges(power), part, budget_);
     }
+    candidate.value = problem_.sharp_value(candidate.y);
+    // what would have to be made smaller is not worth its value
+    constexpr double kSlack = 0.02;
+    const JointMotion motion = problem_.motion(candidate.y);
+    if (limit_shares(model_, limits_, motion).largest() > 1 + kSlack) candidate.value += 100;
+  }
+
+  static constexpr double kHardest = 40;
+  static Sharpness edges(double power) { return {.power = power, .constraint = 40 * power}; }
+
+  /// Checks at the check rate; where a limit is passed, tighter limits.
+  void prove(VectorXd y) {
+    Sharpness sharpness = edges(kHardest);
     constexpr int kRounds = 5;
     double share = 0;
     for (int round = 0; round < kRounds; ++round) {
-      tell("the limits between instants", place);
+      tell("the limits between instants", options_.starts + static_cast<int>(kFinalists));
       share = check(problem_.parameters(y));
       if (share <= 1) return;
       sharpness.factor *= 0.9995 / share;
-      y = minimise(problem_, y, sharpness, budget_.part(0.04), budget_);
+      y = minimise(problem_, y, sharpness, budget_.part(kPartOfRound), budget_);
     }
     MatrixXd x = problem_.parameters(y);
-    for (int k = 0; k < 200; ++k) {
+    constexpr int kShrinks = 60;
+    for (int k = 0; k < kShrinks; ++k) {
       share = check(x);
       if (share <= 1) return;
       x = shrunk(x, std::min(0.995, 0.9995 / share));

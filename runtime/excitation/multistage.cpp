@@ -148,16 +148,18 @@ std::optional<HeldAccelerations> brought_to_rest(const LinearModel& model,
   const double T = trajectory.sample_time;
   const Index samples = trajectory.u.rows(), n = trajectory.u.cols();
   const JointMotion motion = trajectory.motion();
-  const RowVectorXd speed = motion.dq.row(samples - 1) + T * trajectory.u.row(samples - 1);
-  for (int tenths = 1; tenths <= 30; ++tenths) {
-    const Index braking = std::max<Index>(1, std::lround(0.1 * tenths / T));
-    HeldAccelerations whole = trajectory;
-    // one more sample stands still: the motion's last row is then at rest
-    whole.u.conservativeResize(samples + braking + 1, n);
-    whole.u.middleRows(samples, braking).rowwise() =
-        -speed / (T * static_cast<double>(braking));
-    whole.u.row(samples + braking).setZero();
-    if (limit_shares(model, limits, whole.motion()).largest() <= 1) return whole;
+  const Index step = std::max<Index>(1, samples / 50);
+  for (Index kept = samples; kept >= samples / 2 && kept > 0; kept -= step) {
+    const RowVectorXd speed = motion.dq.row(kept - 1) + T * trajectory.u.row(kept - 1);
+    for (int tenths = 1; tenths <= 30; ++tenths) {
+      const Index braking = std::max<Index>(1, std::lround(0.1 * tenths / T));
+      HeldAccelerations whole = trajectory;
+      // one more sample stands still: the motion's last row is then at rest
+      whole.u.conservativeResize(kept + braking + 1, n);
+      whole.u.middleRows(kept, braking).rowwise() = -speed / (T * static_cast<double>(braking));
+      whole.u.row(kept + braking).setZero();
+      if (limit_shares(model, limits, whole.motion()).largest() <= 1) return whole;
+    }
   }
   return std::nullopt;
 }

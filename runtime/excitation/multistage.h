@@ -76,8 +76,9 @@ struct MultistageResult {
 MultistageResult multistage(const LinearModel& model, const MotionLimits& limits,
                             const HeldAccelerations& start, const MultistageOptions& options);
 
-/// The trajectory with a last part in which every joint is braked evenly, the shortest one of 0.1 s,
-/// 0.2 s ... 3 s that keeps the limits; nothing if none does.
+/// The trajectory with a last part in which every joint is braked evenly, in 0.1 s, 0.2 s ... 3 s:
+/// the shortest one that keeps the limits. Where none does, braking begins earlier, at half of the
+/// trajectory at the earliest; nothing if that does not help either.
 std::optional<HeldAccelerations> brought_to_rest(const LinearModel& model,
                                                  const MotionLimits& limits,
                                                  const HeldAccelerations& trajectory);

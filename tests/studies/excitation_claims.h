@@ -26,7 +26,7 @@ struct ConditionFigures {
 struct ConditionStudy {
   std::string robot;  ///< "robots/panda.robot"
   bool inertial_only = true;
-  runtime::ExcitationOptions options;
+  runtime::ExcitationOptions options{};
   int randoms = 20;
 };
 ConditionFigures condition_figures(const ConditionStudy& study);
@@ -50,7 +50,7 @@ struct EstimateComparison {
 
 struct EstimateStudy {
   std::string robot;  ///< of study_robot()
-  runtime::ExcitationOptions options;
+  runtime::ExcitationOptions options{};
   int motions = 5;     ///< random ones
   int seeds = 30;      ///< noise for each motion
   int samples = 2000;  ///< of one period, as are recorded

@@ -22,7 +22,7 @@ runtime::LinearModel small_arm() {
   model.columns = {{0, 1, 2}, {0, 3}};
   model.regressor = [](const MatrixXd& q, const MatrixXd& dq, const MatrixXd& ddq, MatrixXd& Y) {
     Y = MatrixXd::Zero(q.rows(), 8);
-    const auto c2 = q.col(1).array().cos(), s2 = q.col(1).array().sin();
+    const Eigen::ArrayXd c2 = q.col(1).array().cos(), s2 = q.col(1).array().sin();
     Y.col(0) = ddq.col(0).array() + c2 * ddq.col(1).array();
     Y.col(1) = q.col(0).array().cos();
     Y.col(2) = dq.col(0);
@@ -30,7 +30,7 @@ runtime::LinearModel small_arm() {
     Y.col(7) = s2 * dq.col(0).array().square();
   };
   model.regressor_gradient = [](const JointMotion& m, const MatrixXd& A) {
-    const auto c2 = m.q.col(1).array().cos(), s2 = m.q.col(1).array().sin();
+    const Eigen::ArrayXd c2 = m.q.col(1).array().cos(), s2 = m.q.col(1).array().sin();
     JointMotion g{m.q * 0, m.q * 0, m.q * 0};
     g.q.col(0) = -A.col(1).array() * m.q.col(0).array().sin();
     g.q.col(1) = -A.col(0).array() * s2 * m.ddq.col(1).array() -

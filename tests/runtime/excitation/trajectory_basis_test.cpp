@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <stdexcept>
 
 namespace dyngen::runtime {
