@@ -4,6 +4,7 @@
 #include <nlopt.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -99,12 +100,26 @@ Minimum constrained_minimum(const std::function<SmoothPoint(const VectorXd&)>& a
                                      &search, tolerances.data());
   }
   nlopt_set_ftol_abs(solver.get(), options.tolerance);
-  nlopt_set_maxeval(solver.get(), options.evaluations);
-  nlopt_set_maxtime(solver.get(), options.seconds);
-  VectorXd x = start;
-  double value = 0;
-  // whatever ends it (rounding among it), the best point that was seen is kept
-  nlopt_optimize(solver.get(), x.data(), &value);
+  const auto begin = std::chrono::steady_clock::now();
+  // It ends early where its model of the curvature has gone wrong: then it begins again from the
+  // best point that was seen, with a new one.
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begin;
+    const int left = options.evaluations - search.best().evaluations;
+    if (left < 2 || gone.count() >= options.seconds) break;
+    nlopt_set_maxeval(solver.get(), left);
+    nlopt_set_maxtime(solver.get(), options.seconds - gone.count());
+    const Minimum before = search.best();
+    VectorXd x = before.x;
+    double value = 0;
+    nlopt_optimize(solver.get(), x.data(), &value);
+    const Minimum& after = search.best();
+    const bool keeps = after.violation <= options.violation;
+    const bool newly = keeps && before.violation > options.violation;
+    const double gain = keeps ? before.value - after.value : before.violation - after.violation;
+    if (!newly && !(gain > 10 * options.tolerance)) break;
+  }
   return search.best();
 }
 

@@ -50,17 +50,23 @@ struct MultistageOptions {
   int iterations = 15;
   /// Of the first step, rad/s^2 or m/s^2: the largest change of an acceleration.
   double first_change = 0.1;
-  /// Of the accelerations' part u'Qu of the cost at the limits over all samples, in parts of
-  /// 1/sigma at the start. The first part is what the accelerations may cost.
+  /// u'Qu over all samples at the limits of acceleration, in parts of 1/sigma at the start.
   double acceleration_share = 0.01;
+  /// Weight of -log(-c) of every limit's constraint c, in parts of 1/sigma at the start: steps turn
+  /// away from limits before they are touched. 0 is the thesis's algorithm.
+  double barrier_share = 1e-3;
+  /// 1/sigma is replaced by (trace R^-p)^(1/p), which has derivatives where the smallest singular
+  /// values meet and is above it by the factor size^(1/p) at most. Infinite is the thesis's.
+  double power = 16;
   double seconds = 1e9;  ///< at most; what ends by the clock is not repeated exactly
 };
 
 struct MultistageResult {
-  HeldAccelerations trajectory;
+  HeldAccelerations trajectory{};
   std::vector<double> cost;  ///< 1 / smallest singular value of R: of the start, of every iteration
-  LimitShares shares;        ///< at the samples
-  std::string ended;         ///< a sentence: why
+  std::vector<double> total;  ///< what is minimised: with accelerations and barrier
+  LimitShares shares{};       ///< at the samples
+  std::string ended;          ///< a sentence: why
 };
 
 /// Gradient descent on the accelerations for J = 1 / sigma_min(R) + sum_k u_k' Q u_k, R the mean of
@@ -68,7 +74,7 @@ struct MultistageResult {
 ///
 /// Q by Bryson's rule, 1 / (largest acceleration)^2. A step that does not lower J, or leaves the
 /// limits, is halved; one that does, makes the next half as large again. It ends after the
-/// iterations, or where no step keeps the limits.
+/// iterations, or where no step lowers J within the limits.
 /// Source: thesis (1995), section 5.3, after Armstrong (1989), "On finding exciting trajectories
 /// for identification experiments involving systems with nonlinear dynamics", and Bryson and Ho,
 /// "Applied optimal control" (1975); docs/excitation.md lists what is corrected.

@@ -37,7 +37,7 @@ Json parameters(const ExciteReport& report) {
     array.push_back({{"name", parameter.name},
                      {"unit", parameter.unit},
                      {"value", parameter.value ? Json(*parameter.value) : Json(nullptr)},
-                     {"std_of_one_period", number(report.worth.deviations[static_cast<Index>(i)])},
+                     {"std", number(report.worth.deviations[static_cast<Index>(i)])},
                      {"std_of_random", number(report.random.deviations[static_cast<Index>(i)])}});
   }
   return array;

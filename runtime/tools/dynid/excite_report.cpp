@@ -112,8 +112,11 @@ MotionWorth worth_of(const ExciteReport& report, const JointMotion& motion, cons
   MotionWorth worth;
   worth.condition = condition_number(model, motion, report.parameters);
   worth.unit_condition = condition_number(model, motion, report.parameters, true);
-  const InformationOptions white{
-      .torque_noise = report.noise, .parameters = report.parameters, .prior = prior};
+  const int passes = report.repeats ? report.options.periods : 1;
+  const InformationOptions white{.torque_noise = report.noise,
+                                 .parameters = report.parameters,
+                                 .samples = static_cast<double>(motion.q.rows()) * passes,
+                                 .prior = prior};
   worth.deviations = standard_deviations(information_of(model, motion, white).R);
   return worth;
 }
@@ -148,7 +151,7 @@ void find_periodic(ExciteReport& report, const Progress& progress) {
   search.family.harmonics = options.harmonics;
   search.criterion = criterion_of(options);
   search.information.parameters = report.parameters;
-  search.information.samples = report.samples;
+  search.information.samples = static_cast<double>(report.samples) * options.periods;
   search.starts = options.starts;
   search.seed = options.seed;
   search.seconds = options.seconds;

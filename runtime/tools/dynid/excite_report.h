@@ -18,7 +18,7 @@ namespace dyngen::runtime {
 struct MotionWorth {
   double condition = 0;        ///< of the regressor in SI units, all joints alike
   double unit_condition = 0;   ///< with columns of length 1
-  Eigen::VectorXd deviations;  ///< (p) of the parameters after one period of white torque noise
+  Eigen::VectorXd deviations;  ///< (p) of the parameters after all periods, torque noise white
 };
 
 /// Everything that `dynid excite` found, and what it was asked.

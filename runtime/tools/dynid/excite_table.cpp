@@ -65,18 +65,17 @@ double median(std::vector<double> values) {
 
 std::string deviations_table(const ExciteReport& report) {
   const LinearModel& model = report.robot.linear;
-  const double root = std::sqrt(report.repeats ? report.options.periods : 1);
   std::string text =
       fmt::format("\nstandard deviations after {} of white torque noise{}\n",
                   report.repeats ? fmt::format("{} periods", report.options.periods) : "one pass",
-                  report.prior ? ", with the earlier recordings in the first of them" : "");
+                  report.prior ? ", with what the earlier recordings say" : "");
   text += fmt::format("{:<14}{:>14}{:>14}{:>14}{:>12}  {}\n", "parameter", "value", "std",
                       "% of value", "random/it", "unit");
   std::vector<double> ratios;
   for (std::size_t i = 0; i < report.parameters.size(); ++i) {
     const LinearParameter& parameter =
         model.parameters[static_cast<std::size_t>(report.parameters[i])];
-    const double own = report.worth.deviations[static_cast<Index>(i)] / root;
+    const double own = report.worth.deviations[static_cast<Index>(i)];
     const double ratio = report.random.deviations[static_cast<Index>(i)] /
                          report.worth.deviations[static_cast<Index>(i)];
     ratios.push_back(ratio);

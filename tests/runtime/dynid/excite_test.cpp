@@ -144,7 +144,7 @@ TEST(Excite, EarlierRecordingsAreTakenIntoAccount) {
     EXPECT_LT(noise, 0.1);
   }
   for (const auto& parameter : json["parameters"]) {
-    EXPECT_LT(parameter["std_of_one_period"], 0.1) << parameter;
+    EXPECT_LT(parameter["std"], 0.1) << parameter;
   }
   const Outcome other = dynid("excite " DYNGEN_SOURCE_DIR "/robots/planar2r.robot --prior " +
                               path("first.qr") + " -o " + path("x.csv"));
