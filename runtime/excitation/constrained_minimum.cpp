@@ -35,6 +35,7 @@ class Search {
   }
 
   [[nodiscard]] const Minimum& best() const { return best_; }
+  [[nodiscard]] double scale() const { return options_.first_step; }
 
  private:
   void keep_if_better() {
@@ -60,17 +61,18 @@ class Search {
 };
 
 double objective(unsigned size, const double* x, double* gradient, void* search) {
-  const SmoothPoint& point = static_cast<Search*>(search)->point(x, size);
+  Search& own = *static_cast<Search*>(search);
+  const SmoothPoint& point = own.point(x, size);
   const bool defined = std::isfinite(point.value);
   if (gradient != nullptr) {
     Eigen::Map<VectorXd> g(gradient, static_cast<Index>(size));
     if (defined) {
-      g = point.gradient;
+      g = own.scale() * point.gradient;
     } else {
       g.setZero();
     }
   }
-  return defined ? point.value : kVeryLarge;
+  return defined ? own.scale() * point.value : kVeryLarge;
 }
 
 void constraints(unsigned count, double* values, unsigned size, const double* x, double* gradient,
@@ -99,7 +101,7 @@ Minimum constrained_minimum(const std::function<SmoothPoint(const VectorXd&)>& a
     nlopt_add_inequality_mconstraint(solver.get(), static_cast<unsigned>(count), constraints,
                                      &search, tolerances.data());
   }
-  nlopt_set_ftol_abs(solver.get(), options.tolerance);
+  nlopt_set_ftol_abs(solver.get(), options.first_step * options.tolerance);
   const auto begin = std::chrono::steady_clock::now();
   // It ends early where its model of the curvature has gone wrong: then it begins again from the
   // best point that was seen, with a new one.

@@ -19,6 +19,8 @@ struct MinimumOptions {
   double seconds = 1e9;     ///< at most; what ends by the clock is not repeated exactly
   double tolerance = 1e-4;  ///< of the value between steps: done
   double violation = 1e-3;  ///< of a constraint that counts as kept
+  /// The first step is this times the gradient: long ones leave the constraints far behind.
+  double first_step = 0.05;
 };
 
 struct Minimum {

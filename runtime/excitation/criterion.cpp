@@ -37,8 +37,10 @@ PowerMean value_of(const ArrayXd& lambda, const CriterionOptions& options) {
       const PowerMean bottom = power_mean(lambda, -options.power);
       return {0.5 * (top.value - bottom.value), 0.5 * (top.slope - bottom.slope)};
     }
-    case Criterion::kDeterminant:
-      return {-lambda.log().sum(), -lambda.inverse()};
+    case Criterion::kDeterminant: {
+      const double size = static_cast<double>(lambda.size());
+      return {-lambda.log().sum() / size, -lambda.inverse() / size};
+    }
     case Criterion::kTrace:
     case Criterion::kSmallest: {
       const double p = options.criterion == Criterion::kTrace ? 1 : options.power;

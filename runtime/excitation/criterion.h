@@ -7,7 +7,7 @@ namespace dyngen::runtime {
 
 enum class Criterion {
   kCondition,    ///< log of the condition number of the regressor, sqrt(largest / smallest of R)
-  kDeterminant,  ///< D-optimality: -log det R
+  kDeterminant,  ///< D-optimality: -log det R / size
   kTrace,        ///< A-optimality: log trace R^-1, the sum of variances
   kSmallest,     ///< -log of the smallest eigenvalue of R
 };

@@ -224,9 +224,14 @@ class Search {
     if (result_.random.size() == 0) result_.random = x;
     VectorXd y = problem_.from_parameters(x);
     start.random = problem_.condition(y);
+    // soft limits are tighter: the search begins within them
+    constexpr double kRoom = 0.85, kSoftSlack = 0.02;
+    y = problem_.from_parameters(shrunk(x, kRoom));
     const double share = kPartOfStarts / options_.starts;
-    y = minimise(problem_, y, {.power = 1, .constraint = 40}, budget_.part(0.4 * share), budget_);
-    y = minimise(problem_, y, {.power = 4, .constraint = 100}, budget_.part(0.6 * share), budget_);
+    MinimumOptions first = budget_.part(0.4 * share), second = budget_.part(0.6 * share);
+    first.violation = second.violation = kSoftSlack;
+    y = minimise(problem_, y, {.power = 1, .constraint = 40}, first, budget_);
+    y = minimise(problem_, y, {.power = 4, .constraint = 100}, second, budget_);
     start.optimised = problem_.condition(y);
     result_.starts.push_back(start);
     return y;
