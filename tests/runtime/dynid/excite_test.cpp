@@ -99,6 +99,7 @@ TEST(Excite, PeriodsAreFoundInARecordingOfIt) {
   Recording recording;
   recording.time = trajectory.time;
   recording.q = trajectory.q;
+  recording.run_starts = {0};
   recording.tau = MatrixXd::Ones(trajectory.samples(), 3);
   const Periods periods = find_periods(recording);
   EXPECT_EQ(periods.samples, 769) << periods.message;  // 100 Hz / 0.13 Hz, the nearest whole number
@@ -126,6 +127,7 @@ TEST(Excite, EarlierRecordingsAreTakenIntoAccount) {
   Recording recording;
   recording.time = first.time;
   recording.q = first.q;
+  recording.run_starts = {0};
   recording.tau = robot.linear.torque(first.q, first.dq, first.ddq,
                                       Eigen::VectorXd::Constant(robot.linear.size(), 0.5));
   recording.tau += 0.1 * MatrixXd::Random(first.samples(), 3);
