@@ -42,13 +42,14 @@ void print_conditions() {
 void print_thesis() {
   const ThesisArm arm = thesis_arm();
   fmt::print(
-      "| seed | 1/sigma at the start | after 15 iterations | after 400 | factor | largest share of "
+      "| seed | 1/sigma at the start | after 15 iterations | at the end | factor | largest share "
+      "of "
       "a limit | ended |\n|---|---|---|---|---|---|---|\n");
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const runtime::HeldAccelerations start = runtime::through_chosen_points(
         arm.robot.linear, arm.limits, arm.parameters, {.seed = seed});
     const runtime::MultistageResult result = runtime::multistage(
-        arm.robot.linear, arm.limits, start, {.parameters = arm.parameters, .iterations = 400});
+        arm.robot.linear, arm.limits, start, {.parameters = arm.parameters, .iterations = 1500});
     const std::size_t fifteen = std::min<std::size_t>(15, result.cost.size() - 1);
     fmt::print("| {} | {:.4g} | {:.4g} | {:.4g} | {:.1f} | {:.3f} | {} ({} steps) |\n", seed,
                result.cost.front(), result.cost[fifteen], result.cost.back(),

@@ -46,7 +46,12 @@ int run_excite(const ToolOptions& options) {
   write_trajectory(report.trajectory, options.output);
   std::cout << fmt::format("written: {}, {} rows\n", options.output, report.trajectory.samples());
   if (!options.excite.picture.empty()) {
-    draw(picture_of(report), options.excite.picture);
+    try {
+      draw(picture_of(report), options.excite.picture);
+    } catch (const FigureError& error) {
+      std::cerr << "dynid: error: " << error.what() << "\n";
+      return kInputWrong;
+    }
     std::cout << fmt::format("written: {}\n", options.excite.picture);
   }
   return kDone;

@@ -85,7 +85,11 @@ std::string deviations_table(const ExciteReport& report) {
                         known ? fmt::format("{:.2g}", 100 * own / std::abs(*parameter.value)) : "-",
                         ratio, parameter.unit);
   }
-  return text + fmt::format("median of random/it: {:.2f}\n", median(ratios));
+  text += fmt::format("median of random/it: {:.2f}\n", median(ratios));
+  if (report.options.criterion == "condition") {
+    text += "  (--criterion d makes deviations small, this one the condition number)\n";
+  }
+  return text;
 }
 
 std::string advice(const ExciteReport& report) {

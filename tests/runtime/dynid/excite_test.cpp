@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "runtime/recordings/periods.h"
@@ -169,6 +170,36 @@ TEST(Excite, TheToolStaysOutOfTheBox) {
   }
 }
 
+TEST(LinearModelOfAFile, HasTheGradientOfItsRegressor) {
+  const DescribedRobot robot = describe_robot(DYNGEN_SOURCE_DIR "/robots/panda.robot",
+                                              OpenParameters::kAbsentRows, {.gradient = true});
+  const LinearModel& model = robot.linear;
+  std::srand(7);
+  const Index samples = 70;  // more than a block of the evaluation
+  const JointMotion motion{2 * MatrixXd::Random(samples, 7), 2 * MatrixXd::Random(samples, 7),
+                           5 * MatrixXd::Random(samples, 7)};
+  const MatrixXd A = MatrixXd::Random(samples, Index{7} * model.size());
+  const auto s = [&](const JointMotion& at) {
+    MatrixXd Y;
+    model.regressor(at.q, at.dq, at.ddq, Y);
+    return Eigen::VectorXd(A.cwiseProduct(Y).rowwise().sum());
+  };
+  const JointMotion gradient = model.regressor_gradient(motion, A);
+  const double h = 1e-5;
+  for (MatrixXd JointMotion::*part : {&JointMotion::q, &JointMotion::dq, &JointMotion::ddq}) {
+    for (Index j = 0; j < 7; ++j) {
+      JointMotion after = motion, before = motion;
+      (after.*part).col(j).array() += h;
+      (before.*part).col(j).array() -= h;
+      const Eigen::VectorXd difference = (s(after) - s(before)) / (2 * h);
+      // truncation h^2 times third derivatives of some hundreds
+      EXPECT_LT((difference - (gradient.*part).col(j)).cwiseAbs().maxCoeff(), 1e-6) << j;
+    }
+  }
+  EXPECT_THROW(model.regressor_gradient(motion, A.leftCols(3)), std::invalid_argument);
+  EXPECT_FALSE(describe_robot(kRobot, OpenParameters::kAbsentRows).linear.regressor_gradient);
+}
+
 TEST(ToolPointOfTheFile, HasTheDerivativesOfItsPosition) {
   const DescribedRobot robot =
       describe_robot(DYNGEN_SOURCE_DIR "/robots/panda.robot", OpenParameters::kAbsentRows);
@@ -202,6 +233,7 @@ TEST(Excite, SaysWhatIsWrong) {
   EXPECT_EQ(dynid("excite " + kRobot + out + " --noise 1,2").exit_code, 1);
   EXPECT_EQ(dynid("excite " + kRobot + out + " --keep-out 2,1,0,1,0,1").exit_code, 1);
   EXPECT_EQ(dynid("excite absent.robot" + out).exit_code, 1);
+  EXPECT_EQ(dynid("excite " + kRobot + kShort + out + " --picture picture.bmp").exit_code, 1);
 }
 
 TEST(Excite, CannotAnswerWhereNothingKeepsTheLimits) {
