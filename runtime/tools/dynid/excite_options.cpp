@@ -47,7 +47,9 @@ void add_excite(CLI::App& tool, std::string& robot, std::string& output, std::st
   excite->add_option("--form", options.form, "fourier, spline or multistage")
       ->check(CLI::IsMember({"fourier", "spline", "multistage"}))
       ->capture_default_str();
-  excite->add_option("--harmonics", options.harmonics, "of a Fourier series")
+  excite
+      ->add_option("--harmonics", options.harmonics,
+                   "of a Fourier series; a spline has twice as many inner control points")
       ->check(CLI::Range(2, 100))
       ->capture_default_str();
   auto* duration = excite->add_option("--duration", options.duration, "of one period, s")
