@@ -23,6 +23,14 @@ if(TARGET dyngen_consistency)
     DESTINATION ${DYNGEN_PACKAGE_DIR} COMPONENT runtime)
 endif()
 
+# Likewise without the component `excitation` nobody needs NLopt.
+if(TARGET dyngen_excitation)
+  install(TARGETS dyngen_excitation EXPORT dyngenExcitationTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
+  install(EXPORT dyngenExcitationTargets NAMESPACE dyngen::
+    DESTINATION ${DYNGEN_PACKAGE_DIR} COMPONENT runtime)
+endif()
+
 if(TARGET dyngen)
   install(TARGETS dyngen EXPORT dyngenToolTargets
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tool)

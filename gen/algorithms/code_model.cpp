@@ -130,6 +130,16 @@ void add_wrench(CodeModel& code) {
                  (s * w[4] + c * w[5] + last.tip_d * y).expand()};
 }
 
+/// One weight for each element of the regressor in base parameters.
+void add_weights(CodeModel& code) {
+  const std::size_t rows = code.coordinate_names.size(), columns = code.beta.size();
+  for (std::size_t k = 0; k < rows * columns; ++k) {
+    code.weights.push_back(add_input(code.inputs, "A", static_cast<int>(k),
+                                     fmt::format("{}_{}", k / columns + 1, k % columns + 1),
+                                     "per unit of Y"));
+  }
+}
+
 }  // namespace
 
 CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedParameter>& base,
@@ -246,6 +256,7 @@ CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedP
                          link.type == JointType::kRevolute ? "N m" : "N");
   }
   if (options.wrench) add_wrench(code);
+  if (options.weights) add_weights(code);
   return code;
 }
 

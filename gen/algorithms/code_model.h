@@ -28,6 +28,7 @@ struct CodeOptions {
   bool gravity = false;  ///< gravity[3]: the base's acceleration -g in frame 0, m/s^2
   bool wrench = false;   ///< wrench[6]: on the last link
   bool payload = false;  ///< payload[10]: a body on the last link
+  bool weights = false;  ///< A[n x nbeta]: weights of the base regressor's elements
   bool fold = false;     ///< folded[] in place of chi[], and a function that computes it of chi
 };
 
@@ -68,6 +69,7 @@ struct CodeModel {
   /// Force and moment about the last link's origin that its environment applies, in its frame.
   /// The argument speaks of the file's frame, this of the link's frame here.
   std::array<GiNaC::ex, 6> wrench;
+  std::vector<GiNaC::ex> weights;  ///< with the option weights: A, row-major
   std::vector<ChiEntry> chi;  ///< dynamic parameters, then unknown lengths and gravity components
   std::vector<Column> chi_columns;  ///< what the dynamic parameters in chi are: its first entries
   std::vector<std::string> beta;    ///< names of the base parameters

@@ -55,6 +55,10 @@ std::string argument_legend(const CodeModel& code, const FunctionSpec& spec,
   if (name == "wrench") {
     return "wrench[6] N, N m: on the last link, about its origin, in its frame";
   }
+  if (name == "A") {
+    return fmt::format("A[{}] weights, {} x {} row-major", argument.size(), argument.rows,
+                       argument.columns);
+  }
   if (name == "payload") {
     return "payload[10] XX XY XZ YY YZ ZZ MX MY MZ M of a body on the last link, in its frame";
   }

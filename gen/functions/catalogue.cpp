@@ -16,6 +16,7 @@
 #include "gen/algorithms/pose.h"
 #include "gen/algorithms/regressor.h"
 #include "gen/algorithms/rnea_search.h"
+#include "gen/functions/regressor_gradient.h"
 
 namespace dyngen {
 namespace {
@@ -142,6 +143,16 @@ const std::vector<FunctionSpec>& function_catalogue() {
        {.gravity = true},
        "tau = Y beta: regressor of inverse dynamics in the base parameters.",
        write_base_regressor},
+      {.name = "base_regressor_gradient",
+       .inputs = {"q", "dq", "ddq"},
+       .outputs = {{.array = "g_q", .unit = "per rad or m"},
+                   {.array = "g_dq", .unit = "per rad/s or m/s"},
+                   {.array = "g_ddq", .unit = "per rad/s^2 or m/s^2"}},
+       .reads = {.gravity = true, .weights = true},
+       .summary = "Gradient of the sum of A_jc Y_jc over all elements of the base regressor, by q, "
+                  "dq and ddq; sign(dq) has none.",
+       .write = write_regressor_gradient,
+       .why_absent = why_no_regressor_gradient},
       {"gravity_regressor",
        {"q"},
        {{.array = "Y", .columns = Extent::kBeta, .unit = "torque per unit parameter"}},
@@ -252,6 +263,9 @@ std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code)
     result.push_back({.name = std::string(name), .rows = size, .shared = shared});
   };
   for (const std::string_view name : spec.inputs) add(name, joints, false);
+  if (spec.reads.weights) {
+    result.push_back({.name = "A", .rows = joints, .columns = extent_size(Extent::kBeta, code)});
+  }
   if (code.options.gravity && spec.reads.gravity) add("gravity", 3, true);
   if (code.options.wrench && spec.reads.wrench) add("wrench", 6, false);
   if (code.options.payload && spec.reads.payload) add("payload", kInertialCount, true);

@@ -27,6 +27,7 @@ struct ExtraInputs {
   bool gravity = false;  ///< gravity[3]
   bool wrench = false;   ///< wrench[6]
   bool payload = false;  ///< payload[10]
+  bool weights = false;  ///< A[n x nbeta], wherever there are any
 };
 
 /// A function that dyngen can write: the one place that knows its name, inputs and meaning.
@@ -83,8 +84,8 @@ struct Argument {
   [[nodiscard]] int size() const { return rows * columns; }
 };
 
-/// The arguments in the order of the C function: q, dq, ddq or tau, gravity, wrench, payload, chi
-/// (or folded), outputs. The one definition of a function's signature.
+/// The arguments in the order of the C function: q, dq, ddq or tau, A, gravity, wrench, payload,
+/// chi (or folded), outputs. The one definition of a function's signature.
 std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code);
 
 /// The same function over many samples, structure of arrays: the name with this ending.

@@ -32,6 +32,14 @@ std::string_view without_batch(std::string_view name) {
   return name;
 }
 
+/// Only one function reads weights, and only if it is asked for by its name.
+bool asks_for_weights(const GeneratorOptions& options) {
+  return std::any_of(options.functions.begin(), options.functions.end(), [](const auto& text) {
+    const FunctionSpec* spec = find_function(without_batch(text));
+    return spec != nullptr && spec->reads.weights;
+  });
+}
+
 /// A function, in which forms it is asked for.
 struct WantedFunction {
   FunctionName name;
@@ -125,6 +133,7 @@ CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& optio
                           .gravity = options.gravity,
                           .wrench = options.wrench,
                           .payload = options.payload,
+                          .weights = asks_for_weights(options),
                           .fold = options.fold});
 }
 

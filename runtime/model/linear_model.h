@@ -22,6 +22,11 @@ struct LinearParameter {
   std::optional<double> value;  ///< of the robot file; none if unknown there
 };
 
+/// Of many samples, (N x n) each: a motion, or the derivatives of something by it.
+struct JointMotion {
+  Eigen::MatrixXd q, dq, ddq;
+};
+
 /// A robot as estimation sees it: tau = Y(q, dq, ddq) beta, with a minimal beta.
 struct LinearModel {
   std::string name;
@@ -37,6 +42,13 @@ struct LinearModel {
   std::function<void(const Eigen::MatrixXd& q, const Eigen::MatrixXd& dq,
                      const Eigen::MatrixXd& ddq, Eigen::MatrixXd& Y)>
       regressor;
+
+  /// The gradients of s_k = sum_jc A_jc Y_jc of every sample k by its own q, dq and ddq.
+  /// A: (N x n * nb) as Y. Coulomb friction's sign(dq) has none. May be empty: then nothing can be
+  /// optimised. May be called from several threads.
+  /// @throws std::invalid_argument  if a size is wrong
+  std::function<JointMotion(const JointMotion& motion, const Eigen::MatrixXd& A)>
+      regressor_gradient;
 
   [[nodiscard]] int joints() const { return static_cast<int>(joint_names.size()); }
   [[nodiscard]] int size() const { return static_cast<int>(parameters.size()); }

@@ -69,9 +69,10 @@ TEST_P(Catalogue, CompiledEqualsEvaluated) {
 TEST_P(Catalogue, SinglePrecisionAgreesToSinglePrecision) {
   GeneratorOptions options = GetParam().options;
   options.scalar = Scalar::kFloat;
-  // forward dynamics solves with a mass matrix of condition 1e4: it is left out
+  // forward dynamics solves with a mass matrix of condition 1e4: it is left out; what reads weights
+  // has tests of its own
   for (const FunctionSpec& spec : function_catalogue()) {
-    if (spec.name != "fd") options.functions.emplace_back(spec.name);
+    if (spec.name != "fd" && !spec.reads.weights) options.functions.emplace_back(spec.name);
   }
   expect_equal(options, 1e-4);
 }

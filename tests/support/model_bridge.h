@@ -44,6 +44,7 @@ struct MotionSample {
   std::vector<double> q, dq, ddq;
   std::vector<double> tau{};
   std::vector<double> gravity{}, wrench{}, payload{};
+  std::vector<double> weights{};  ///< A; no random sample has it, since its size is the model's
 
   /// By the name of the argument. @throws std::invalid_argument
   [[nodiscard]] const std::vector<double>& input(const std::string& name) const;

@@ -17,5 +17,7 @@ int run_check(const ToolOptions& options);
 int run_accumulate(const ToolOptions& options);
 int run_merge(const ToolOptions& options);
 int run_simulate(const SimulateOptions& options);
+/// Where NLopt was absent when dynid was built: says so, exit 2.
+int run_excite(const ToolOptions& options);
 
 }  // namespace dyngen::runtime

@@ -209,9 +209,43 @@ void add_regressor(LinearModel& linear, CodeModel& code) {
   };
 }
 
+/// Its gradient, on request: it costs more to write than the regressor.
+void add_regressor_gradient(LinearModel& linear, CodeModel& code) {
+  const RobotFunction function =
+      write_plain_function(parse_function_name("base_regressor_gradient"), code);
+  auto program = std::make_shared<const Program>(lower(function.trace));
+  const Index joints = linear.joints(), size = linear.size();
+  linear.regressor_gradient = [program, joints, size](const JointMotion& motion,
+                                                      const MatrixXd& A) {
+    const Index samples = motion.q.rows();
+    check_motion(motion.q, "q", samples, joints);
+    check_motion(motion.dq, "dq", samples, joints);
+    check_motion(motion.ddq, "ddq", samples, joints);
+    check_motion(A, "A", samples, joints * size);
+    JointMotion gradient;
+    for (MatrixXd* part : {&gradient.q, &gradient.dq, &gradient.ddq}) part->resize(samples, joints);
+    const auto values = [](const MatrixXd& matrix) {
+      return std::span<const double>(matrix.data(), static_cast<std::size_t>(matrix.size()));
+    };
+    const auto places = [](MatrixXd& matrix) {
+      return std::span<double>(matrix.data(), static_cast<std::size_t>(matrix.size()));
+    };
+    evaluate(*program, static_cast<std::size_t>(samples),
+             {{"q", values(motion.q)},
+              {"dq", values(motion.dq)},
+              {"ddq", values(motion.ddq)},
+              {"A", values(A)}},
+             {{"g_q", places(gradient.q)},
+              {"g_dq", places(gradient.dq)},
+              {"g_ddq", places(gradient.ddq)}});
+    return gradient;
+  };
+}
+
 }  // namespace
 
-DescribedRobot describe_robot(const std::string& path, OpenParameters open) {
+DescribedRobot describe_robot(const std::string& path, OpenParameters open,
+                              const DescribeOptions& options) {
   DescribedRobot robot;
   robot.file = read_robot_file(path);
   refuse_unknown_geometry(robot.file);
@@ -220,7 +254,8 @@ DescribedRobot describe_robot(const std::string& path, OpenParameters open) {
 
   const SymbolicRobot symbolic = make_symbolic(robot.model);
   const Regrouping base = regroup(symbolic);
-  CodeModel code = make_code_model(base, base.parameters, {.parameters = ParameterMode::kRuntime});
+  CodeModel code = make_code_model(
+      base, base.parameters, {.parameters = ParameterMode::kRuntime, .weights = options.gradient});
   LinearModel& linear = robot.linear;
   linear.name = robot.model.name;
   linear.joint_names = code.coordinate_names;
@@ -239,6 +274,7 @@ DescribedRobot describe_robot(const std::string& path, OpenParameters open) {
   }
   robot.places = choose_places(robot.grouping, base.parameters);
   add_regressor(linear, code);
+  if (options.gradient) add_regressor_gradient(linear, code);
   return robot;
 }
 

@@ -36,8 +36,14 @@ struct DescribedRobot {
   std::vector<Eigen::Index> places;
 };
 
+/// What else is wanted of a robot.
+struct DescribeOptions {
+  bool gradient = false;  ///< LinearModel::regressor_gradient: some tenths of a second
+};
+
 /// Reads a robot file and writes its base regressor as a program.
 /// @throws ModelError  positioned; a length or gravity component that is '*' among them
-DescribedRobot describe_robot(const std::string& path, OpenParameters open);
+DescribedRobot describe_robot(const std::string& path, OpenParameters open,
+                              const DescribeOptions& options = {});
 
 }  // namespace dyngen::runtime

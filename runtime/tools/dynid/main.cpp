@@ -33,6 +33,8 @@ int run(const ToolOptions& options, ProcessGroup& group) {
 #else
       throw std::invalid_argument("simulate is left out of this dynid (it needs libboost-dev)");
 #endif
+    case Command::kExcite:
+      return run_excite(options);
   }
   return kUsage;
 }

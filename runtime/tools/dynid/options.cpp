@@ -181,6 +181,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_fit(tool, parsed.options, words);
   add_others(tool, parsed.options, words);
   add_simulate(tool, parsed.options.simulate);
+  add_excite(tool, parsed.options.robot, parsed.options.output, parsed.options.json,
+             parsed.options.excite);
   try {
     tool.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -198,10 +200,13 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                                                    {"check", Command::kCheck},
                                                    {"accumulate", Command::kAccumulate},
                                                    {"merge", Command::kMerge},
-                                                   {"simulate", Command::kSimulate}};
+                                                   {"simulate", Command::kSimulate},
+                                                   {"excite", Command::kExcite}};
   parsed.options.command = commands.at(name);
   if (parsed.options.command == Command::kSimulate) return parsed;
-  const std::string message = understand(words, parsed.options);
+  const std::string message = parsed.options.command == Command::kExcite
+                                  ? parsed.options.excite.usage_error()
+                                  : understand(words, parsed.options);
   if (!message.empty()) parsed.exit_code = usage(message);
   return parsed;
 }

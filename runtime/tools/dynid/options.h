@@ -7,11 +7,12 @@
 #include "runtime/identification/fit.h"
 #include "runtime/identification/motion_rows.h"
 #include "runtime/identification/motion_source.h"
+#include "runtime/tools/dynid/excite_options.h"
 #include "runtime/tools/dynid/simulate_options.h"
 
 namespace dyngen::runtime {
 
-enum class Command { kFit, kCheck, kAccumulate, kMerge, kSimulate };
+enum class Command { kFit, kCheck, kAccumulate, kMerge, kSimulate, kExcite };
 
 /// The command line of dynid.
 struct ToolOptions {
@@ -32,6 +33,7 @@ struct ToolOptions {
   RowOptions rows;
   FitOptions fit;
   SimulateOptions simulate;
+  ExciteOptions excite;
 };
 
 /// Reads the command line. @return what to do, or the exit code if there is nothing left to do

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/excitation/excitation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "runtime/excitation/constrained_minimum.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Instants of the optimisation for each period of the highest harmonic: a peak between two of them
+/// is 0.3 % higher than they are.
+constexpr int kInstantsPerHarmonic = 40;
+
+VectorXd instants(const TrajectoryFamily& family) {
+  return period_times(family, Index{kInstantsPerHarmonic} * family.harmonics);
+}
+
+/// What each parameter alone may be within the limits: the unit in which it is varied. (m x n)
+MatrixXd units_of(const TrajectoryBasis& basis, const MotionLimits& limits) {
+  const Index n = limits.lower.size();
+  MatrixXd units(basis.Q.cols(), n);
+  for (Index j = 0; j < n; ++j) {
+    const double half = 0.5 * (limits.upper[j] - limits.lower[j]);
+    units(0, j) = half;
+    for (Index m = 1; m < basis.Q.cols(); ++m) {
+      const double share =
+          std::max({basis.Q.col(m).cwiseAbs().maxCoeff() / half,
+                    basis.dQ.col(m).cwiseAbs().maxCoeff() / limits.speed[j],
+                    basis.ddQ.col(m).cwiseAbs().maxCoeff() / limits.acceleration[j]});
+      units(m, j) = 1 / share;
+    }
+  }
+  return units;
+}
+
+/// How hard the edges of limits and of the criterion are.
+struct Sharpness {
+  double power = 2;  ///< of the criterion
+  double constraint = 60;
+  double factor = 1;  ///< of the limits
+};
+
+/// The trajectory's parameters, each in its unit, as one vector.
+class Problem {
+ public:
+  Problem(const LinearModel& model, const MotionLimits& limits, const ExcitationOptions& options)
+      : model_(model),
+        limits_(limits),
+        options_(options),
+        basis_(basis_at(options.family, instants(options.family))),
+        units_(units_of(basis_, limits)) {}
+
+  [[nodiscard]] VectorXd from_parameters(const MatrixXd& x) const {
+    const MatrixXd y = x.cwiseQuotient(units_);
+    return Eigen::Map<const VectorXd>(y.data(), y.size());
+  }
+  [[nodiscard]] MatrixXd parameters(const VectorXd& y) const {
+    return units_.cwiseProduct(Eigen::Map<const MatrixXd>(y.data(), units_.rows(), units_.cols()));
+  }
+  [[nodiscard]] JointMotion motion(const VectorXd& y) const { return basis_.motion(parameters(y)); }
+
+  [[nodiscard]] SmoothPoint at(const VectorXd& y, const Sharpness& sharpness) const {
+    const JointMotion motion = this->motion(y);
+    const Information information = information_of(model_, motion, options_.information);
+    CriterionOptions criterion = options_.criterion;
+    criterion.power = sharpness.power;
+    const CriterionValue value = evaluate(information.R, criterion);
+    SmoothPoint point;
+    point.value = value.value;
+    point.gradient = VectorXd::Zero(y.size());
+    if (std::isfinite(value.value)) {
+      point.gradient = gradient(
+          information_gradient(model_, motion, options_.information, information, value.gradient));
+    }
+    const MotionConstraints constraints =
+        constraints_of(model_, limits_, motion, sharpness.constraint, sharpness.factor);
+    point.constraints = constraints.values;
+    point.jacobian.resize(constraints.values.size(), y.size());
+    for (Index c = 0; c < constraints.values.size(); ++c) {
+      point.jacobian.row(c) =
+          gradient(constraints.by_motion[static_cast<std::size_t>(c)]).transpose();
+    }
+    return point;
+  }
+
+  /// log of the condition number, or what else the criterion is, without the smoothing.
+  [[nodiscard]] double sharp_value(const VectorXd& y) const {
+    CriterionOptions criterion = options_.criterion;
+    criterion.power = 1e4;
+    return evaluate(information_of(model_, motion(y), options_.information).R, criterion).value;
+  }
+
+  [[nodiscard]] double condition(const VectorXd& y) const {
+    return condition_number(model_, motion(y), options_.information.parameters);
+  }
+
+ private:
+  [[nodiscard]] VectorXd gradient(const JointMotion& by_motion) const {
+    MatrixXd by_x = MatrixXd::Zero(units_.rows(), units_.cols());
+    if (by_motion.q.size() > 0) by_x += basis_.Q.transpose() * by_motion.q;
+    if (by_motion.dq.size() > 0) by_x += basis_.dQ.transpose() * by_motion.dq;
+    if (by_motion.ddq.size() > 0) by_x += basis_.ddQ.transpose() * by_motion.ddq;
+    by_x = by_x.cwiseProduct(units_);
+    return Eigen::Map<const VectorXd>(by_x.data(), by_x.size());
+  }
+
+  const LinearModel& model_;
+  const MotionLimits& limits_;
+  const ExcitationOptions& options_;
+  TrajectoryBasis basis_;
+  MatrixXd units_;
+};
+
+/// What is left of the evaluations, or of the time.
+class Budget {
+ public:
+  explicit Budget(const ExcitationOptions& options) : options_(options) {}
+
+  /// A share of all of it, no more than is left.
+  [[nodiscard]] MinimumOptions part(double share) const {
+    MinimumOptions part;
+    if (options_.evaluations > 0) {
+      part.evaluations = std::clamp(static_cast<int>(share * options_.evaluations), 2,
+                                    std::max(2, options_.evaluations - used));
+    } else {
+      part.evaluations = std::numeric_limits<int>::max();
+      part.seconds = std::max(0.01, std::min(share * options_.seconds, left()));
+    }
+    return part;
+  }
+
+  int used = 0;
+
+ private:
+  [[nodiscard]] double left() const {
+    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begin_;
+    return options_.seconds - gone.count();
+  }
+
+  const ExcitationOptions& options_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+VectorXd minimise(const Problem& problem, const VectorXd& start, const Sharpness& sharpness,
+                  const MinimumOptions& part, Budget& budget) {
+  const Minimum minimum =
+      constrained_minimum([&](const VectorXd& y) { return problem.at(y, sharpness); }, start, part);
+  budget.used += minimum.evaluations;
+  return minimum.x;
+}
+
+/// The motion without a part of what moves: the same mean, less amplitude.
+MatrixXd shrunk(MatrixXd x, double factor) {
+  x.bottomRows(x.rows() - 1) *= factor;
+  return x;
+}
+
+class Search {
+ public:
+  Search(const LinearModel& model, const MotionLimits& limits, const ExcitationOptions& options)
+      : model_(model),
+        limits_(limits),
+        options_(options),
+        problem_(model, limits, options),
+        budget_(options) {}
+
+  Excitation run() {
+    std::vector<Candidate> candidates;
+    for (int i = 0; i < options_.starts; ++i) {
+      const VectorXd y = from_start(i);
+      if (y.size() > 0) candidates.push_back({y, problem_.sharp_value(y)});
+    }
+    if (candidates.empty()) {
+      result_.message =
+          "no random trajectory keeps the limits of torque and the box, however small its motion";
+      return std::move(result_);
+    }
+    std::stable_sort(candidates.begin(), candidates.end(), better);
+    candidates.resize(std::min(candidates.size(), kFinalists));
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      tell(fmt::format("the best {}", candidates.size()), options_.starts + static_cast<int>(i));
+      sharpen(candidates[i], static_cast<double>(candidates.size()));
+    }
+    prove(std::min_element(candidates.begin(), candidates.end(), better)->y);
+    result_.evaluations = budget_.used;
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr double kPartOfStarts = 0.5, kPartOfFinalists = 0.4, kPartOfRound = 0.02;
+  static constexpr std::size_t kFinalists = 3;
+
+  struct Candidate {
+    VectorXd y;
+    double value = 0;  ///< of the criterion, without its smoothing
+  };
+  static bool better(const Candidate& a, const Candidate& b) { return a.value < b.value; }
+
+  void tell(const std::string& what, int place) const {
+    if (options_.progress) {
+      options_.progress(what, static_cast<std::size_t>(place),
+                        static_cast<std::size_t>(options_.starts + 4));
+    }
+  }
+
+  VectorXd from_start(int i) {
+    tell(fmt::format("start {} of {}", i + 1, options_.starts), i);
+    ExcitationStart start{.seed = options_.seed + static_cast<std::uint64_t>(i)};
+    const MatrixXd x = random_trajectory(model_, limits_, options_.family, start.seed);
+    if (x.size() == 0) return {};
+    if (result_.random.size() == 0) result_.random = x;
+    VectorXd y = problem_.from_parameters(x);
+    start.random = problem_.condition(y);
+    // soft limits are tighter: the search begins within them
+    constexpr double kRoom = 0.85, kSoftSlack = 0.02;
+    y = problem_.from_parameters(shrunk(x, kRoom));
+    const double share = kPartOfStarts / options_.starts;
+    MinimumOptions first = budget_.part(0.4 * share), second = budget_.part(0.6 * share);
+    first.violation = second.violation = kSoftSlack;
+    y = minimise(problem_, y, {.power = 1, .constraint = 40}, first, budget_);
+    y = minimise(problem_, y, {.power = 4, .constraint = 100}, second, budget_);
+    start.optimised = problem_.condition(y);
+    result_.starts.push_back(start);
+    return y;
+  }
+
+  /// Harder and harder edges.
+  void sharpen(Candidate& candidate, double finalists) {
+    const std::array<double, 3> powers = {8, 16, kHardest};
+    const double share = kPartOfFinalists / (finalists * powers.size());
+    for (const double power : powers) {
+      MinimumOptions part = budget_.part(share);
+      part.tolerance = 1e-5;
+      candidate.y = minimise(problem_, candidate.y, edges(power), part, budget_);
+    }
+    candidate.value = problem_.sharp_value(candidate.y);
+    // what would have to be made smaller is not worth its value
+    constexpr double kSlack = 0.02;
+    const JointMotion motion = problem_.motion(candidate.y);
+    if (limit_shares(model_, limits_, motion).largest() > 1 + kSlack) candidate.value += 100;
+  }
+
+  static constexpr double kHardest = 40;
+  static Sharpness edges(double power) { return {.power = power, .constraint = 40 * power}; }
+
+  /// Checks at the check rate; where a limit is passed, tighter limits.
+  void prove(VectorXd y) {
+    Sharpness sharpness = edges(kHardest);
+    constexpr int kRounds = 5;
+    double share = 0;
+    for (int round = 0; round < kRounds; ++round) {
+      tell("the limits between instants", options_.starts + static_cast<int>(kFinalists));
+      share = check(problem_.parameters(y));
+      if (share <= 1) return;
+      sharpness.factor *= 0.9995 / share;
+      y = minimise(problem_, y, sharpness, budget_.part(kPartOfRound), budget_);
+    }
+    MatrixXd x = problem_.parameters(y);
+    constexpr int kShrinks = 60;
+    for (int k = 0; k < kShrinks; ++k) {
+      share = check(x);
+      if (share <= 1) return;
+      x = shrunk(x, std::min(0.995, 0.9995 / share));
+    }
+    result_.message = fmt::format(
+        "the largest share of a limit is {:.4f} and does not fall when the motion gets "
+        "smaller: the arm cannot hold itself there",
+        share);
+  }
+
+  double check(const MatrixXd& x) {
+    result_.x = x;
+    result_.shares = shares_at_rate(model_, limits_, options_.family, x, options_.check_rate);
+    result_.found = result_.shares.largest() <= 1;
+    return result_.shares.largest();
+  }
+
+  const LinearModel& model_;
+  const MotionLimits& limits_;
+  const ExcitationOptions& options_;
+  Problem problem_;
+  Budget budget_;
+  Excitation result_;
+};
+
+}  // namespace
+
+void ExcitationOptions::validate() const {
+  family.validate();
+  criterion.validate();
+  if (starts < 1) {
+    throw std::invalid_argument(fmt::format("starts: {}, expected at least 1", starts));
+  }
+  if (evaluations < 0) {
+    throw std::invalid_argument(fmt::format("evaluations: {}, expected 0 or more", evaluations));
+  }
+  if (!(seconds > 0)) {
+    throw std::invalid_argument(fmt::format("seconds: {}, expected more than 0", seconds));
+  }
+  if (!(check_rate > 0)) {
+    throw std::invalid_argument(fmt::format("check rate: {}, expected more than 0", check_rate));
+  }
+}
+
+Excitation excite(const LinearModel& model, const MotionLimits& limits,
+                  const ExcitationOptions& options) {
+  options.validate();
+  options.information.validate(model);
+  limits.validate(model);
+  return Search(model, limits, options).run();
+}
+
+MatrixXd random_trajectory(const LinearModel& model, const MotionLimits& limits,
+                           const TrajectoryFamily& family, std::uint64_t seed) {
+  const TrajectoryBasis basis = basis_at(family, instants(family));
+  const MatrixXd units = units_of(basis, limits);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  constexpr int kTries = 100, kShrinks = 12;
+  constexpr double kUsed = 0.98;  // what peaks between the instants may add is less
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    MatrixXd x(units.rows(), units.cols());
+    for (Index j = 0; j < x.cols(); ++j) {
+      const double middle = 0.5 * (limits.lower[j] + limits.upper[j]);
+      x(0, j) = middle + 0.4 * uniform(random) * units(0, j);
+      for (Index m = 1; m < x.rows(); ++m) x(m, j) = normal(random) * units(m, j);
+      const Index shapes = x.rows() - 1;
+      const VectorXd shape = x.col(j).tail(shapes);
+      const VectorXd moved = basis.Q.rightCols(shapes) * shape;
+      const double room_up = limits.upper[j] - x(0, j), room_down = x(0, j) - limits.lower[j];
+      const double used = std::max(
+          {moved.maxCoeff() / room_up, -moved.minCoeff() / room_down,
+           (basis.dQ.rightCols(shapes) * shape).cwiseAbs().maxCoeff() / limits.speed[j],
+           (basis.ddQ.rightCols(shapes) * shape).cwiseAbs().maxCoeff() / limits.acceleration[j]});
+      x.col(j).tail(shapes) *= kUsed / used;
+    }
+    for (int shrink = 0; shrink < kShrinks; ++shrink) {
+      if (limit_shares(model, limits, basis.motion(x)).largest() <= 1) return x;
+      x = shrunk(x, 0.8);
+    }
+  }
+  return {};
+}
+
+LimitShares shares_at_rate(const LinearModel& model, const MotionLimits& limits,
+                           const TrajectoryFamily& family, const MatrixXd& x, double rate) {
+  // in pieces: the regressor of all instants of a long motion would fill the memory
+  constexpr Index kPiece = 4096;
+  const Index count = static_cast<Index>(std::ceil(family.duration * rate)) + 1;
+  LimitShares all;
+  for (Index start = 0; start < count; start += kPiece) {
+    const Index piece = std::min(kPiece, count - start);
+    const VectorXd time = ((VectorXd::LinSpaced(piece, 0, static_cast<double>(piece - 1)).array() +
+                            static_cast<double>(start)) *
+                           family.duration / static_cast<double>(count - 1))
+                              .cwiseMin(family.duration);
+    const LimitShares own = limit_shares(model, limits, basis_at(family, time).motion(x));
+    if (start == 0) {
+      all = own;
+      continue;
+    }
+    all.position = all.position.cwiseMax(own.position);
+    all.speed = all.speed.cwiseMax(own.speed);
+    all.acceleration = all.acceleration.cwiseMax(own.acceleration);
+    all.torque = all.torque.cwiseMax(own.torque);
+    all.distance = std::min(all.distance, own.distance);
+  }
+  return all;
+}
+
+}  // namespace dyngen::runtime
