@@ -170,7 +170,7 @@ struct Plant::State {
     };
   }
 
-  mutable Regime regime;
+  Regime regime;
   IntegrationOptions options;
   odeint::result_of::make_controlled<Formula>::type controlled;
   Formula formula;
@@ -368,11 +368,14 @@ const VectorXd& Plant::stuck_time() const { return state_->stuck_time; }
 const PlantCounts& Plant::counts() const { return state_->counts; }
 
 VectorXd Plant::acceleration(const VectorXd& torque) const {
-  Regime regime(state_->regime.model);
+  Regime& regime = state_->regime;
   const double* q = state_->x.data();
   const double* dq = q + state_->n;
+  const Eigen::VectorXi before = regime.direction;
   for (Index j = 0; j < torque.size(); ++j) regime.direction[j] = static_cast<int>(sign(dq[j]));
-  return regime.rest(q, dq, torque.data()).ddq;
+  const VectorXd ddq = regime.rest(q, dq, torque.data()).ddq;
+  regime.direction = before;  // what is asked here changes nothing
+  return ddq;
 }
 
 }  // namespace dyngen::runtime

@@ -36,6 +36,7 @@ void add_simulate(CLI::App& tool, SimulateOptions& options) {
       ->capture_default_str();
   simulate->add_option("--encoder", options.encoder, "rad or m: step of the positions; 0: exact")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   simulate
@@ -47,6 +48,7 @@ void add_simulate(CLI::App& tool, SimulateOptions& options) {
       ->add_option("--torque-noise", options.torque_noise,
                    "N m or N: standard deviation of the recorded torque's noise")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   simulate->add_option("--delay", options.delay, "s, from a sample to its torque")
@@ -62,13 +64,14 @@ void add_simulate(CLI::App& tool, SimulateOptions& options) {
       ->capture_default_str();
   simulate
       ->add_option("--friction-velocity", options.friction_velocity,
-                   "whose friction is compensated: of the reference or of the measured velocity")
+                   "the velocity at which friction is compensated")
       ->check(CLI::IsMember({"reference", "measured"}))
       ->capture_default_str();
   simulate
       ->add_option("--friction-band", options.friction_band,
                    "rad/s or m/s: below, compensation is linear in velocity")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   simulate->add_option("--saturate", options.saturate, "on: torque is limited by taumax")
@@ -77,7 +80,8 @@ void add_simulate(CLI::App& tool, SimulateOptions& options) {
   simulate
       ->add_option("--start", options.start,
                    "rad or m: start at rest there; default: the trajectory's first sample")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   simulate->add_option("--tolerance", options.tolerance, "of the integration")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

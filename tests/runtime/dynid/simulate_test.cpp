@@ -153,6 +153,15 @@ TEST_F(Simulate, MakesAStepResponse) {
             std::string::npos);
 }
 
+TEST_F(Simulate, AListIsOneWord) {
+  const Outcome run =
+      dynid("simulate --start -0.1,0.2,-0.3 --encoder 0 " + std::string(kRobot) + " --trajectory " +
+            path("step.csv") + " --duration 0.1 -o " + path("run.csv"));
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  const Recording recording = read_recording(path("run.csv"));
+  EXPECT_TRUE(recording.q.row(0).isApprox(Eigen::RowVector3d(-0.1, 0.2, -0.3)));
+}
+
 TEST_F(Simulate, AnotherPlantIsFollowedWorse) {
   const auto worst_error = [](const std::string& out) {  // of joint 2, second number of its row
     std::istringstream row(out.substr(out.find("\n2 ") + 3));
