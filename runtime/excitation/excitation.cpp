@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <stdexcept>
 
 #include "runtime/excitation/constrained_minimum.h"
@@ -19,32 +18,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// Instants of the optimisation for each period of the highest harmonic: a peak between two of them
-/// is 0.3 % higher than they are.
-constexpr int kInstantsPerHarmonic = 40;
-
-VectorXd instants(const TrajectoryFamily& family) {
-  return period_times(family, Index{kInstantsPerHarmonic} * family.harmonics);
-}
-
-/// What each parameter alone may be within the limits: the unit in which it is varied. (m x n)
-MatrixXd units_of(const TrajectoryBasis& basis, const MotionLimits& limits) {
-  const Index n = limits.lower.size();
-  MatrixXd units(basis.Q.cols(), n);
-  for (Index j = 0; j < n; ++j) {
-    const double half = 0.5 * (limits.upper[j] - limits.lower[j]);
-    units(0, j) = half;
-    for (Index m = 1; m < basis.Q.cols(); ++m) {
-      const double share =
-          std::max({basis.Q.col(m).cwiseAbs().maxCoeff() / half,
-                    basis.dQ.col(m).cwiseAbs().maxCoeff() / limits.speed[j],
-                    basis.ddQ.col(m).cwiseAbs().maxCoeff() / limits.acceleration[j]});
-      units(m, j) = 1 / share;
-    }
-  }
-  return units;
-}
 
 /// How hard the edges of limits and of the criterion are.
 struct Sharpness {
@@ -60,8 +33,8 @@ class Problem {
       : model_(model),
         limits_(limits),
         options_(options),
-        basis_(basis_at(options.family, instants(options.family))),
-        units_(units_of(basis_, limits)) {}
+        basis_(basis_at(options.family, sought_times(options.family))),
+        units_(parameter_units(basis_, limits)) {}
 
   [[nodiscard]] VectorXd from_parameters(const MatrixXd& x) const {
     const MatrixXd y = x.cwiseQuotient(units_);
@@ -160,12 +133,6 @@ VectorXd minimise(const Problem& problem, const VectorXd& start, const Sharpness
       constrained_minimum([&](const VectorXd& y) { return problem.at(y, sharpness); }, start, part);
   budget.used += minimum.evaluations;
   return minimum.x;
-}
-
-/// The motion without a part of what moves: the same mean, less amplitude.
-MatrixXd shrunk(MatrixXd x, double factor) {
-  x.bottomRows(x.rows() - 1) *= factor;
-  return x;
 }
 
 class Search {
@@ -321,65 +288,6 @@ Excitation excite(const LinearModel& model, const MotionLimits& limits,
   options.information.validate(model);
   limits.validate(model);
   return Search(model, limits, options).run();
-}
-
-MatrixXd random_trajectory(const LinearModel& model, const MotionLimits& limits,
-                           const TrajectoryFamily& family, std::uint64_t seed) {
-  const TrajectoryBasis basis = basis_at(family, instants(family));
-  const MatrixXd units = units_of(basis, limits);
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  constexpr int kTries = 100, kShrinks = 12;
-  constexpr double kUsed = 0.98;  // what peaks between the instants may add is less
-  for (int attempt = 0; attempt < kTries; ++attempt) {
-    MatrixXd x(units.rows(), units.cols());
-    for (Index j = 0; j < x.cols(); ++j) {
-      const double middle = 0.5 * (limits.lower[j] + limits.upper[j]);
-      x(0, j) = middle + 0.4 * uniform(random) * units(0, j);
-      for (Index m = 1; m < x.rows(); ++m) x(m, j) = normal(random) * units(m, j);
-      const Index shapes = x.rows() - 1;
-      const VectorXd shape = x.col(j).tail(shapes);
-      const VectorXd moved = basis.Q.rightCols(shapes) * shape;
-      const double room_up = limits.upper[j] - x(0, j), room_down = x(0, j) - limits.lower[j];
-      const double used = std::max(
-          {moved.maxCoeff() / room_up, -moved.minCoeff() / room_down,
-           (basis.dQ.rightCols(shapes) * shape).cwiseAbs().maxCoeff() / limits.speed[j],
-           (basis.ddQ.rightCols(shapes) * shape).cwiseAbs().maxCoeff() / limits.acceleration[j]});
-      x.col(j).tail(shapes) *= kUsed / used;
-    }
-    for (int shrink = 0; shrink < kShrinks; ++shrink) {
-      if (limit_shares(model, limits, basis.motion(x)).largest() <= 1) return x;
-      x = shrunk(x, 0.8);
-    }
-  }
-  return {};
-}
-
-LimitShares shares_at_rate(const LinearModel& model, const MotionLimits& limits,
-                           const TrajectoryFamily& family, const MatrixXd& x, double rate) {
-  // in pieces: the regressor of all instants of a long motion would fill the memory
-  constexpr Index kPiece = 4096;
-  const Index count = static_cast<Index>(std::ceil(family.duration * rate)) + 1;
-  LimitShares all;
-  for (Index start = 0; start < count; start += kPiece) {
-    const Index piece = std::min(kPiece, count - start);
-    const VectorXd time = ((VectorXd::LinSpaced(piece, 0, static_cast<double>(piece - 1)).array() +
-                            static_cast<double>(start)) *
-                           family.duration / static_cast<double>(count - 1))
-                              .cwiseMin(family.duration);
-    const LimitShares own = limit_shares(model, limits, basis_at(family, time).motion(x));
-    if (start == 0) {
-      all = own;
-      continue;
-    }
-    all.position = all.position.cwiseMax(own.position);
-    all.speed = all.speed.cwiseMax(own.speed);
-    all.acceleration = all.acceleration.cwiseMax(own.acceleration);
-    all.torque = all.torque.cwiseMax(own.torque);
-    all.distance = std::min(all.distance, own.distance);
-  }
-  return all;
 }
 
 }  // namespace dyngen::runtime

@@ -9,6 +9,7 @@
 
 #include "runtime/excitation/criterion.h"
 #include "runtime/excitation/information.h"
+#include "runtime/excitation/limited_trajectory.h"
 #include "runtime/excitation/motion_limits.h"
 #include "runtime/excitation/trajectory_basis.h"
 
@@ -57,15 +58,5 @@ struct Excitation {
 /// @throws std::invalid_argument  if options or limits do not fit the model
 Excitation excite(const LinearModel& model, const MotionLimits& limits,
                   const ExcitationOptions& options);
-
-/// A random trajectory of the family that uses as much of the limits as one of them lets it.
-/// @return (m x n); nothing (0 x 0) if a hundred random ones do not keep torque limits and box even
-/// when they are small
-Eigen::MatrixXd random_trajectory(const LinearModel& model, const MotionLimits& limits,
-                                  const TrajectoryFamily& family, std::uint64_t seed);
-
-/// The motion of one period at a rate, first and last instant included, and its shares of limits.
-LimitShares shares_at_rate(const LinearModel& model, const MotionLimits& limits,
-                           const TrajectoryFamily& family, const Eigen::MatrixXd& x, double rate);
 
 }  // namespace dyngen::runtime

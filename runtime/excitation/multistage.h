@@ -1,49 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "runtime/excitation/motion_limits.h"
-#include "runtime/model/linear_model.h"
+#include "runtime/excitation/held_accelerations.h"
 
 namespace dyngen::runtime {
-
-/// A motion by its accelerations, each held for one sample: the double integrator
-/// x_{k+1} = A x_k + B u_k with x = (q, dq), A = [I, T; 0, I], B = [T^2 / 2; T].
-struct HeldAccelerations {
-  double sample_time = 0.005;  ///< s
-  Eigen::VectorXd start{};     ///< (n) q at rest
-  Eigen::MatrixXd u{};         ///< (K x n)
-
-  /// q, dq and u at the samples, (K x n) each.
-  [[nodiscard]] JointMotion motion() const;
-};
-
-/// How a motion through chosen points is made.
-struct ChosenPointsOptions {
-  int samples = 600;
-  double sample_time = 0.005;  ///< s
-  int points = 6;              ///< that are aimed at, one after the other
-  double bandwidth_hz = 0.6;   ///< of the critically damped way to a point, and of the filter
-  double share = 0.5;          ///< of the ranges in which points are chosen
-  int candidates = 30;         ///< sets of points of which the best is taken
-  std::uint64_t seed = 1;
-};
-
-/// A motion from rest through chosen points, x_{k+1} = A x_k + B K (x_i - x_k), low-pass filtered.
-///
-/// Points are random within the limits; of several sets that is taken in which the smallest
-/// |R e_m| over the parameters m is largest, since the smallest singular value of R is no larger.
-/// Then the motion is made smaller until it keeps its limits.
-/// Source: thesis "Dynamic estimation for serial manipulators" (1995), section 5.3.
-/// @throws std::invalid_argument  if an option is out of range
-HeldAccelerations through_chosen_points(const LinearModel& model, const MotionLimits& limits,
-                                        const std::vector<int>& parameters,
-                                        const ChosenPointsOptions& options);
 
 struct MultistageOptions {
   std::vector<int> parameters{};  ///< of the model, ascending; empty: all
@@ -81,19 +44,5 @@ struct MultistageResult {
 /// @throws std::invalid_argument  if the start does not keep the limits, or sizes do not fit
 MultistageResult multistage(const LinearModel& model, const MotionLimits& limits,
                             const HeldAccelerations& start, const MultistageOptions& options);
-
-/// The trajectory with a last part in which every joint is braked evenly, in 0.1 s, 0.2 s ... 3 s:
-/// the shortest one that keeps the limits. Where none does, braking begins earlier, at half of the
-/// trajectory at the earliest; nothing if that does not help either.
-std::optional<HeldAccelerations> brought_to_rest(const LinearModel& model,
-                                                 const MotionLimits& limits,
-                                                 const HeldAccelerations& trajectory);
-
-/// The same motion in `parts` samples for each of its own.
-HeldAccelerations resampled(const HeldAccelerations& trajectory, int parts);
-
-/// dF/du of a function of the motion whose partial derivatives by q, dq and u are given, (K x n):
-/// the adjoint lambda_k = A' lambda_{k+1} + dF/dx_k swept from the last sample to the first.
-Eigen::MatrixXd adjoint_sweep(const JointMotion& partial, double sample_time);
 
 }  // namespace dyngen::runtime

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/excitation/chosen_points.h"
 #include "runtime/excitation/excitation.h"
 #include "runtime/excitation/multistage.h"
 #include "tests/studies/study_robot.h"

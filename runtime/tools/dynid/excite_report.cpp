@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "runtime/estimation/least_squares.h"
+#include "runtime/excitation/chosen_points.h"
 #include "runtime/excitation/multistage.h"
 #include "runtime/identification/summary_file.h"
 

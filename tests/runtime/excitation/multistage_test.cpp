@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "runtime/excitation/chosen_points.h"
 #include "tests/runtime/excitation/small_arm.h"
 
 namespace dyngen::runtime {
@@ -27,6 +28,43 @@ TEST(HeldAccelerations, MoveAsADoubleIntegrator) {
   EXPECT_NEAR(motion.dq(100, 0), 3.0, 1e-12);
   EXPECT_NEAR(motion.q(100, 1), 2 + 1.5, 1e-12);
   EXPECT_EQ(motion.q(0, 0), 1);
+}
+
+TEST(HeldAccelerations, ResampledAreTheSameMotion) {
+  const HeldAccelerations held = some_accelerations();
+  const JointMotion coarse = held.motion(), fine = resampled(held, 5).motion();
+  ASSERT_EQ(fine.q.rows(), 5 * coarse.q.rows());
+  for (Index k = 0; k < coarse.q.rows(); ++k) {
+    EXPECT_LT((fine.q.row(5 * k) - coarse.q.row(k)).norm(), 1e-12);
+    EXPECT_LT((fine.dq.row(5 * k) - coarse.dq.row(k)).norm(), 1e-12);
+  }
+}
+
+TEST(HeldAccelerations, AreBroughtToRestWithinLimits) {
+  const LinearModel model = test::small_arm();
+  MotionLimits limits = test::small_arm_limits();
+  HeldAccelerations held{.sample_time = 0.01, .start = Eigen::Vector2d(0, 0)};
+  held.u = MatrixXd::Constant(60, 2, 2.0);
+  const std::optional<HeldAccelerations> whole = brought_to_rest(model, limits, held);
+  ASSERT_TRUE(whole.has_value());
+  const JointMotion motion = whole->motion();
+  EXPECT_LT(motion.dq.bottomRows(1).norm(), 1e-12);
+  EXPECT_EQ(motion.ddq.bottomRows(1).norm(), 0);
+  EXPECT_LE(limit_shares(model, limits, motion).largest(), 1);
+  EXPECT_EQ(whole->u.topRows(60), held.u);  // there is room: nothing is cut off
+
+  // at the end it is 0.36 rad on its way with 1.2 rad/s; braking with 2 rad/s^2 takes as far again
+  limits.upper[0] = 0.5;
+  limits.lower[0] = -0.5;
+  limits.acceleration[0] = 2.01;
+  const std::optional<HeldAccelerations> earlier = brought_to_rest(model, limits, held);
+  ASSERT_TRUE(earlier.has_value());
+  EXPECT_LT(earlier->u.rows(), whole->u.rows() + 60);
+  EXPECT_LT(earlier->u(59, 0), 0);
+  EXPECT_LE(limit_shares(model, limits, earlier->motion()).largest(), 1);
+
+  limits.acceleration[0] = 0.1;
+  EXPECT_FALSE(brought_to_rest(model, limits, held).has_value());
 }
 
 TEST(AdjointSweep, EqualsDifferences) {
