@@ -7,6 +7,7 @@
 #
 # Writes FOLDER/joint<j>_<controller>.csv: time, q1..q7, tau, qd, qdd of a step of 0.2 rad at joint j
 # alone, from rest. The controller's model is the identified gravity, robots/sarcos_grla.robot.
+# With gnuplot present FOLDER/sarcos_steps.svg shows them.
 set -eu
 if [ $# -ne 2 ]; then
   echo "usage: sarcos_steps.sh DYNID FOLDER" >&2
@@ -37,3 +38,6 @@ for joint in 1 2 3 4; do
   done
 done
 rm "$folder/measured.csv"
+if command -v gnuplot >/dev/null; then
+  gnuplot -e "folder='$folder'; picture='$folder/sarcos_steps.svg'" "$(dirname "$0")/sarcos_steps.gnuplot"
+fi
