@@ -25,6 +25,12 @@ constexpr Index kSlices = 1500;  // more than a panel has pixels
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                     "#e69f00", "#56b4e9", "#000000"};
 
+/// @param place  of the series in its panel
+const char* colour_of(const Series& series, std::size_t place) {
+  const std::size_t chosen = series.colour < 0 ? place : static_cast<std::size_t>(series.colour);
+  return kColours[chosen % std::size(kColours)];
+}
+
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -72,7 +78,7 @@ std::string panel_script(const Panel& panel, const std::string& name) {
     const std::string block = fmt::format("{}_{}", name, i);
     data += data_block(series, block);
     plots += fmt::format("{}${} using 1:2 with lines linewidth 1.5 linecolor rgb \"{}\"{} {}",
-                         plots.empty() ? "" : ", \\\n  ", block, kColours[i % std::size(kColours)],
+                         plots.empty() ? "" : ", \\\n  ", block, colour_of(series, i),
                          series.dashed ? " dashtype 2" : "",
                          series.name.empty() ? "notitle" : "title " + quoted(series.name));
   }

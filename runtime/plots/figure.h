@@ -14,6 +14,7 @@ struct Series {
   std::string name;  ///< in the key; empty: not there
   Eigen::VectorXd x, y;
   bool dashed = false;
+  int colour = -1;  ///< place among the colours, from 0; negative: the series' own place
 };
 
 /// A diagram with its own axes.

@@ -46,12 +46,7 @@ int run_excite(const ToolOptions& options) {
   write_trajectory(report.trajectory, options.output);
   std::cout << fmt::format("written: {}, {} rows\n", options.output, report.trajectory.samples());
   if (!options.excite.picture.empty()) {
-    try {
-      draw(picture_of(report), options.excite.picture);
-    } catch (const FigureError& error) {
-      std::cerr << "dynid: error: " << error.what() << "\n";
-      return kInputWrong;
-    }
+    draw(picture_of(report), options.excite.picture);
     std::cout << fmt::format("written: {}\n", options.excite.picture);
   }
   return kDone;

@@ -8,6 +8,7 @@
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/tool/output_files.h"
 #include "runtime/identification/summary_file.h"
+#include "runtime/plots/figure.h"
 #include "runtime/recordings/notice.h"
 #include "runtime/tools/dynid/commands.h"
 #include "runtime/tools/dynid/file_summaries.h"
@@ -62,6 +63,9 @@ int guarded_run(const ToolOptions& options, ProcessGroup& group) {
     return kInputWrong;
   } catch (const OutputError& error) {
     std::cerr << error.what() << "\n";
+    return kInputWrong;
+  } catch (const FigureError& error) {
+    std::cerr << "dynid: error: " << error.what() << "\n";
     return kInputWrong;
   } catch (const std::invalid_argument& error) {
     std::cerr << "dynid: error: " << error.what() << "\n";

@@ -14,6 +14,7 @@
 #include "runtime/recordings/writer.h"
 #include "runtime/simulation/closed_loop.h"
 #include "runtime/tools/dynid/commands.h"
+#include "runtime/tools/dynid/simulate_picture.h"
 #include "runtime/tools/dynid/simulated_robot.h"
 
 namespace dyngen::runtime {
@@ -190,6 +191,11 @@ int run_simulate(const SimulateOptions& options) {
                     : "")
             << table(plant, run, limit) << "\nwritten: " << options.output
             << (options.truth.empty() ? "" : ", " + options.truth) << "\n";
+  if (!options.picture.empty()) {
+    draw(picture_of(run, plant, fmt::format("{}, controller {}", plant.name, options.controller)),
+         options.picture);
+    std::cout << "written: " << options.picture << "\n";
+  }
   return kDone;
 }
 

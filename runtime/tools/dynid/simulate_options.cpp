@@ -18,6 +18,8 @@ void add_simulate(CLI::App& tool, SimulateOptions& options) {
   simulate->add_option("-o,--output", options.output, "the recording (.csv, .csv.gz)")->required();
   simulate->add_option("--truth", options.truth,
                        "the true motion and torque, without encoder and noise");
+  simulate->add_option("--picture", options.picture,
+                       "motion, error and torque as .svg or .png (needs gnuplot)");
   simulate
       ->add_option("--controller", options.controller,
                    "pd, gravity (pd and gravity), ff (pd and feedforward), ct (computed torque)")

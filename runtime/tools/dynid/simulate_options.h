@@ -18,6 +18,7 @@ struct SimulateOptions {
   std::string trajectory;  ///< CSV
   std::string output;      ///< the recording
   std::string truth;       ///< the motion without encoder and noise; empty: none
+  std::string picture;     ///< .svg or .png; empty: none
   std::string controller = "ct";
   double rate = 1000;                      ///< Hz; 0: a continuous controller
   double bandwidth = 3;                    ///< Hz
