@@ -19,7 +19,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kSlices = 1500;  // more than a panel has pixels
+constexpr Index kSlices = 700;  // more than a panel has pixels
 
 /// Colours that people tell apart who see colours differently (Okabe and Ito, 2008).
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",

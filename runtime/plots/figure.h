@@ -48,7 +48,7 @@ bool can_draw();
 
 /// Draws a figure with gnuplot into a .svg or .png file, which appears when it is complete.
 ///
-/// Curves of more than some thousand points are thinned to what the eye can see: the least and the
+/// Curves of more than 1400 points are thinned to what the eye can see: the least and the
 /// largest value of every slice are kept.
 /// @throws FigureError  without gnuplot, for another ending, or if the file cannot be written
 /// @throws std::invalid_argument  as validate()

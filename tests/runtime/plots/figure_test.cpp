@@ -65,7 +65,7 @@ TEST(Figure, ThinsLongCurvesAndKeepsTheirPeaks) {
   figure.panels.resize(1);
   figure.panels[0].series[0].y[123456] = 77;  // one sample
   const std::string script = gnuplot_script(figure, "svg", "x.svg");
-  EXPECT_LT(lines_of(script), 3100);
+  EXPECT_LT(lines_of(script), 1500);
   EXPECT_THAT(script, HasSubstr(" 77\n"));
 }
 
