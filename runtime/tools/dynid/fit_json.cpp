@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "runtime/tools/dynid/fit_report.h"
+#include "runtime/tools/dynid/json_numbers.h"
 
 namespace dyngen::runtime {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-using Json = nlohmann::ordered_json;
-
-/// JSON has no infinity.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json numbers(const VectorXd& values) {
-  Json array = Json::array();
-  for (const double value : values) array.push_back(number(value));
-  return array;
-}
 
 Json names(const FitReport& report, const std::vector<int>& parameters) {
   Json array = Json::array();

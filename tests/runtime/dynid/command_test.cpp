@@ -1,46 +1,24 @@
 // SPDX-License-Identifier: MIT
 // dynid as its users call it: what it prints, writes and returns.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "runtime/recordings/writer.h"
 #include "runtime/tools/dynid/described_robot.h"
 #include "tests/runtime/dynid/multisine.h"
+#include "tests/runtime/dynid/run_dynid.h"
 
 namespace dyngen::runtime {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string out;  ///< standard output and error together
-};
-
-Outcome dynid(const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = popen((DYNID " " + arguments + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  for (std::size_t count = 0; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    outcome.out.append(buffer.data(), count);
-  }
-  outcome.exit_code = WEXITSTATUS(pclose(pipe));
-  return outcome;
-}
-
-std::string content(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+using test::content;
+using test::dynid;
+using test::Outcome;
 
 class Commands : public testing::Test {
  protected:

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // `dynid excite` as its users call it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -17,6 +13,7 @@
 #include "runtime/recordings/writer.h"
 #include "runtime/tools/dynid/described_robot.h"
 #include "runtime/tools/dynid/excite_limits.h"
+#include "tests/runtime/dynid/run_dynid.h"
 #include "tests/support/temporary_path.h"
 
 namespace dyngen::runtime {
@@ -25,28 +22,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string out;  ///< standard output and error together
-};
-
-Outcome dynid(const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = popen((DYNID " " + arguments + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  for (std::size_t count = 0; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    outcome.out.append(buffer.data(), count);
-  }
-  outcome.exit_code = WEXITSTATUS(pclose(pipe));
-  return outcome;
-}
-
-std::string content(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+using test::content;
+using test::dynid;
+using test::Outcome;
 
 const std::string kRobot = DYNGEN_SOURCE_DIR "/tests/studies/robots/puma3.robot";
 const std::string kShort = " --evaluations 120 --starts 2";

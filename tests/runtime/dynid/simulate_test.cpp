@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // dynid simulate as its users call it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -13,6 +10,7 @@
 
 #include "runtime/recordings/reader.h"
 #include "runtime/recordings/trajectory_file.h"
+#include "tests/runtime/dynid/run_dynid.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -20,28 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Index;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string out;  ///< standard output and error together
-};
-
-Outcome dynid(const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = popen((DYNID " " + arguments + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  for (std::size_t count = 0; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    outcome.out.append(buffer.data(), count);
-  }
-  outcome.exit_code = WEXITSTATUS(pclose(pipe));
-  return outcome;
-}
-
-std::string content(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+using test::content;
+using test::dynid;
+using test::Outcome;
 
 class Simulate : public testing::Test {
  protected:

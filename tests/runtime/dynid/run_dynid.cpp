@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "tests/runtime/dynid/run_dynid.h"
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace dyngen::test {
+
+Outcome dynid(const std::string& arguments) {
+  Outcome outcome;
+  FILE* pipe = popen((DYNID " " + arguments + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer{};
+  for (std::size_t count = 0; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
+    outcome.out.append(buffer.data(), count);
+  }
+  outcome.exit_code = WEXITSTATUS(pclose(pipe));
+  return outcome;
+}
+
+std::string content(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace dyngen::test

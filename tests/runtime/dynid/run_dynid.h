@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+/// dynid as its users call it.
+namespace dyngen::test {
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out;  ///< standard output and error together
+};
+
+/// @param arguments  as in a shell
+Outcome dynid(const std::string& arguments);
+
+/// All of a file; empty if there is none.
+std::string content(const std::string& path);
+
+}  // namespace dyngen::test
