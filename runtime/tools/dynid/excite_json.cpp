@@ -47,7 +47,7 @@ std::string json_of(const ExciteReport& report, const std::string& trajectory_pa
                {"message", report.message},
                {"notes", report.notes},
                {"form", report.options.form},
-               {"criterion", report.options.criterion},
+               {"criterion", report.options.chosen_criterion()},
                {"unit_columns", report.options.unit_columns},
                {"noise", numbers(report.noise)},
                {"starts", starts},

@@ -7,6 +7,11 @@
 
 namespace dyngen::runtime {
 
+std::string ExciteOptions::chosen_criterion() const {
+  if (!criterion.empty()) return criterion;
+  return form == "multistage" ? "sigma" : "condition";
+}
+
 std::string ExciteOptions::usage_error() const {
   if (!keep_out.empty() && keep_out.size() != 6) {
     return fmt::format("--keep-out: {} values, expected xmin,xmax,ymin,ymax,zmin,zmax",
@@ -15,7 +20,7 @@ std::string ExciteOptions::usage_error() const {
   if (!tool.empty() && tool.size() != 3) {
     return fmt::format("--tool: {} values, expected x,y,z", tool.size());
   }
-  if (form == "multistage" && criterion != "sigma") {
+  if (form == "multistage" && chosen_criterion() != "sigma") {
     return fmt::format("--criterion: found '{}', expected sigma: multistage knows no other",
                        criterion);
   }
@@ -33,15 +38,15 @@ void add_excite(CLI::App& tool, std::string& robot, std::string& output, std::st
       ->required();
   excite->add_option("-o,--output", output, "the trajectory (.csv, .csv.gz)")->required();
   excite->add_option("--json", json, "all results for programs");
-  excite->add_option("--picture", options.picture, "the trajectory as a picture (.svg)");
+  excite->add_option("--picture", options.picture,
+                     "the trajectory as .svg or .png (needs gnuplot)");
   excite->add_option("--for", options.findings,
                      "findings of a diagnosis to be told apart: reserved, not possible yet");
   excite
       ->add_option("--criterion", options.criterion,
-                   "condition number of the regressor; d: determinant, a: sum of variances, sigma: "
-                   "smallest singular value")
-      ->check(CLI::IsMember({"condition", "d", "a", "sigma"}))
-      ->capture_default_str();
+                   "condition number of the regressor (default); d: determinant, a: sum of "
+                   "variances, sigma: smallest singular value (default of multistage)")
+      ->check(CLI::IsMember({"condition", "d", "a", "sigma"}));
   excite->add_flag("--unit-columns", options.unit_columns,
                    "of the regressor with columns of length 1, instead of SI units");
   excite->add_option("--form", options.form, "fourier, spline or multistage")

@@ -13,9 +13,9 @@ namespace dyngen::runtime {
 
 /// The command line of `dynid excite`, as it is written.
 struct ExciteOptions {
-  std::string findings;                 ///< of --for; empty: none
-  std::string criterion = "condition";  ///< condition, d, a, sigma
-  std::string form = "fourier";         ///< fourier, spline, multistage
+  std::string findings;          ///< of --for; empty: none
+  std::string criterion;         ///< condition, d, a, sigma; empty: the form's own
+  std::string form = "fourier";  ///< fourier, spline, multistage
   bool unit_columns = false;
   int harmonics = 5;
   double duration = 10;       ///< s, one period
@@ -33,8 +33,10 @@ struct ExciteOptions {
   std::vector<double> tool;             ///< x y z
   std::vector<double> acceleration;
   double limits = 1;    ///< share of the file's limits
-  std::string picture;  ///< SVG; empty: none
+  std::string picture;  ///< .svg or .png; empty: none
 
+  /// The criterion that was asked for; else sigma for multistage, condition for the others.
+  [[nodiscard]] std::string chosen_criterion() const;
   /// @return a message about wrong usage, or nothing
   [[nodiscard]] std::string usage_error() const;
 };

@@ -95,7 +95,8 @@ void set_information(ExciteReport& report, InformationOptions& information) {
         "--noise: not given; standard deviations are for torque noise of 1 N m at every joint");
   }
   // a condition number speaks of the regressor itself, unless noise is given
-  if (report.options.criterion != "condition" || !report.options.noise.empty() || report.prior) {
+  if (report.options.chosen_criterion() != "condition" || !report.options.noise.empty() ||
+      report.prior) {
     information.torque_noise = report.noise;
   }
 }
@@ -105,7 +106,8 @@ CriterionOptions criterion_of(const ExciteOptions& options) {
                                                             {"d", Criterion::kDeterminant},
                                                             {"a", Criterion::kTrace},
                                                             {"sigma", Criterion::kSmallest}};
-  return {.criterion = criteria.at(options.criterion), .unit_columns = options.unit_columns};
+  return {.criterion = criteria.at(options.chosen_criterion()),
+          .unit_columns = options.unit_columns};
 }
 
 MotionWorth worth_of(const ExciteReport& report, const JointMotion& motion, const MatrixXd& prior) {

@@ -86,7 +86,7 @@ std::string deviations_table(const ExciteReport& report) {
                         ratio, parameter.unit);
   }
   text += fmt::format("median of random/it: {:.2f}\n", median(ratios));
-  if (report.options.criterion == "condition") {
+  if (report.options.chosen_criterion() == "condition") {
     text += "  (--criterion d makes deviations small, this one the condition number)\n";
   }
   return text;

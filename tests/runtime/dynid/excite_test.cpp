@@ -87,7 +87,7 @@ TEST(Excite, PeriodsAreFoundInARecordingOfIt) {
 
 TEST(Excite, EveryFormAndCriterionIsUnderstood) {
   for (const std::string options :
-       {"--form spline --criterion a", "--form multistage --criterion sigma --rate 100",
+       {"--form spline --criterion a", "--form multistage --rate 100",
         "--criterion d --unit-columns", "--parameters inertial --limits 0.5",
         "--parameters ZZ3,MX2 --acceleration 3"}) {
     const Outcome excite = dynid("excite " + kRobot + " --evaluations 30 --starts 1 " + options +
