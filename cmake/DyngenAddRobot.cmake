@@ -64,7 +64,7 @@ function(dyngen_add_robot target)
   list(TRANSFORM functions REPLACE "_batch$" "")
   list(TRANSFORM functions REPLACE "^(fk|jacobian)_[1-9][0-9]*$" "\\1")
   _dyngen_check_choice(FUNCTIONS functions all id id_rigid gravity coriolis friction mass_matrix fd
-    regressor base_regressor gravity_regressor energy_regressor power
+    regressor base_regressor base_regressor_gradient gravity_regressor energy_regressor power
     id_dq_pos id_dq id_ddq id_derivatives fk jacobian)
   _dyngen_check_choice(PARAMETERS arg_PARAMETERS baked runtime)
   _dyngen_check_choice(SCALAR arg_SCALAR double float)
