@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dyngen::runtime {
+
+/// How the value of a parameter of an effect is found.
+enum class EffectRole {
+  kLinear,   ///< torque is linear in it
+  kShape,    ///< anything else: found from its start value
+  kScanned,  ///< a shape with many local minima: held where a number is given, else scanned
+  kGiven     ///< a property of the machine: never estimated
+};
+
+enum class EffectKind { kAlgebraic, kStateful, kTangent, kAlignment };
+enum class EffectScope { kJoint, kPair, kRobot };
+enum class AlignmentOperator { kNone, kDelay, kLag };
+
+struct EffectParameter {
+  std::string name;
+  std::string unit;  ///< SI, for a revolute joint: "N m"
+  std::string meaning;
+  EffectRole role = EffectRole::kLinear;
+  bool logarithmic = false;
+  int grid = 0;  ///< of kScanned: how many values are tried
+};
+
+/// Sizes of a joint and a recording, by which bounds, starts and typical values are given.
+struct EffectScales {
+  double Fc = 0, Fv = 0, Ia = 0;  ///< of the joint: N m, N m s/rad, kg m^2
+  double v_max = 0, v90 = 0;      ///< largest speed; the speed that 90 % of the samples are below
+  double q_range = 0;             ///< rad or m between the extreme positions
+  double tau_max = 0;             ///< largest torque
+  double duration = 0;            ///< s
+  double position_step = 0;       ///< rad or m; of the encoder
+};
+
+/// Values of all parameters at once, (np) each.
+struct EffectSizes {
+  Eigen::VectorXd min, max;  ///< -inf and inf where there are no bounds
+  Eigen::VectorXd start, typical;
+};
+
+/// left <= right of the estimate, where it is a requirement or a falsifier.
+struct EffectCondition {
+  std::string spelling;  ///< "vs <= 0.25*v90"
+  std::string text;      ///< why
+  /// right - left: not negative if it holds
+  std::function<double(const Eigen::VectorXd& parameters, const EffectScales& scales)> slack;
+};
+
+/// Torque of an effect and its derivatives; what is not wanted stays empty.
+struct EffectTorque {
+  Eigen::MatrixXd torque;  ///< (N x outputs) N m or N
+  /// (N x outputs * np): derivative of output o by parameter p in column o * np + p
+  Eigen::MatrixXd by_parameter;
+  /// (N x outputs * nv): by variable v, what the states remember of it left out; of Fc, Fv and Ia
+  /// with it
+  Eigen::MatrixXd by_variable;
+  Eigen::MatrixXd by_initial;  ///< (N x outputs * states)
+};
+
+struct EffectWanted {
+  bool by_parameter = false, by_variable = false, by_initial = false;
+};
+
+/// A physical effect as estimation and simulation see it, made of its effect file.
+///
+/// Elementwise in the variables it names: it knows no robot. An effect that acts on all joints is
+/// evaluated for each of them with the derivatives of that joint's torque.
+struct EffectLaw {
+  std::string name, family, title;
+  EffectKind kind = EffectKind::kAlgebraic;
+  EffectScope scope = EffectScope::kJoint;
+  AlignmentOperator alignment = AlignmentOperator::kNone;
+  int alignment_parameter = -1;  ///< its place in parameters
+  bool acts_on_all = false;
+  bool revolute_only = false;
+  bool dissipates = false;
+  std::vector<EffectParameter> parameters;
+  std::vector<std::string> variables;  ///< "qd", "tau_load", ...: columns of what evaluate() reads
+  std::vector<std::string> states;     ///< names
+  int outputs = 1;                     ///< torques: 2 of a pair
+  std::vector<std::string> aliases;    ///< families
+  std::vector<EffectCondition> requirements, falsifiers;
+
+  std::function<EffectSizes(const EffectScales& scales)> sizes;
+
+  /// Of consecutive samples of one run.
+  /// @param variables    (N x nv)             @param parameters  (np)
+  /// @param sample_time  s
+  /// @param state        (states) before the first sample; becomes that after the last one. Empty
+  ///                     without states
+  std::function<EffectTorque(const Eigen::MatrixXd& variables, const Eigen::VectorXd& parameters,
+                             double sample_time, Eigen::VectorXd& state,
+                             const EffectWanted& wanted)>
+      evaluate;
+
+  /// Torque at given states, and dz/dt of them, for one moment: what a simulation integrates.
+  /// variables: (nv), z: (states), torque: (outputs), rate: (states; 0 beyond a limit). A sign of
+  /// something else than the joint's own velocity is smooth within 1e-3 (rad/s or m/s).
+  /// May keep buffers: one thread at a time.
+  std::function<void(const double* variables, const double* parameters, const double* z,
+                     double* torque, double* rate)>
+      moment;
+
+  [[nodiscard]] int size() const { return static_cast<int>(parameters.size()); }
+};
+
+/// An effect of one robot with its numbers.
+struct EffectInstance {
+  EffectLaw law;
+  int joint = -1;              ///< coordinate, from 0; -1 of scope robot
+  int other = -1;              ///< of scope pair
+  Eigen::VectorXd parameters;  ///< (np); NaN: unknown
+};
+
+}  // namespace dyngen::runtime
