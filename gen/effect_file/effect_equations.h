@@ -4,6 +4,7 @@
 #include <ginac/ginac.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 

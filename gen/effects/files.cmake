@@ -1,0 +1,3 @@
+# The effects that are part of the program.
+set(effect_files
+  stribeck.effect)
