@@ -145,8 +145,8 @@ class Binding {
       const double edge = to_double(*limit);
       if (lower ? number >= edge : number <= edge) return;
       error(value.position, value.length,
-            fmt::format("'{}' is {}: expected {} or {}", parameter.name, printable(value.text), edge,
-                        lower ? "more" : "less"),
+            fmt::format("'{}' is {}: expected {} or {}", parameter.name, printable(value.text),
+                        edge, lower ? "more" : "less"),
             parameter.meaning);
     };
     check(parameter.min, true);
@@ -157,7 +157,8 @@ class Binding {
     std::vector<std::string_view> names;
     if (bound_.file->scope != EffectScope::kRobot) names.push_back("joint");
     if (bound_.file->scope == EffectScope::kPair) names.push_back("other");
-    for (const EffectParameter& parameter : bound_.file->parameters) names.push_back(parameter.name);
+    for (const EffectParameter& parameter : bound_.file->parameters)
+      names.push_back(parameter.name);
     for (const EffectRow::Setting& entry : row_.settings) {
       if (entry.key == "joint" || entry.key == "other") continue;
       if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;

@@ -78,15 +78,13 @@ class Checks {
     if (effect_.parameters.empty()) {
       error({1, 1}, "the effect has no parameter", "expected one at least: its size");
     }
-    for (const EffectAlias& alias : effect_.aliases) {
-      if (alias.family == effect_.family && effect_.aliases.size() == 1) continue;
-    }
   }
 
   void check_parameter_roles() {
     for (const EffectParameter& entry : effect_.parameters) {
       if (entry.role == ParameterRole::kScanned && (entry.grid == 0 || !entry.min || !entry.max)) {
-        error(entry.position, fmt::format("'{}' is scanned and lacks grid=, min= or max=", entry.name),
+        error(entry.position,
+              fmt::format("'{}' is scanned and lacks grid=, min= or max=", entry.name),
               "how many values are tried, and between which");
       }
       if (entry.role != ParameterRole::kScanned && entry.grid != 0) {
@@ -238,9 +236,8 @@ class Checks {
     }
     const bool pair = effect_.scope == EffectScope::kPair;
     const bool partner =
-        std::any_of(effect_.variables.begin(), effect_.variables.end(), [](const std::string& name) {
-          return find_effect_variable(name)->of_partner;
-        });
+        std::any_of(effect_.variables.begin(), effect_.variables.end(),
+                    [](const std::string& name) { return find_effect_variable(name)->of_partner; });
     if (partner && !pair) error(at, "the effect reads another joint: expected 'scope pair'");
     if (pair && !partner) error(at, "'scope pair' without a variable of the other joint");
     if (effect_.torque.size() == 2 && !pair) {
@@ -298,10 +295,12 @@ class Checks {
                             std::string_view what) {
       const auto found = dimension_of(value, of_name, diagnostics_);
       if (!found || *found == wanted) return;
-      error(value.position, fmt::format("{} has the unit {}, expected {}", what,
-                                        dimension_text(*found), dimension_text(wanted)),
-            joint == JointUnits::kPrismatic ? "of a prismatic joint; or write 'joints revolute'" : "",
-            value.length);
+      error(
+          value.position,
+          fmt::format("{} has the unit {}, expected {}", what, dimension_text(*found),
+                      dimension_text(wanted)),
+          joint == JointUnits::kPrismatic ? "of a prismatic joint; or write 'joints revolute'" : "",
+          value.length);
     };
     const Dimension torque = *dimension_of("torque", joint);
     for (const EffectExpression& value : effect_.torque) expect(value, torque, "the torque");
@@ -322,7 +321,8 @@ class Checks {
     }
     const auto compare = [&](const EffectCondition& entry) {
       const auto left = dimension_of(entry.left, of_name, diagnostics_);
-      if (left && !is_plain_number(entry.right)) expect(entry.right, *left, "the right side");
+      if (!left || is_plain_number(entry.left) || is_plain_number(entry.right)) return;
+      expect(entry.right, *left, "the right side");
     };
     for (const EffectCondition& entry : effect_.requirements) compare(entry);
     for (const EffectCondition& entry : effect_.falsifiers) compare(entry);
@@ -359,11 +359,10 @@ class Checks {
   [[nodiscard]] bool reads_linear(const ex& value,
                                   const std::map<std::string, GiNaC::symbol>& symbols) const {
     const ex expanded = value.expand();
-    return std::any_of(effect_.parameters.begin(), effect_.parameters.end(),
-                       [&](const EffectParameter& entry) {
-                         return entry.role == ParameterRole::kLinear &&
-                                expanded.has(symbols.at(entry.name));
-                       });
+    return std::any_of(
+        effect_.parameters.begin(), effect_.parameters.end(), [&](const EffectParameter& entry) {
+          return entry.role == ParameterRole::kLinear && expanded.has(symbols.at(entry.name));
+        });
   }
 
   EffectFile& effect_;

@@ -55,11 +55,10 @@ std::vector<ex> states_after(const EffectFile& effect, const EffectValues& value
   // derivatives are taken by symbols; a caller's states may be anything
   std::vector<GiNaC::symbol> symbols(effect.states.size());
   GiNaC::exmap back;
+  for (std::size_t i = 0; i < symbols.size(); ++i) back[symbols[i]] = values(effect.states[i].name);
   const EffectValues with_symbols = [&](const std::string& name) {
     for (std::size_t i = 0; i < symbols.size(); ++i) {
-      if (effect.states[i].name != name) continue;
-      back[symbols[i]] = values(name);
-      return ex(symbols[i]);
+      if (effect.states[i].name == name) return ex(symbols[i]);
     }
     return values(name);
   };
@@ -73,6 +72,7 @@ std::vector<ex> states_after(const EffectFile& effect, const EffectValues& value
     moved = moved.subs(back, GiNaC::subs_options::no_pattern);
     if (limits[i].max) moved = real_min(moved, *limits[i].max);
     if (limits[i].min) moved = real_max(moved, *limits[i].min);
+    back[symbols[i]] = moved;  // of the states below
     next.push_back(moved);
   }
   return next;

@@ -214,10 +214,11 @@ class Descent {
     }
     close(open);
     if (static_cast<int>(result.operands.size()) != expected) {
-      throw Wrong{token, fmt::format("{} has {} argument{}, expected {}", token.text,
-                                     result.operands.size(),
-                                     result.operands.size() == 1 ? "" : "s", expected),
-                  ""};
+      throw Wrong{
+          token,
+          fmt::format("{} has {} argument{}, expected {}", token.text, result.operands.size(),
+                      result.operands.size() == 1 ? "" : "s", expected),
+          ""};
     }
     return result;
   }
@@ -293,8 +294,8 @@ bool is_own_velocity(const EffectExpression& expression) {
 }  // namespace
 
 int effect_call_arguments(const std::string& name) {
-  const auto found =
-      std::find_if(kCalls.begin(), kCalls.end(), [&](const Call& call) { return call.name == name; });
+  const auto found = std::find_if(kCalls.begin(), kCalls.end(),
+                                  [&](const Call& call) { return call.name == name; });
   return found == kCalls.end() ? 0 : found->arguments;
 }
 

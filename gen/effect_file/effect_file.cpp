@@ -15,29 +15,32 @@ namespace dyngen {
 
 bool EffectFile::acts_on_all() const {
   return scope == EffectScope::kRobot ||
-         std::any_of(variables.begin(), variables.end(), [](const std::string& name) {
-           return find_effect_variable(name)->source == VariableSource::kEveryJoint;
+         std::any_of(variables.begin(), variables.end(), [](const std::string& read) {
+           return find_effect_variable(read)->source == VariableSource::kEveryJoint;
          });
 }
 
 bool EffectFile::runs_in_controller() const {
   if (kind != EffectKind::kAlgebraic && kind != EffectKind::kStateful) return false;
-  return std::all_of(variables.begin(), variables.end(), [](const std::string& name) {
-    const VariableSource source = find_effect_variable(name)->source;
-    return source == VariableSource::kMotion || source == VariableSource::kModel;
+  return std::all_of(variables.begin(), variables.end(), [](const std::string& read) {
+    const VariableSource known = find_effect_variable(read)->source;
+    return known == VariableSource::kMotion || known == VariableSource::kModel;
   });
 }
 
 const std::vector<std::string_view>& effect_families() {
   static const std::vector<std::string_view> kFamilies = {
-      "torque_offset",     "coulomb_asymmetry",  "asymmetric_viscous", "stribeck",
-      "nonlinear_viscous", "quadratic_drag",     "load_friction",      "position_friction",
-      "thermal_drift",     "joint_coupling",     "rotor_inertia",      "presliding",
-      "backlash",          "joint_elasticity",   "link_flexibility",   "torque_ripple",
-      "kinematic_ripple",  "gravity_spring",     "cable",              "base_tilt",
-      "encoder_offset",    "geometry_error",     "payload",            "payload_change",
-      "contact",           "torque_gain",        "torque_saturation",  "gain_drift",
-      "actuator_lag",      "time_delay",         "sensor_drift",       "torque_crosstalk"};
+      "torque_offset",  "coulomb_asymmetry", "asymmetric_viscous",
+      "stribeck",       "nonlinear_viscous", "quadratic_drag",
+      "load_friction",  "position_friction", "thermal_drift",
+      "joint_coupling", "rotor_inertia",     "presliding",
+      "backlash",       "joint_elasticity",  "link_flexibility",
+      "torque_ripple",  "kinematic_ripple",  "gravity_spring",
+      "cable",          "base_tilt",         "encoder_offset",
+      "geometry_error", "payload",           "payload_change",
+      "contact",        "torque_gain",       "torque_saturation",
+      "gain_drift",     "actuator_lag",      "time_delay",
+      "sensor_drift",   "torque_crosstalk"};
   return kFamilies;
 }
 
@@ -51,7 +54,8 @@ const std::vector<EffectScale>& effect_scales() {
       {"q_range", "position", "between the extreme positions of the joint"},
       {"tau_max", "torque", "largest torque of the joint"},
       {"duration", "s", "of the recording"},
-      {"position_step", "position", "of the encoder, as recorded"}};
+      {"position_step", "position", "of the encoder, as recorded"},
+      {"temp_range", "K", "by which the recorded temperature changes"}};
   return kScales;
 }
 

@@ -39,28 +39,27 @@ class Reader {
   };
 
   static const std::vector<Keyword>& keywords() {
-    static const std::vector<Keyword> kKeywords = {
-        {"effect", &Reader::read_name},
-        {"family", &Reader::read_family},
-        {"title", &Reader::read_title},
-        {"kind", &Reader::read_kind},
-        {"scope", &Reader::read_scope},
-        {"joints", &Reader::read_joints},
-        {"parameter", &Reader::read_parameter, true},
-        {"state", &Reader::read_state, true},
-        {"let", &Reader::read_let, true},
-        {"torque", &Reader::read_torque},
-        {"torque_other", &Reader::read_torque_other},
-        {"align", &Reader::read_align},
-        {"dissipates", &Reader::read_dissipates},
-        {"require", &Reader::read_require, true},
-        {"falsifier", &Reader::read_falsifier, true},
-        {"test", &Reader::read_test, true},
-        {"alias", &Reader::read_alias, true},
-        {"hidden", &Reader::read_hidden},
-        {"separate", &Reader::read_separate},
-        {"source", &Reader::read_source},
-        {"plot", &Reader::read_plot}};
+    static const std::vector<Keyword> kKeywords = {{"effect", &Reader::read_name},
+                                                   {"family", &Reader::read_family},
+                                                   {"title", &Reader::read_title},
+                                                   {"kind", &Reader::read_kind},
+                                                   {"scope", &Reader::read_scope},
+                                                   {"joints", &Reader::read_joints},
+                                                   {"parameter", &Reader::read_parameter, true},
+                                                   {"state", &Reader::read_state, true},
+                                                   {"let", &Reader::read_let, true},
+                                                   {"torque", &Reader::read_torque},
+                                                   {"torque_other", &Reader::read_torque_other},
+                                                   {"align", &Reader::read_align},
+                                                   {"dissipates", &Reader::read_dissipates},
+                                                   {"require", &Reader::read_require, true},
+                                                   {"falsifier", &Reader::read_falsifier, true},
+                                                   {"test", &Reader::read_test, true},
+                                                   {"alias", &Reader::read_alias, true},
+                                                   {"hidden", &Reader::read_hidden},
+                                                   {"separate", &Reader::read_separate},
+                                                   {"source", &Reader::read_source},
+                                                   {"plot", &Reader::read_plot}};
     return kKeywords;
   }
 
@@ -167,8 +166,8 @@ class Reader {
   }
   void read_kind(const EffectRowText& row, EffectRowCursor& cursor) {
     kind_position_ = row.position;
-    if (auto place = choice(cursor, row.keyword,
-                            {"algebraic", "stateful", "tangent", "alignment"})) {
+    if (auto place =
+            choice(cursor, row.keyword, {"algebraic", "stateful", "tangent", "alignment"})) {
       effect_.kind = static_cast<EffectKind>(*place);
     }
     expect_end(cursor, row.keyword);
@@ -241,9 +240,9 @@ class Reader {
     if (!seen.emplace(key, true).second) {
       return error(word, fmt::format("'{}' stands twice", printable(key)));
     }
-    const EffectText value{word.text.substr(equals + 1),
-                           {word.position.line,
-                            word.position.column + static_cast<int>(equals) + 1}};
+    const EffectText value{
+        word.text.substr(equals + 1),
+        {word.position.line, word.position.column + static_cast<int>(equals) + 1}};
     const auto parsed = [&] { return parse_effect_expression({value}, key, diagnostics_); };
     if (key == "unit") {
       parameter.unit = value.text;
@@ -290,12 +289,13 @@ class Reader {
       const std::size_t equals = word->text.find('=');
       const std::string key = word->text.substr(0, equals);
       if (equals == word->text.npos || (key != "unit" && key != "min" && key != "max")) {
-        error(*word, fmt::format("expected unit=, min= or max=, found '{}'", printable(word->text)));
+        error(*word,
+              fmt::format("expected unit=, min= or max=, found '{}'", printable(word->text)));
         continue;
       }
-      const EffectText value{word->text.substr(equals + 1),
-                             {word->position.line,
-                              word->position.column + static_cast<int>(equals) + 1}};
+      const EffectText value{
+          word->text.substr(equals + 1),
+          {word->position.line, word->position.column + static_cast<int>(equals) + 1}};
       if (key == "unit") state.unit = value.text;
       if (key == "min") state.min = parse_effect_expression({value}, key, diagnostics_);
       if (key == "max") state.max = parse_effect_expression({value}, key, diagnostics_);

@@ -23,8 +23,7 @@ std::string_view content_of(std::string_view line) {
 }
 
 EffectText piece_of(std::string_view line, std::size_t offset, int number) {
-  return {std::string(line.substr(offset)),
-          {number, 1 + character_count(line.substr(0, offset))}};
+  return {std::string(line.substr(offset)), {number, 1 + character_count(line.substr(0, offset))}};
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ const std::vector<EffectVariable>& effect_variables() {
       {"qd_other", "rate", kMotion, true, "its velocity"},
       {"qdd_other", "acceleration", kMotion, true, "its acceleration"},
       {"tau_load_other", "torque", kMotion, true, "torque of the rigid links on it"},
-      {"Fc", "torque", kModel, false, "Coulomb friction of the joint, the row Fs of the robot file"},
+      {"Fc", "torque", kModel, false,
+       "Coulomb friction of the joint, the row Fs of the robot file"},
       {"Fv", "torque/rate", kModel, false, "viscous friction, the row Fv"},
       {"Ia", "torque/acceleration", kModel, false, "rotor inertia, the row IA"},
       {"t", "s", kTime, false, "time from the recording's start"},
@@ -69,8 +70,9 @@ const std::vector<EffectVariable>& effect_variables() {
 
 const EffectVariable* find_effect_variable(std::string_view name) {
   const auto& all = effect_variables();
-  const auto found = std::find_if(
-      all.begin(), all.end(), [&](const EffectVariable& variable) { return variable.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(), [&](const EffectVariable& variable) {
+    return variable.name == name;
+  });
   return found == all.end() ? nullptr : &*found;
 }
 

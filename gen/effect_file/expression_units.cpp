@@ -65,8 +65,8 @@ class Inference {
     if (!a || !b) return std::nullopt;
     if (is_zero(expression.operands[0])) return b;
     if (is_zero(expression.operands[1]) || *a == *b) return a;
-    error(expression, fmt::format("{} have units {} and {}", what, dimension_text(*a),
-                                  dimension_text(*b)),
+    error(expression,
+          fmt::format("{} have units {} and {}", what, dimension_text(*a), dimension_text(*b)),
           "only equal units can be added or compared");
     return std::nullopt;
   }
@@ -83,8 +83,9 @@ class Inference {
     if (const std::optional<double> value = plain_value(expression.operands[1])) {
       return *base * *value;
     }
-    error(expression, fmt::format("a power of {} with an exponent that is no fixed number",
-                                  dimension_text(*base)),
+    error(expression,
+          fmt::format("a power of {} with an exponent that is no fixed number",
+                      dimension_text(*base)),
           "divide the base by something of its unit first");
     return std::nullopt;
   }

@@ -62,8 +62,9 @@ std::optional<Factors> factors_of(std::string_view unit, JointUnits joint) {
     }
     factor.power *= sign;
     for (Factor& word : resolved(factor, joint)) {
-      const bool known = std::any_of(kWords.begin(), kWords.end(),
-                                     [&](const UnitWord& entry) { return entry.word == word.word; });
+      const bool known = std::any_of(kWords.begin(), kWords.end(), [&](const UnitWord& entry) {
+        return entry.word == word.word;
+      });
       if (!known) return std::nullopt;
       result.push_back(std::move(word));
     }
@@ -102,9 +103,8 @@ std::string unit_text(std::string_view unit, JointUnits joint) {
   Factors merged;
   for (const Factor& factor : *factors) {
     if (factor.word == "1") continue;
-    const auto found = std::find_if(merged.begin(), merged.end(), [&](const Factor& other) {
-      return other.word == factor.word;
-    });
+    const auto found = std::find_if(merged.begin(), merged.end(),
+                                    [&](const Factor& other) { return other.word == factor.word; });
     if (found == merged.end()) {
       merged.push_back(factor);
     } else {

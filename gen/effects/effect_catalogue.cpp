@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 std::size_t family_place(const EffectFile& effect) {
   const auto& families = effect_families();
-  return static_cast<std::size_t>(
-      std::find(families.begin(), families.end(), effect.family) - families.begin());
+  return static_cast<std::size_t>(std::find(families.begin(), families.end(), effect.family) -
+                                  families.begin());
 }
 
 bool before(const std::shared_ptr<const EffectFile>& a,
@@ -30,9 +30,10 @@ bool before(const std::shared_ptr<const EffectFile>& a,
 /// The name of a file says the name of its effect.
 void check_stem(const EffectFile& effect, const fs::path& path) {
   if (path.stem().string() == effect.name) return;
-  throw ModelError(fmt::format("{}: error: the file holds the effect '{}': expected its name to be "
-                               "{}.effect\n",
-                               path.string(), effect.name, effect.name));
+  throw ModelError(
+      fmt::format("{}: error: the file holds the effect '{}': expected its name to be "
+                  "{}.effect\n",
+                  path.string(), effect.name, effect.name));
 }
 
 }  // namespace
@@ -42,8 +43,8 @@ EffectCatalogue::EffectCatalogue() {
   static const std::vector<std::shared_ptr<const EffectFile>> kOwn = [] {
     std::vector<std::shared_ptr<const EffectFile>> effects;
     for (const EffectSource& source : effect_texts()) {
-      EffectFile effect =
-          parse_effect_file(std::string(source.text), "gen/effects/" + std::string(source.file_name));
+      EffectFile effect = parse_effect_file(std::string(source.text),
+                                            "gen/effects/" + std::string(source.file_name));
       check_stem(effect, effect.file_name);
       effects.push_back(std::make_shared<const EffectFile>(std::move(effect)));
     }
