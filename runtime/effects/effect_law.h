@@ -37,6 +37,7 @@ struct EffectScales {
   double tau_max = 0;             ///< largest torque
   double duration = 0;            ///< s
   double position_step = 0;       ///< rad or m; of the encoder
+  double temp_range = 0;          ///< K by which the recorded temperature changes
 };
 
 /// Values of all parameters at once, (np) each.
