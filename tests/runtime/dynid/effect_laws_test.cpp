@@ -32,7 +32,7 @@ EffectScales usual_scales() {
   scales.v90 = 1.5;
   scales.q_range = 3;
   scales.tau_max = 100;
-  scales.duration = 0.3;
+  scales.duration = 60;
   scales.position_step = 1e-5;
   scales.temp_range = 30;
   return scales;
@@ -61,9 +61,9 @@ MatrixXd motion_of(const EffectLaw& law, Index samples, double phase) {
       } else if (name == "sign_qd") {
         value = qd > 0 ? 1 : -1;
       } else if (name == "t") {
-        value = t;
+        value = 250 * t;  // so that windows open and close
       } else if (name == "temp") {
-        value = 25 + 60 * t;
+        value = 25 + 100 * t;
       } else if (name == "Fc") {
         value = scales.Fc;
       } else if (name == "Fv") {
@@ -214,15 +214,17 @@ TEST_P(EveryEffect, IsTheSameInPiecesOfARun) {
 
 std::vector<std::string> all_effects() {
   std::vector<std::string> names;
-  for (const auto& effect : EffectCatalogue().all()) names.push_back(effect->name);
+  const EffectCatalogue catalogue;
+  for (const auto& effect : catalogue.all()) names.push_back(effect->name);
   return names;
 }
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(all_effects()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& own) { return own.param; });
 
 TEST(EffectCatalogueTest, HasEveryFamilyAndTheMembersThatAreKnown) {
   std::set<std::string> families, names;
-  for (const auto& effect : EffectCatalogue().all()) {
+  const EffectCatalogue catalogue;
+  for (const auto& effect : catalogue.all()) {
     families.insert(effect->family);
     names.insert(effect->name);
   }
