@@ -123,8 +123,8 @@ TEST_P(EveryEffect, HasDerivativesThatDifferencesAgreeWith) {
   const VectorXd parameters = sizes(law);
   const MatrixXd motion = motion_of(law, 240, 0.4);
   VectorXd state = still(law);
-  const EffectTorque found = law.evaluate(motion, parameters, kSampleTime, state,
-                                          {.by_parameter = true, .by_initial = true});
+  const EffectTorque found =
+      law.evaluate(motion, parameters, kSampleTime, state, {.by_parameter = true});
   ASSERT_TRUE(found.torque.allFinite());
   for (Index k = 0; k < law.size(); ++k) {
     const auto& parameter = law.parameters[static_cast<std::size_t>(k)];
@@ -142,13 +142,18 @@ TEST_P(EveryEffect, HasDerivativesThatDifferencesAgreeWith) {
           << parameter.name << ", output " << o;
     }
   }
+  // a power of a state has no slope at zero: begin beside it
+  constexpr double kBeside = 1e-4, kStep = 1e-7;
+  const VectorXd beside = still(law).array() + kBeside;
+  VectorXd moved = beside;
+  const MatrixXd by_initial =
+      law.evaluate(motion, parameters, kSampleTime, moved, {.by_initial = true}).by_initial;
   for (std::size_t s = 0; s < law.states.size(); ++s) {
-    constexpr double kStep = 1e-7;
     const auto at = static_cast<Index>(s);
-    VectorXd more = still(law), less = still(law);
+    VectorXd more = beside, less = beside;
     more[at] += kStep;
     less[at] -= kStep;
-    EXPECT_LT(largest_difference(found.by_initial.col(at), torque_of(law, motion, parameters, more),
+    EXPECT_LT(largest_difference(by_initial.col(at), torque_of(law, motion, parameters, more),
                                  torque_of(law, motion, parameters, less), kStep),
               3e-5)
         << law.states[s];
