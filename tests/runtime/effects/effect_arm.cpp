@@ -126,7 +126,7 @@ EffectRobot planar_arm_tangents() {
   return robot;
 }
 
-Motion sines(double seconds, double sample_time, double phase, double speed) {
+Motion sines(double seconds, double sample_time, double phase, double speed, double start) {
   constexpr double kFrequencies[2][3] = {{0.7, 1.9, 3.7}, {0.9, 2.3, 4.1}};
   constexpr double kAmplitudes[2][3] = {{0.8, 0.5, 0.12}, {1.0, 0.4, 0.15}};
   Motion motion;
@@ -137,7 +137,8 @@ Motion sines(double seconds, double sample_time, double phase, double speed) {
   for (Index j = 0; j < 2; ++j) {
     for (int h = 0; h < 3; ++h) {
       const double w = speed * kFrequencies[j][h], A = kAmplitudes[j][h];
-      const ArrayXd angle = (w * motion.time.array() + phase + 1.3 * h + 0.4 * j);
+      const ArrayXd angle =
+          w * (motion.time.array() + start) + phase + 1.3 * h + 0.4 * static_cast<double>(j);
       motion.q.col(j).array() += A * angle.sin();
       motion.dq.col(j).array() += A * w * angle.cos();
       motion.ddq.col(j).array() -= A * w * w * angle.sin();
@@ -167,16 +168,16 @@ EffectLaw algebraic_law(const std::string& name, const std::vector<std::string>&
   law.variables = variables;
   for (const LawParameter& parameter : parameters) law.parameters.push_back(described(parameter));
   law.sizes = [parameters](const EffectScales&) { return sizes_of(parameters); };
-  law.evaluate = [torque](const MatrixXd& variables, const VectorXd& parameters, double, VectorXd&,
+  law.evaluate = [torque](const MatrixXd& table, const VectorXd& values, double, VectorXd&,
                           const EffectWanted&) {
-    const Index N = variables.rows(), np = parameters.size(), nv = variables.cols();
+    const Index N = table.rows(), np = values.size(), nv = table.cols();
     EffectTorque result{VectorXd(N), MatrixXd(N, np), MatrixXd(N, nv), {}};
     const auto slope = [](auto f, double at) {
       const double h = 1e-5 * std::max(1e-2, std::abs(at));
       return (f(at + h) - f(at - h)) / (2 * h);
     };
     for (Index k = 0; k < N; ++k) {
-      VectorXd v = variables.row(k), p = parameters;
+      const VectorXd v = table.row(k), p = values;
       result.torque(k, 0) = torque(v, p);
       for (Index i = 0; i < np; ++i) {
         result.by_parameter(k, i) = slope(

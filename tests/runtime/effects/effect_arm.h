@@ -21,7 +21,9 @@ runtime::EffectRobot planar_arm_tangents();
 
 /// A motion of both joints that is a sum of sines, derivatives exact.
 /// @param phase  another motion for each
-runtime::Motion sines(double seconds, double sample_time, double phase = 0, double speed = 1);
+/// @param start  s, what time the first sample shows
+runtime::Motion sines(double seconds, double sample_time, double phase = 0, double speed = 1,
+                      double start = 0);
 
 /// The motion as a recording's, without noise: one equation a sample.
 runtime::MotionSource source_of(const runtime::Motion& motion);
