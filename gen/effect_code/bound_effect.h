@@ -23,7 +23,6 @@ struct BoundEffect {
 
 /// The robot's effects, checked: known names, joints that move, parameters within their bounds.
 /// @throws ModelError  positioned in the robot file, up to 20 messages
-std::vector<BoundEffect> bind_effects(const RobotFile& file, const RobotModel& model,
-                                      const EffectCatalogue& catalogue);
+std::vector<BoundEffect> bind_effects(const RobotModel& model, const EffectCatalogue& catalogue);
 
 }  // namespace dyngen

@@ -4,6 +4,7 @@
 #include <ginac/ginac.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,10 @@ struct StateLimits {
 };
 std::vector<StateLimits> state_limits(const EffectFile& effect, const EffectValues& values);
 
-/// The states after a step: exponential Rosenbrock-Euler, z + h phi(-h dr/dz) r, then limited. Exact
-/// for a rate that is linear in the state while its inputs stay, stable for stiff ones, and exact
-/// for a limited integral.
+/// The states after a step: exponential Rosenbrock-Euler, z + h phi(-h dr/dz) r, then limited.
+/// Exact for a rate that is linear in the state while its inputs stay, stable for stiff ones, and
+/// exact for a limited integral. States are moved in their order, each with those before it already
+/// moved, so that two that swing against each other keep their energy.
 ///
 /// @param values  variables in the middle of the step (the mean of its two ends), states before it
 /// @param step    s; 0 leaves the states as they are

@@ -13,17 +13,27 @@ namespace dyngen {
 
 /// An expression of an effect file as written: names are not yet given a meaning.
 struct EffectExpression {
-  enum class Kind { kNumber, kName, kNegate, kSum, kDifference, kProduct, kQuotient, kPower, kCall };
+  enum class Kind {
+    kNumber,
+    kName,
+    kNegate,
+    kSum,
+    kDifference,
+    kProduct,
+    kQuotient,
+    kPower,
+    kCall
+  };
   Kind kind = Kind::kNumber;
-  std::string name{};     ///< of kName and kCall
-  GiNaC::ex number = 0;   ///< of kNumber: exact
+  std::string name{};    ///< of kName and kCall
+  GiNaC::ex number = 0;  ///< of kNumber: exact
   std::vector<EffectExpression> operands{};
   SourcePosition position{};  ///< of the number, the name or the operator
   int length = 1;
 };
 
-/// sin, cos, exp, log, tanh, sqrt, abs, sign, min, max: calls that an effect file may hold, with how
-/// many arguments each has. `pi` is the only constant with a name.
+/// sin, cos, exp, log, tanh, sqrt, abs, sign, min, max: calls that an effect file may hold, with
+/// how many arguments each has. `pi` is the only constant with a name.
 int effect_call_arguments(const std::string& name);  ///< 0: there is none of this name
 
 /// A piece of a row's text with its place; an expression may go on over several lines.
@@ -46,6 +56,10 @@ std::vector<std::string> names_in(const EffectExpression& expression);
 /// @param value_of  what stands for a name
 GiNaC::ex to_algebra(const EffectExpression& expression,
                      const std::function<GiNaC::ex(const std::string&)>& value_of);
+
+/// The expression in numbers; not finite where it has no value there.
+double evaluate(const EffectExpression& expression,
+                const std::function<double(const std::string&)>& value_of);
 
 /// "(Fs - Fc)*exp(-(qd/vs)^2)": one spelling, for documents.
 std::string spell(const EffectExpression& expression);

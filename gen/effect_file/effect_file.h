@@ -42,7 +42,7 @@ struct EffectParameter {
   /// such machines have.
   std::optional<EffectExpression> min, max;
   EffectExpression start, typical;
-  int grid = 0;           ///< of kScanned: how many values are tried between min and max
+  int grid = 0;              ///< of kScanned: how many values are tried between min and max
   bool logarithmic = false;  ///< the scale on which values of it are alike
   std::string meaning;
   SourcePosition position;

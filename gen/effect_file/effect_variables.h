@@ -9,10 +9,11 @@ namespace dyngen {
 
 /// Where a variable of an effect's equations is known.
 enum class VariableSource {
-  kMotion,    ///< of the joint (or its partner): in a controller too
-  kModel,     ///< friction and rotor parameters of the joint in the robot file
-  kTime,      ///< recordings alone: t, temp, and rates of torques
-  kTangent    ///< derivatives of the rigid model
+  kMotion,   ///< of the joint (or its partner): in a controller too
+  kModel,    ///< friction and rotor parameters of the joint in the robot file
+  kTime,     ///< recordings alone: t, temp, and rates of torques
+  kTangent,  ///< the rigid model at the joint: its torque, its other components of force and moment
+  kEveryJoint  ///< derivatives of every joint's torque by something of the rigid model
 };
 
 /// A name that equations may use.

@@ -33,7 +33,6 @@ std::string lanes_function(const CodeModel& code, const RobotFunction& function,
   const std::string type = scalar(options);
   const std::vector<Argument> all = arguments(*function.spec, code);
   const Body body(function.trace, all, options, Body::Width::kLanes);
-  const CSpelling spelling(options, function.trace.symbols(), true);
   std::string parameters, loads;
   for (const Argument& argument : all) {
     parameters += fmt::format(", {}{} *{}", argument.output ? "" : "const ", type, place(argument));
@@ -61,7 +60,7 @@ std::string lanes_function(const CodeModel& code, const RobotFunction& function,
   if (!reads_rows) text += "  (void)n;\n";
   text += loads + body.constants() + body.statements() + "\n";
   for (const Output& output : function.trace.outputs()) {
-    const std::string value = spelling.expression(output.value);
+    const std::string value = body.expression(output.value);
     text += wrap_statement(fmt::format(
         "  {0}_store({1}, {2});", options.prefix, row(output.array, output.index),
         body.varies(output.value) ? value : fmt::format("{}_spread({})", options.prefix, value)));

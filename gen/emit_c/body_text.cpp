@@ -20,24 +20,12 @@ void for_each_symbol(const GiNaC::ex& value, Visit visit) {
 
 }  // namespace
 
-bool reads_sign(const Trace& trace) {
-  for (const Assignment& assignment : trace.assignments()) {
-    for (auto it = assignment.value.preorder_begin(); it != assignment.value.preorder_end(); ++it) {
-      if (GiNaC::is_a<GiNaC::function>(*it) &&
-          GiNaC::ex_to<GiNaC::function>(*it).get_name() == "csgn") {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
 Body::Body(const Trace& trace, const std::vector<Argument>& arguments, const EmitOptions& options,
            Width width)
     : trace_(trace),
       options_(options),
       width_(width),
-      spelling_(options, trace.symbols(), width == Width::kLanes) {
+      spelling_(options, trace.symbols(), width == Width::kLanes ? &varying_places_ : nullptr) {
   const SymbolTable& symbols = trace.symbols();
   const auto is_shared = [&](const std::string& array) {
     return std::any_of(arguments.begin(), arguments.end(), [&](const Argument& argument) {
@@ -88,6 +76,15 @@ std::string Body::constants() const {
   }
   for (const SymbolInfo& info : trace_.symbols().own()) add(info);
   return text;
+}
+
+std::set<std::string> Body::helpers() const {
+  std::set<std::string> names;
+  for (const Assignment& assignment : trace_.assignments()) {
+    if (find_sine(assignment.value, angles_)) continue;
+    names.merge(spelling_.helpers(assignment.value));
+  }
+  return names;
 }
 
 std::string Body::type(const GiNaC::ex& value) const {

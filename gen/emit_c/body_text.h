@@ -12,9 +12,6 @@
 
 namespace dyngen {
 
-/// True if the function takes the sign of something.
-bool reads_sign(const Trace& trace);
-
 /// The statements of a function: of one sample, or of as many samples at once as a register holds.
 ///
 /// In lanes every value that depends on a sample has the type <prefix>_lanes; what depends on
@@ -23,6 +20,8 @@ class Body {
  public:
   enum class Width { kOne, kLanes };
 
+  Body(const Body&) = delete;
+  Body& operator=(const Body&) = delete;
   /// All must outlive the body.
   Body(const Trace& trace, const std::vector<Argument>& arguments, const EmitOptions& options,
        Width width = Width::kOne);
@@ -32,6 +31,12 @@ class Body {
   [[nodiscard]] bool varies(const GiNaC::ex& value) const;
   /// Named numbers that the statements read.
   [[nodiscard]] std::string constants() const;
+  /// Functions of ours that the statements call, as call_helpers() names them.
+  [[nodiscard]] std::set<std::string> helpers() const;
+  /// Of an output.
+  [[nodiscard]] std::string expression(const GiNaC::ex& value) const {
+    return spelling_.expression(value);
+  }
   /// All but the outputs.
   [[nodiscard]] std::string statements() const;
 
@@ -44,10 +49,10 @@ class Body {
   const Trace& trace_;
   const EmitOptions& options_;
   Width width_;
-  CSpelling spelling_;
   std::set<std::string> arrays_;   ///< that the statements read
   std::set<int> constant_places_;  ///< named numbers that the statements read
   std::set<int> varying_places_;   ///< symbols that differ from sample to sample
+  CSpelling spelling_;
   std::vector<GiNaC::ex> angles_;  ///< whose sines and cosines are computed at once
 };
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "gen/emit_c/call_helpers.h"
 #include "gen/symbols/exact.h"
 
 namespace dyngen {
@@ -41,14 +42,48 @@ std::string CSpelling::symbol(const GiNaC::ex& symbol) const {
   }
 }
 
-std::string CSpelling::form(const Form& form) const {
-  if (form.kind == Form::Kind::kCall) {
-    const std::string argument = this->form(form.parts[0]);
-    if (form.call == "sign") {
-      return options_.prefix + (lanes_ ? "_sign_lanes(" : "_sign(") + argument + ")";
-    }
-    return form.call + (options_.scalar == Scalar::kFloat ? "f(" : "(") + argument + ")";
+/// True for what differs from sample to sample in a function of many samples.
+bool CSpelling::in_lanes(const Form& form) const {
+  if (varying_ == nullptr) return false;
+  if (form.kind == Form::Kind::kSymbol) return varying_->contains(symbols_.place(form.leaf));
+  return std::any_of(form.parts.begin(), form.parts.end(),
+                     [this](const Form& part) { return in_lanes(part); });
+}
+
+std::string CSpelling::call(const Form& form) const {
+  const bool lanes = in_lanes(form);
+  std::string arguments;
+  for (const Form& part : form.parts) {
+    const bool spread = lanes && !in_lanes(part);
+    const std::string text =
+        spread ? options_.prefix + "_spread(" + this->form(part) + ")" : this->form(part);
+    arguments += (arguments.empty() ? "" : ", ") + text;
   }
+  std::string function = options_.prefix + "_" + form.call + (lanes ? "_lanes" : "");
+  if (!lanes && !is_helper_call(form.call)) {
+    function = c_library_name(form.call, options_.scalar);
+  }
+  return function + "(" + arguments + ")";
+}
+
+void CSpelling::collect_helpers(const Form& form, std::set<std::string>& names) const {
+  for (const Form& part : form.parts) collect_helpers(part, names);
+  if (form.kind != Form::Kind::kCall) return;
+  const bool lanes = in_lanes(form);
+  if (lanes || is_helper_call(form.call)) names.insert(form.call + (lanes ? "_lanes" : ""));
+  const bool spreads = lanes && std::any_of(form.parts.begin(), form.parts.end(),
+                                            [this](const Form& part) { return !in_lanes(part); });
+  if (spreads) names.insert("spread");
+}
+
+std::set<std::string> CSpelling::helpers(const GiNaC::ex& value) const {
+  std::set<std::string> names;
+  collect_helpers(canonical_form(value, symbols_), names);
+  return names;
+}
+
+std::string CSpelling::form(const Form& form) const {
+  if (form.kind == Form::Kind::kCall) return call(form);
   if (form.kind == Form::Kind::kSum || form.kind == Form::Kind::kProduct ||
       form.kind == Form::Kind::kQuotient) {
     return join_operands(form, [this](const Form& part) { return this->form(part); });

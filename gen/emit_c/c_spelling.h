@@ -3,6 +3,7 @@
 
 #include <ginac/ginac.h>
 
+#include <set>
 #include <string>
 
 #include "gen/emit_c/emit_c.h"
@@ -13,22 +14,29 @@ namespace dyngen {
 /// The C names of one model: what depends on prefix and scalar.
 class CSpelling {
  public:
-  /// @param lanes  of the functions that compute many samples at once
-  CSpelling(const EmitOptions& options, const SymbolTable& symbols, bool lanes = false)
-      : options_(options), symbols_(symbols), lanes_(lanes) {}
+  /// @param varying  of a function that computes many samples at once: the places of the symbols
+  ///                 that differ from sample to sample; null: of a function for one sample
+  CSpelling(const EmitOptions& options, const SymbolTable& symbols,
+            const std::set<int>* varying = nullptr)
+      : options_(options), symbols_(symbols), varying_(varying) {}
 
   [[nodiscard]] std::string scalar() const;
   /// "9.81", "9.81f"; a leading minus if negative
   [[nodiscard]] std::string number(const GiNaC::ex& value) const;
   [[nodiscard]] std::string symbol(const GiNaC::ex& symbol) const;
   [[nodiscard]] std::string expression(const GiNaC::ex& value) const;
+  /// Functions of ours that the expression calls, as call_helpers() names them.
+  [[nodiscard]] std::set<std::string> helpers(const GiNaC::ex& value) const;
 
  private:
   [[nodiscard]] std::string form(const Form& form) const;
+  [[nodiscard]] std::string call(const Form& form) const;
+  [[nodiscard]] bool in_lanes(const Form& form) const;
+  void collect_helpers(const Form& form, std::set<std::string>& names) const;
 
   const EmitOptions& options_;
   const SymbolTable& symbols_;
-  bool lanes_;
+  const std::set<int>* varying_;
 };
 
 /// "PUMA560" of "puma560".

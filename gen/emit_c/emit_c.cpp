@@ -13,6 +13,7 @@
 #include "gen/emit_c/batch_text.h"
 #include "gen/emit_c/body_text.h"
 #include "gen/emit_c/c_spelling.h"
+#include "gen/emit_c/call_helpers.h"
 #include "gen/emit_c/function_text.h"
 #include "gen/emit_c/inline_trig.h"
 #include "gen/emit_c/lanes.h"
@@ -91,33 +92,31 @@ std::string chi_values(const CodeModel& code, const EmitOptions& options) {
 /// The static functions that the emitted ones call.
 std::string helpers(const CodeModel& code, const std::vector<RobotFunction>& functions,
                     const EmitOptions& options) {
-  bool sign = false, lanes = false, lanes_sign = false, lanes_trig = false, spread = false;
+  bool lanes = false, lanes_trig = false;
+  std::set<std::string> calls;
   std::set<std::size_t> sizes;  // of calls of the inline sines and cosines
   for (const RobotFunction& function : functions) {
-    const bool reads = reads_sign(function.trace);
+    const auto add_calls = [&](Body::Width width) {
+      const std::vector<Argument> all = arguments(*function.spec, code);
+      calls.merge(Body(function.trace, all, options, width).helpers());
+    };
     const std::size_t angles = find_angles(function.trace).size();
     if (function.scalar) {
-      sign = sign || reads;
+      add_calls(Body::Width::kOne);
       if (options.trig == Trig::kInline) {
         for (const std::size_t size : sincos_sizes(angles)) sizes.insert(size);
       }
     }
     if (function.batch) {
       lanes = true;
-      lanes_sign = lanes_sign || reads;
+      add_calls(Body::Width::kLanes);
       lanes_trig = lanes_trig || angles > 0;
-      spread = spread || writes_constant(code, function, options);
+      if (writes_constant(code, function, options)) calls.insert("spread");
     }
   }
-  std::string text;
-  if (sign) {
-    text += fmt::format(
-        "/* -1, 0 or 1 */\nstatic {0} {1}_sign({0} x) {{\n  return ({0})((x > 0) - (x < "
-        "0));\n}}\n\n",
-        options.scalar == Scalar::kDouble ? "double" : "float", options.prefix);
-  }
+  std::string text = call_helpers(calls, options);
   if (lanes || !sizes.empty()) text += pack_helper(options) + "\n";
-  if (lanes) text += lanes_helper(options, lanes_sign, spread) + "\n";
+  if (lanes) text += lanes_helper(options, calls) + "\n";
   if (lanes_trig || !sizes.empty()) text += sincos_helper(options, sizes, lanes_trig) + "\n";
   return text;
 }

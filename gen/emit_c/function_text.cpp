@@ -92,8 +92,9 @@ std::string function_comment(const CodeModel& code, const RobotFunction& functio
   text += line + "\n";
   const OperationCount count = function.trace.count();
   text += fmt::format(
-      " * {} mul, {} add, {} sin/cos, {} sgn{}.  Reads every input before writing {}. */\n",
+      " * {} mul, {} add, {} sin/cos, {} sgn{}{}.  Reads every input before writing {}. */\n",
       count.multiplications, count.additions, count.sin_cos_pairs, count.signs,
+      count.calls > 0 ? fmt::format(", {} calls", count.calls) : "",
       count.divisions > 0 ? fmt::format(", {} div", count.divisions) : "", written);
   return text;
 }

@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t kMostAngles = 8;  // of one call: all in registers
 
-bool is_sin_or_cos(const GiNaC::ex& value) {
-  if (!GiNaC::is_a<GiNaC::function>(value)) return false;
-  const std::string name = GiNaC::ex_to<GiNaC::function>(value).get_name();
-  return name == "sin" || name == "cos";
-}
-
 // Statements of the kernels; every value is one of registers a and b, which "@" stands for, so that
 // neither register waits for the other. The tail t of the reduced angle r + t keeps the last bit
 // right near multiples of pi/2.
@@ -263,21 +257,6 @@ std::string sincos_function(const EmitOptions& options, std::size_t count) {
 }
 
 }  // namespace
-
-std::vector<GiNaC::ex> find_angles(const Trace& trace) {
-  std::vector<GiNaC::ex> angles;
-  for (const Assignment& assignment : trace.assignments()) {
-    if (!is_sin_or_cos(assignment.value)) continue;
-    const GiNaC::ex angle = assignment.value.op(0);
-    if (!is_one_of(angles, angle)) angles.push_back(angle);
-  }
-  return angles;
-}
-
-bool is_one_of(const std::vector<GiNaC::ex>& angles, const GiNaC::ex& symbol) {
-  return std::any_of(angles.begin(), angles.end(),
-                     [&](const GiNaC::ex& angle) { return angle.is_equal(symbol); });
-}
 
 std::optional<SineOf> find_sine(const GiNaC::ex& value, const std::vector<GiNaC::ex>& angles) {
   if (!is_sin_or_cos(value)) return {};

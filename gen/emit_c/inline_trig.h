@@ -9,14 +9,9 @@
 #include <vector>
 
 #include "gen/emit_c/emit_c.h"
-#include "gen/trace/trace.h"
+#include "gen/trace/angles.h"
 
 namespace dyngen {
-
-/// The angles whose sine or cosine a function takes, in the order in which it first does.
-std::vector<GiNaC::ex> find_angles(const Trace& trace);
-
-bool is_one_of(const std::vector<GiNaC::ex>& angles, const GiNaC::ex& symbol);
 
 /// A sine or cosine of one of the angles.
 struct SineOf {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "gen/emit_c/c_spelling.h"
+#include "gen/emit_c/call_helpers.h"
 
 namespace dyngen {
 namespace {
@@ -97,6 +98,39 @@ static {1}_INLINE {0}_lanes {0}_sign_lanes({0}_lanes x) {{
 }}
 )";
 
+/// The smaller or the larger. {3} is its name, {4} the comparison under which it is the first.
+constexpr const char* kChoice = R"(
+static {1}_INLINE {0}_lanes {0}_{3}_lanes({0}_lanes x, {0}_lanes y) {{
+#ifdef {1}_VECTORS
+  const {0}_bits first = ({0}_bits)(x {4} y);
+  return ({0}_lanes)((first & ({0}_bits)x) | (~first & ({0}_bits)y));
+#else
+  return x {4} y ? x : y;
+#endif
+}}
+)";
+
+constexpr const char* kAbsolute = R"(
+static {1}_INLINE {0}_lanes {0}_abs_lanes({0}_lanes x) {{
+#ifdef {1}_VECTORS
+  const {0}_bits below = ({0}_bits)(x < -x);
+  return ({0}_lanes)((below & ({0}_bits)-x) | (~below & ({0}_bits)x));
+#else
+  return x < -x ? -x : x;
+#endif
+}}
+)";
+
+/// One sample after the other. {3} is the name, {4} the parameters, {5} the call of one sample.
+constexpr const char* kEach = R"(
+static {1}_INLINE {0}_lanes {0}_{3}_lanes({4}) {{
+  {0}_lanes result = x;
+  int k;
+  for (k = 0; k < {1}_LANES; ++k) {1}_LANE(result, k) = {5};
+  return result;
+}}
+)";
+
 constexpr const char* kSpread = R"(
 static {1}_INLINE {0}_lanes {0}_spread({2} x) {{
   const {0}_lanes zero = {{0}};
@@ -119,13 +153,50 @@ std::string pack_helper(const EmitOptions& options) {
   return text;
 }
 
-std::string lanes_helper(const EmitOptions& options, bool sign, bool spread) {
+namespace {
+
+/// A call of one sample after the other.
+std::string each_sample(const std::string& call, const EmitOptions& options) {
+  const std::string& prefix = options.prefix;
+  const std::string upper = upper_case(prefix);
+  std::string parameters = prefix + "_lanes x", passed = upper + "_LANE(x, k)";
+  if (call == "pow") {
+    parameters += ", " + prefix + "_lanes y";
+    passed += ", " + upper + "_LANE(y, k)";
+  }
+  const std::string function =
+      is_helper_call(call) ? prefix + "_" + call : c_library_name(call, options.scalar);
+  return fmt::format(fmt::runtime(kEach), prefix, upper, "", call, parameters,
+                     fmt::format("{}({})", function, passed));
+}
+
+}  // namespace
+
+std::string lanes_helper(const EmitOptions& options, const std::set<std::string>& calls) {
   const bool single = options.scalar == Scalar::kFloat;
-  std::string text = std::string(single ? kFloatLanes : kDoubleLanes) + kLoadAndStore;
-  if (sign) text += kSign;
-  if (spread) text += kSpread;
-  return fmt::format(fmt::runtime(text), options.prefix, upper_case(options.prefix),
-                     single ? "float" : "double");
+  const std::string upper = upper_case(options.prefix);
+  const auto filled = [&](const std::string& text, const char* name = "", const char* sign = "") {
+    return fmt::format(fmt::runtime(text), options.prefix, upper, single ? "float" : "double", name,
+                       sign);
+  };
+  std::string text = filled(std::string(single ? kFloatLanes : kDoubleLanes) + kLoadAndStore);
+  for (const std::string& name : calls) {
+    if (!name.ends_with("_lanes")) continue;
+    const std::string call = name.substr(0, name.size() - std::string("_lanes").size());
+    if (call == "sign") {
+      text += filled(kSign);
+    } else if (call == "min") {
+      text += filled(kChoice, "min", "<");
+    } else if (call == "max") {
+      text += filled(kChoice, "max", ">");
+    } else if (call == "abs") {
+      text += filled(kAbsolute);
+    } else {
+      text += each_sample(call, options);
+    }
+  }
+  if (calls.contains("spread")) text += filled(kSpread);
+  return text;
 }
 
 }  // namespace dyngen

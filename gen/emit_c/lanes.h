@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "gen/emit_c/emit_c.h"
@@ -14,8 +15,8 @@ std::string pack_helper(const EmitOptions& options);
 /// The type <prefix>_lanes, one number of each of <PREFIX>_LANES samples, and what the batch
 /// functions do with it: load, store, and the copies that fill up the last samples. Needs
 /// pack_helper().
-/// @param sign    the sign of lanes too
-/// @param spread  what makes lanes of one number too
-std::string lanes_helper(const EmitOptions& options, bool sign, bool spread);
+/// @param calls  names of the calls of lanes that are needed too ("sign_lanes", "exp_lanes"), and
+///               "spread", which makes lanes of one number; others are left out
+std::string lanes_helper(const EmitOptions& options, const std::set<std::string>& calls);
 
 }  // namespace dyngen

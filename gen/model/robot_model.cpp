@@ -53,6 +53,7 @@ RobotModel build_model(const RobotFile& file) {
   model.file_name = file.file_name;
   model.convention = file.convention;
   model.effects = file.effects;
+  model.text = file.text;
   for (int i = 0; i < file.joint_count; ++i) {
     JointModel joint;
     joint.type = static_cast<JointType>(integer(file, RowKey::kSigma, i, 0));

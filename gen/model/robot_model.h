@@ -40,6 +40,7 @@ struct JointModel {
 struct RobotModel {
   std::string name;       ///< a C identifier
   std::string file_name;  ///< as the user gave it
+  std::string text;       ///< the whole file, for messages about what its effects mean
   DhConvention convention = DhConvention::kModified;
   std::vector<JointModel> joints;   ///< joints[j - 1] is joint j
   std::array<Quantity, 3> gravity;  ///< acceleration of the base, -g, m/s^2, in frame 0

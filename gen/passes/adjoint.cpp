@@ -102,6 +102,7 @@ class Reverse {
         const ex argument = value_of(form.parts[0]);
         if (form.call == "sin") return GiNaC::sin(argument);
         if (form.call == "cos") return GiNaC::cos(argument);
+        DYNGEN_ASSERT(form.call == "sign", "a regressor has no such call: " + form.call);
         return GiNaC::csgn(argument);
       }
     }
@@ -146,6 +147,8 @@ class Reverse {
       }
       case Form::Kind::kCall: {
         const ex argument = value_of(form.parts[0]);
+        DYNGEN_ASSERT(form.call == "sin" || form.call == "cos",
+                      "a regressor has no such call: " + form.call);
         // the other of the two is a statement as a rule: then this is its name
         const ex slope = form.call == "sin" ? trace_.assign("C" + name, GiNaC::cos(argument))
                                             : -trace_.assign("S" + name, GiNaC::sin(argument));

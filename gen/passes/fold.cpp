@@ -99,6 +99,7 @@ class Folding {
       case Node::Kind::kSum:
         return sum(node.terms);
       case Node::Kind::kOpaque:
+      case Node::Kind::kCall:
         break;
     }
     return {};

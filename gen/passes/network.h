@@ -24,7 +24,8 @@ struct Node {
   enum class Kind {
     kInput,     ///< of the function
     kConstant,  ///< a number, named or not
-    kOpaque,    ///< a call, or the angle of one: left as it stands
+    kOpaque,    ///< a call of inputs, or the angle of one: left as it stands
+    kCall,      ///< a call of nodes, which stand in Network::outputs
     kInverse,   ///< 1 / node
     kSum,       ///< a sum of terms
   };
@@ -32,6 +33,7 @@ struct Node {
   std::string name{};         ///< of the statement; empty: none of its own yet
   GiNaC::ex leaf = 0;         ///< symbol or number; of kOpaque its value
   int of = -1;                ///< of kInverse
+  std::string call{};         ///< of kCall: see call_name()
   std::vector<Term> terms{};  ///< of kSum: sorted by factors, none twice
   int place = -1;             ///< of the statement in the trace that was read
   int section = 0;
@@ -39,15 +41,19 @@ struct Node {
   bool alive = true;
 };
 
-/// An element of an output array: a node or its negation.
+/// An element of an output array or an argument of a call: a node or its negation.
 struct NetworkOutput {
-  std::string array;
+  std::string array;  ///< empty: an argument
   int index = 0;
   bool negative = false;
   int node = -1;
+  int call = -1;  ///< the node of which it is an argument
 };
 
 /// A program as sums of products over nodes with whole numbers for names: what the passes work on.
+///
+/// What a call takes is wanted as an output is: the passes shorten what stands before it and what
+/// stands behind it, and know no more of it than of an input.
 ///
 /// Nodes are never removed, only marked dead, so their numbers stay; numbers and the order of terms
 /// depend on the program's text alone.

@@ -81,7 +81,8 @@ class Scheduler {
         height = std::max(height, vertices_[user].height);
       }
       vertices_[i].height = height + (count.multiplications > 0 ? kMultiplication : 0) +
-                            kAddition * count.additions + kCall * count.sin_cos_pairs;
+                            kAddition * count.additions +
+                            kCall * (count.sin_cos_pairs + count.calls);
     }
   }
 

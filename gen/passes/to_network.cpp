@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
 #include "gen/diagnostic/assert.h"
 #include "gen/passes/conversion.h"
+#include "gen/symbols/calls.h"
 #include "gen/symbols/exact.h"
+#include "gen/trace/angles.h"
 #include "gen/trace/form.h"
 
 namespace dyngen {
 namespace {
 
 using GiNaC::ex;
-
-bool is_angle_function(const ex& value) {
-  if (!GiNaC::is_a<GiNaC::function>(value)) return false;
-  const std::string name = GiNaC::ex_to<GiNaC::function>(value).get_name();
-  return name == "sin" || name == "cos";
-}
 
 class Reading {
  public:
@@ -33,6 +30,10 @@ class Reading {
       if (opaque_.contains(node.name)) {
         node.kind = Node::Kind::kOpaque;
         node.leaf = assignment.value;
+      } else if (!call_name(assignment.value).empty()) {
+        const Form form = canonical_form(assignment.value, trace_.symbols());
+        named_[assignment.target.get_name()] = call(form.parts[0], std::move(node));
+        continue;
       } else {
         node.terms = sum(canonical_form(assignment.value, trace_.symbols()));
         if (const int inverse = lone_inverse(node.terms); inverse >= 0) {
@@ -46,39 +47,53 @@ class Reading {
     }
     for (const Output& output : trace_.outputs()) {
       const std::vector<Term> terms = sum(canonical_form(output.value, trace_.symbols()));
-      NetworkOutput result{output.array, output.index, false, -1};
-      if (terms.size() == 1 && terms[0].factors.size() == 1) {
-        result.negative = terms[0].negative;
-        result.node = terms[0].factors[0];
-      } else {
-        result.node = network_.add({.terms = terms});
-      }
-      network_.outputs.push_back(std::move(result));
+      network_.outputs.push_back(wanted({output.array, output.index}, terms));
     }
     return std::move(network_);
   }
 
  private:
-  /// Calls, and all that they read.
+  /// Sines and cosines of what is known before everything else, and their angles; parameters are
+  /// not among it, since they may be folded.
   void find_opaque() {
-    const auto& assignments = trace_.assignments();
-    for (auto it = assignments.rbegin(); it != assignments.rend(); ++it) {
-      const bool whole = is_angle_function(it->value) || opaque_.contains(it->target.get_name());
-      for (auto part = it->value.preorder_begin(); part != it->value.preorder_end(); ++part) {
-        if (whole) add_opaque(*part);
-        if (!GiNaC::is_a<GiNaC::function>(*part)) continue;
-        for (auto own = part->preorder_begin(); own != part->preorder_end(); ++own) {
-          add_opaque(*own);
-        }
+    std::vector<ex> angles;
+    for (const ex& angle : find_angles(trace_)) {
+      if (!reads_parameters(angle)) angles.push_back(angle);
+    }
+    for (const Assignment& assignment : trace_.assignments()) {
+      const bool sine =
+          is_sin_or_cos(assignment.value) && is_one_of(angles, assignment.value.op(0));
+      if (sine || is_one_of(angles, assignment.target)) {
+        opaque_.insert(assignment.target.get_name());
       }
-      if (whole) opaque_.insert(it->target.get_name());
     }
   }
 
-  void add_opaque(const ex& part) {
-    if (GiNaC::is_a<GiNaC::symbol>(part)) {
-      opaque_.insert(GiNaC::ex_to<GiNaC::symbol>(part).get_name());
+  [[nodiscard]] bool reads_parameters(const ex& angle) const {
+    const auto reads = [&](const ex& value) {
+      for (auto it = value.preorder_begin(); it != value.preorder_end(); ++it) {
+        if (GiNaC::is_a<GiNaC::symbol>(*it) &&
+            trace_.symbols().info(*it).kind == SymbolKind::kParameter) {
+          return true;
+        }
+      }
+      return false;
+    };
+    if (reads(angle)) return true;
+    return std::any_of(trace_.assignments().begin(), trace_.assignments().end(),
+                       [&](const Assignment& assignment) {
+                         return angle.is_equal(assignment.target) && reads(assignment.value);
+                       });
+  }
+
+  NetworkOutput wanted(NetworkOutput output, const std::vector<Term>& terms) {
+    if (terms.size() == 1 && terms[0].factors.size() == 1) {
+      output.negative = terms[0].negative;
+      output.node = terms[0].factors[0];
+    } else {
+      output.node = network_.add({.terms = terms});
     }
+    return output;
   }
 
   std::vector<Term> sum(const Form& form) {
@@ -111,7 +126,7 @@ class Reading {
       case Form::Kind::kSymbol:
         return factor(symbol(form.leaf));
       case Form::Kind::kCall:
-        return factor(call(form));
+        return factor(nested_call(form));
       case Form::Kind::kProduct: {
         Term result;
         for (const Form& part : form.parts) result = product(result, term(part));
@@ -142,11 +157,38 @@ class Reading {
     return id;
   }
 
-  /// Of inputs and opaque statements alone, so its text is its identity.
-  int call(const Form& form) {
-    const ex argument = expression(form.parts[0]);
-    DYNGEN_ASSERT(form.call == "sign", "sin and cos stand alone in a statement");
-    const ex value = GiNaC::csgn(argument);
+  /// @param node  its name and place
+  int call(const Form& form, Node node) {
+    std::vector<NetworkOutput> arguments;
+    for (const Form& part : form.parts) {
+      arguments.push_back(wanted({"", static_cast<int>(arguments.size())}, sum(part)));
+    }
+    node.kind = Node::Kind::kCall;
+    node.call = form.call;
+    const int id = network_.add(std::move(node));
+    for (NetworkOutput& argument : arguments) {
+      argument.call = id;
+      network_.outputs.push_back(std::move(argument));
+    }
+    return id;
+  }
+
+  int nested_call(const Form& form) {
+    if (form.call == "sign" && reads_inputs_alone(form)) return sign_of_inputs(form);
+    return call(form, {});
+  }
+
+  [[nodiscard]] bool reads_inputs_alone(const Form& form) const {
+    if (form.kind == Form::Kind::kSymbol) {
+      return trace_.symbols().info(form.leaf).kind == SymbolKind::kInput;
+    }
+    return std::all_of(form.parts.begin(), form.parts.end(),
+                       [&](const Form& part) { return reads_inputs_alone(part); });
+  }
+
+  /// Its text is its identity.
+  int sign_of_inputs(const Form& form) {
+    const ex value = GiNaC::csgn(expression(form.parts[0]));
     for (int id = 0; id < network_.size(); ++id) {
       const Node& node = network_.node(id);
       if (node.kind == Node::Kind::kOpaque && node.leaf.is_equal(value)) return id;

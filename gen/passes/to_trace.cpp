@@ -6,6 +6,7 @@
 
 #include "gen/diagnostic/assert.h"
 #include "gen/passes/conversion.h"
+#include "gen/symbols/calls.h"
 
 namespace dyngen {
 namespace {
@@ -21,8 +22,13 @@ class Writing {
         source_(source),
         trace_(source.without_statements()),
         uses_(count_uses(network)),
+        arguments_(network.nodes.size()),
         values_(network.nodes.size(), 0),
-        written_(network.nodes.size(), false) {}
+        written_(network.nodes.size(), false) {
+    for (const NetworkOutput& output : network.outputs) {
+      if (output.call >= 0) arguments_[static_cast<std::size_t>(output.call)].push_back(output);
+    }
+  }
 
   Trace run() {
     copy_constants();
@@ -36,6 +42,7 @@ class Writing {
     int last_section = static_cast<int>(trace_.sections().size()) - 1;
     if (!source_.assignments().empty()) last_section = source_.assignments().back().section;
     for (const NetworkOutput& output : network_.outputs) {
+      if (output.call >= 0) continue;
       const std::string name = output.array + "_" + std::to_string(output.index + 1);
       write(output.node, name, last_section);
       const ex value = value_of(output.node);
@@ -106,10 +113,23 @@ class Writing {
           value_of(id) = 1 / value_of(node.of);
         }
         return;
+      case Node::Kind::kCall:
+        assign(id, name, call(id, name, section), section);
+        return;
       case Node::Kind::kSum:
         assign(id, name, sum(node, name, section), section);
         return;
     }
+  }
+
+  ex call(int id, const std::string& name, int section) {
+    std::vector<ex> arguments;
+    for (const NetworkOutput& argument : arguments_[static_cast<std::size_t>(id)]) {
+      prepare(argument.node, section, name, true);
+      const ex& value = value_of(argument.node);
+      arguments.push_back(argument.negative ? ex(-value) : value);
+    }
+    return make_call(network_.node(id).call, arguments);
   }
 
   void assign(int id, const std::string& name, const ex& value, int section) {
@@ -131,7 +151,9 @@ class Writing {
       value_of(id) = sum(node, reader, section);
       return;
     }
-    write(id, node.name.empty() ? name_for(node, reader) : name_of(node), section);
+    std::string name = node.name.empty() ? name_for(node, reader) : name_of(node);
+    if (node.name.empty() && node.kind == Node::Kind::kCall) name = reader + "_" + node.call;
+    write(id, name, section);
   }
 
   ex sum(const Node& node, const std::string& reader, int section) {
@@ -193,6 +215,7 @@ class Writing {
   const Trace& source_;
   Trace trace_;
   std::vector<int> uses_;
+  std::vector<std::vector<NetworkOutput>> arguments_;  // of calls
   std::vector<ex> values_;
   std::vector<bool> written_;
   std::unordered_map<std::string, ex> symbols_;  // names of the source -> of the result

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gen/program/program.h"
+#include "gen/program/scalar_functions.h"
 
 namespace dyngen {
 namespace {
@@ -49,8 +50,6 @@ Places find_places(const Program& program, std::size_t samples,
   return places;
 }
 
-double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
-
 void run(const Instruction& instruction, double* registers, std::size_t count) {
   using Op = Instruction::Op;
   double* target = registers + static_cast<std::size_t>(instruction.target) * kBlock;
@@ -82,7 +81,37 @@ void run(const Instruction& instruction, double* registers, std::size_t count) {
       each([](double x, double) { return std::cos(x); });
       break;
     case Op::kSign:
-      each([](double x, double) { return sign(x); });
+      each([](double x, double) { return scalar::sign(x); });
+      break;
+    case Op::kMin:
+      each([](double x, double y) { return scalar::min(x, y); });
+      break;
+    case Op::kMax:
+      each([](double x, double y) { return scalar::max(x, y); });
+      break;
+    case Op::kPower:
+      each([](double x, double y) { return std::pow(x, y); });
+      break;
+    case Op::kExp:
+      each([](double x, double) { return std::exp(x); });
+      break;
+    case Op::kLog:
+      each([](double x, double) { return std::log(x); });
+      break;
+    case Op::kTanh:
+      each([](double x, double) { return std::tanh(x); });
+      break;
+    case Op::kAbs:
+      each([](double x, double) { return std::abs(x); });
+      break;
+    case Op::kSqrt:
+      each([](double x, double) { return std::sqrt(x); });
+      break;
+    case Op::kDecayMean:
+      each([](double x, double) { return scalar::decay_mean(x); });
+      break;
+    case Op::kDecayMeanSlope:
+      each([](double x, double) { return scalar::decay_mean_slope(x); });
       break;
   }
 }

@@ -6,10 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "gen/program/scalar_functions.h"
+
 namespace dyngen {
 
 ProgramEvaluator::ProgramEvaluator(Program program, const std::vector<std::string>& inputs,
-                                   const std::string& output)
+                                   const std::vector<std::string>& outputs)
     : registers_(static_cast<std::size_t>(program.register_count)) {
   for (const Program::Input& input : program.inputs) {
     const auto found = std::find(inputs.begin(), inputs.end(), input.array);
@@ -20,9 +22,12 @@ ProgramEvaluator::ProgramEvaluator(Program program, const std::vector<std::strin
     reads_.push_back({static_cast<int>(found - inputs.begin()), input.index, input.reg});
   }
   for (const Program::Result& result : program.results) {
-    if (result.array == output) continue;
-    throw std::invalid_argument("ProgramEvaluator: the program writes " + result.array +
-                                ", expected " + output);
+    const auto found = std::find(outputs.begin(), outputs.end(), result.array);
+    if (found == outputs.end()) {
+      throw std::invalid_argument("ProgramEvaluator: the program writes " + result.array +
+                                  ", which is not among the outputs");
+    }
+    writes_.push_back({static_cast<int>(found - outputs.begin()), result.index, result.reg});
   }
   for (const Program::Constant& constant : program.constants) {
     registers_[static_cast<std::size_t>(constant.reg)] = constant.value;
@@ -30,10 +35,11 @@ ProgramEvaluator::ProgramEvaluator(Program program, const std::vector<std::strin
   program_ = std::make_shared<const Program>(std::move(program));
 }
 
-void ProgramEvaluator::run(std::initializer_list<const double*> inputs, double* output) noexcept {
+void ProgramEvaluator::run(std::initializer_list<const double*> inputs,
+                           std::initializer_list<double*> outputs) noexcept {
   using Op = Instruction::Op;
   double* const r = registers_.data();
-  for (const Read& read : reads_) r[read.reg] = inputs.begin()[read.array][read.index];
+  for (const Element& read : reads_) r[read.reg] = inputs.begin()[read.array][read.index];
   for (const Instruction& step : program_->instructions) {
     switch (step.op) {
       case Op::kAdd:
@@ -58,11 +64,41 @@ void ProgramEvaluator::run(std::initializer_list<const double*> inputs, double* 
         r[step.target] = std::cos(r[step.a]);
         break;
       case Op::kSign:
-        r[step.target] = static_cast<double>((r[step.a] > 0.0) - (r[step.a] < 0.0));
+        r[step.target] = scalar::sign(r[step.a]);
+        break;
+      case Op::kMin:
+        r[step.target] = scalar::min(r[step.a], r[step.b]);
+        break;
+      case Op::kMax:
+        r[step.target] = scalar::max(r[step.a], r[step.b]);
+        break;
+      case Op::kPower:
+        r[step.target] = std::pow(r[step.a], r[step.b]);
+        break;
+      case Op::kExp:
+        r[step.target] = std::exp(r[step.a]);
+        break;
+      case Op::kLog:
+        r[step.target] = std::log(r[step.a]);
+        break;
+      case Op::kTanh:
+        r[step.target] = std::tanh(r[step.a]);
+        break;
+      case Op::kAbs:
+        r[step.target] = std::abs(r[step.a]);
+        break;
+      case Op::kSqrt:
+        r[step.target] = std::sqrt(r[step.a]);
+        break;
+      case Op::kDecayMean:
+        r[step.target] = scalar::decay_mean(r[step.a]);
+        break;
+      case Op::kDecayMeanSlope:
+        r[step.target] = scalar::decay_mean_slope(r[step.a]);
         break;
     }
   }
-  for (const Program::Result& result : program_->results) output[result.index] = r[result.reg];
+  for (const Element& write : writes_) outputs.begin()[write.array][write.index] = r[write.reg];
 }
 
 }  // namespace dyngen

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gen/program/program.h"
@@ -14,6 +16,8 @@ namespace dyngen {
 ///
 ///     ProgramEvaluator id(lower(trace), {"q", "dq", "ddq"}, "tau");
 ///     id.run({q, dq, ddq}, tau);
+///     ProgramEvaluator gradient(lower(other), {"q", "dq", "ddq", "A"}, {"g_q", "g_dq", "g_ddq"});
+///     gradient.run({q, dq, ddq, A}, {g_q, g_dq, g_ddq});
 ///
 /// A copy has a workspace of its own; one thread at a time for each.
 class ProgramEvaluator {
@@ -21,20 +25,28 @@ class ProgramEvaluator {
   /// @param inputs  names of the arrays in the order of run(); there may be some that the program
   ///                does not read
   /// @throws std::invalid_argument  if the program reads an array that is not among inputs, or
-  ///         writes another one than output
+  ///         writes one that is not among outputs
   ProgramEvaluator(Program program, const std::vector<std::string>& inputs,
-                   const std::string& output);
+                   const std::vector<std::string>& outputs);
+  ProgramEvaluator(Program program, const std::vector<std::string>& inputs,
+                   const std::string& output)
+      : ProgramEvaluator(std::move(program), inputs, std::vector<std::string>{output}) {}
 
-  /// @param inputs  the arrays, in the order of the names     @param output  every element is
-  /// written
-  void run(std::initializer_list<const double*> inputs, double* output) noexcept;
+  /// Writes every element that the program computes. All inputs are read before the first is
+  /// written.
+  /// @param inputs, outputs  the arrays, in the order of the names
+  void run(std::initializer_list<const double*> inputs,
+           std::initializer_list<double*> outputs) noexcept;
+  void run(std::initializer_list<const double*> inputs, double* output) noexcept {
+    run(inputs, {output});
+  }
 
  private:
-  struct Read {
+  struct Element {
     int array = 0, index = 0, reg = 0;
   };
   std::shared_ptr<const Program> program_;
-  std::vector<Read> reads_;
+  std::vector<Element> reads_, writes_;
   std::vector<double> registers_;
 };
 

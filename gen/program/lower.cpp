@@ -15,6 +15,25 @@ namespace {
 
 using Op = Instruction::Op;
 
+Op operation_of(const std::string& call) {
+  static const std::map<std::string, Op> kOperations = {{"sin", Op::kSin},
+                                                        {"cos", Op::kCos},
+                                                        {"sign", Op::kSign},
+                                                        {"exp", Op::kExp},
+                                                        {"log", Op::kLog},
+                                                        {"tanh", Op::kTanh},
+                                                        {"abs", Op::kAbs},
+                                                        {"min", Op::kMin},
+                                                        {"max", Op::kMax},
+                                                        {"sqrt", Op::kSqrt},
+                                                        {"pow", Op::kPower},
+                                                        {"phi", Op::kDecayMean},
+                                                        {"dphi", Op::kDecayMeanSlope}};
+  const auto found = kOperations.find(call);
+  DYNGEN_ASSERT(found != kOperations.end(), "there is no operation for " + call);
+  return found->second;
+}
+
 /// Lowers forms to instructions on registers that are written once.
 class Lowering {
  public:
@@ -64,8 +83,9 @@ class Lowering {
       case Form::Kind::kSymbol:
         return symbol(form.leaf);
       case Form::Kind::kCall: {
-        const Op op = form.call == "sin" ? Op::kSin : form.call == "cos" ? Op::kCos : Op::kSign;
-        return emit(op, lower_form(form.parts[0]));
+        const int first = lower_form(form.parts[0]);
+        const int second = form.parts.size() > 1 ? lower_form(form.parts[1]) : 0;
+        return emit(operation_of(form.call), first, second);
       }
       case Form::Kind::kProduct: {
         int result = lower_form(form.parts[0]);
@@ -96,10 +116,6 @@ class Lowering {
   std::map<double, int> numbers_;
 };
 
-bool has_two_operands(Op op) {
-  return op == Op::kAdd || op == Op::kSubtract || op == Op::kMultiply || op == Op::kDivide;
-}
-
 /// Gives each temporary the place of one that is not needed any more.
 void reuse_registers(Program& program) {
   constexpr int kForever = -1;
@@ -107,7 +123,7 @@ void reuse_registers(Program& program) {
   for (std::size_t i = 0; i < program.instructions.size(); ++i) {
     const Instruction& instruction = program.instructions[i];
     last_use[static_cast<std::size_t>(instruction.a)] = static_cast<int>(i);
-    if (has_two_operands(instruction.op)) {
+    if (instruction.has_two_operands()) {
       last_use[static_cast<std::size_t>(instruction.b)] = static_cast<int>(i);
     }
   }
@@ -134,9 +150,9 @@ void reuse_registers(Program& program) {
     };
     const int a = instruction.a, b = instruction.b;
     instruction.a = place_of(a);
-    if (has_two_operands(instruction.op)) instruction.b = place_of(b);
+    if (instruction.has_two_operands()) instruction.b = place_of(b);
     release(a);
-    if (has_two_operands(instruction.op)) release(b);
+    if (instruction.has_two_operands()) release(b);
     int& target = place_of(instruction.target);
     if (free.empty()) {
       target = count++;

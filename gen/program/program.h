@@ -13,12 +13,32 @@ class Trace;
 
 /// One operation on registers.
 struct Instruction {
-  enum class Op { kAdd, kSubtract, kMultiply, kDivide, kNegate, kSin, kCos, kSign };
+  enum class Op {
+    kAdd,
+    kSubtract,
+    kMultiply,
+    kDivide,
+    kMin,
+    kMax,
+    kPower,
+    kNegate,
+    kSin,
+    kCos,
+    kSign,
+    kExp,
+    kLog,
+    kTanh,
+    kAbs,
+    kSqrt,
+    kDecayMean,      ///< phi: see decay_mean()
+    kDecayMeanSlope  ///< dphi
+  };
   Op op = Op::kAdd;
   int target = 0;
   int a = 0;
   int b = 0;  ///< of the operations with two operands
 
+  [[nodiscard]] bool has_two_operands() const { return op <= Op::kPower; }
   bool operator==(const Instruction&) const = default;
 };
 

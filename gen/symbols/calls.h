@@ -38,4 +38,8 @@ std::string call_name(const GiNaC::ex& call);
 /// The call of this name. @throws InternalError if there is none, or arguments do not fit
 GiNaC::ex make_call(const std::string& name, const std::vector<GiNaC::ex>& arguments);
 
+/// The derivative of an expression of these calls; that of sign is 0, which GiNaC's own diff() does
+/// not know. The second derivative of phi is written as a quotient that has no value at 0.
+GiNaC::ex derivative_of(const GiNaC::ex& value, const GiNaC::symbol& variable);
+
 }  // namespace dyngen

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gen/diagnostic/assert.h"
+#include "gen/symbols/calls.h"
 #include "gen/symbols/exact.h"
 
 namespace dyngen {
@@ -191,10 +192,11 @@ Operand signed_form(const ex& expression, const SymbolTable& symbols) {
   DYNGEN_ASSERT(GiNaC::is_a<GiNaC::function>(expression), "unexpected kind of expression");
   Form form;
   form.kind = Form::Kind::kCall;
-  form.call = GiNaC::ex_to<GiNaC::function>(expression).get_name();
-  if (form.call == "csgn") form.call = "sign";
-  DYNGEN_ASSERT(form.call == "sin" || form.call == "cos" || form.call == "sign", form.call);
-  form.parts.push_back(sum_form(expression.op(0), symbols));
+  form.call = call_name(expression);
+  DYNGEN_ASSERT(!form.call.empty(), "an unknown function");
+  for (std::size_t i = 0; i < expression.nops(); ++i) {
+    form.parts.push_back(sum_form(expression.op(i), symbols));
+  }
   return make_operand(false, std::move(form), symbols);
 }
 
@@ -231,6 +233,7 @@ OperationCount& OperationCount::operator+=(const OperationCount& other) {
   additions += other.additions;
   sin_cos_pairs += other.sin_cos_pairs;
   signs += other.signs;
+  calls += other.calls;
   divisions += other.divisions;
   return *this;
 }
@@ -242,7 +245,14 @@ OperationCount count_operations(const Form& form) {
   if (form.kind == Form::Kind::kSum) count.additions += operands - 1;
   if (form.kind == Form::Kind::kProduct) count.multiplications += operands - 1;
   if (form.kind == Form::Kind::kQuotient) ++count.divisions;
-  if (form.kind == Form::Kind::kCall && form.call == "sign") ++count.signs;
+  if (form.kind == Form::Kind::kCall) {
+    const bool trigonometric = form.call == "sin" || form.call == "cos";  // pairs of statements
+    if (form.call == "sign") {
+      ++count.signs;
+    } else if (!trigonometric) {
+      ++count.calls;
+    }
+  }
   return count;
 }
 

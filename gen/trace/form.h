@@ -20,8 +20,8 @@ struct Form {
   enum class Kind { kNumber, kSymbol, kSum, kProduct, kQuotient, kCall };
   Kind kind = Kind::kNumber;
   GiNaC::ex leaf = 0;          ///< of kNumber (positive, exact) and kSymbol
-  std::string call;            ///< of kCall: "sin", "cos" or "sign"
-  std::vector<Form> parts;     ///< terms, factors, numerator and denominator, or the argument
+  std::string call;            ///< of kCall: see call_name()
+  std::vector<Form> parts;     ///< terms, factors, numerator and denominator, or the arguments
   std::vector<bool> negative;  ///< of kSum: the sign of each term
 };
 
@@ -43,6 +43,7 @@ struct OperationCount {
   int additions = 0;
   int sin_cos_pairs = 0;
   int signs = 0;
+  int calls = 0;      ///< of others than sin, cos and sign: shown apart too
   int divisions = 0;  ///< not in total(): shown apart
 
   OperationCount& operator+=(const OperationCount& other);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gen/diagnostic/assert.h"
+#include "gen/symbols/calls.h"
 #include "gen/symbols/exact.h"
 
 namespace dyngen {
@@ -246,11 +247,9 @@ OperationCount Trace::count() const {
   std::set<ex, GiNaC::ex_is_less> angles;
   for (const Assignment& assignment : assignments_) {
     const ex& value = assignment.value;
-    if (GiNaC::is_a<GiNaC::function>(value)) {
-      const std::string call = GiNaC::ex_to<GiNaC::function>(value).get_name();
-      const bool trigonometric = call == "sin" || call == "cos";
-      if (trigonometric && angles.insert(value.op(0)).second) ++total.sin_cos_pairs;
-    }
+    const std::string call = call_name(value);
+    const bool trigonometric = call == "sin" || call == "cos";
+    if (trigonometric && angles.insert(value.op(0)).second) ++total.sin_cos_pairs;
     total += count_operations(canonical_form(value, symbols_));
   }
   for (const Output& output : outputs_) {

@@ -37,6 +37,7 @@ struct EffectScales {
   double tau_max = 0;             ///< largest torque
   double duration = 0;            ///< s
   double position_step = 0;       ///< rad or m; of the encoder
+  double temp_range = 0;          ///< K by which the recorded temperature changes
 };
 
 /// Values of all parameters at once, (np) each.
@@ -114,7 +115,8 @@ struct EffectLaw {
 /// An effect of one robot with its numbers.
 struct EffectInstance {
   EffectLaw law;
-  int joint = -1;              ///< coordinate, from 0; -1 of scope robot
+  int joint = -1;              ///< coordinate, from 0; -1 of scope robot and of fixed links
+  int link = 0;                ///< of the robot file, from 1: what `joint` moves; 0 of scope robot
   int other = -1;              ///< of scope pair
   Eigen::VectorXd parameters;  ///< (np); NaN: unknown
 };

@@ -11,6 +11,8 @@
 #include "gen/passes/conversion.h"
 #include "gen/passes/fold.h"
 #include "gen/passes/optimise.h"
+#include "gen/symbols/calls.h"
+#include "gen/trace/assign_calls.h"
 #include "tests/support/exact_evaluation.h"
 #include "tests/support/model_bridge.h"
 
@@ -124,9 +126,34 @@ TEST_F(PassesTest, DifferenceOfUnequalFunctionsIsSeen) {
   EXPECT_GT(exact_difference(exact_outputs(trace_, 1), exact_outputs(other, 1)), 1e-9);
 }
 
+/// A call of something; never of what is not real.
+GiNaC::ex random_call(std::size_t which, const GiNaC::ex& a, const GiNaC::ex& b) {
+  switch (which) {
+    case 0:
+      return GiNaC::exp(-a * a);
+    case 1:
+      return GiNaC::tanh(a - 2 * b);
+    case 2:
+      return real_abs(a * b);
+    case 3:
+      return real_min(a, real_max(b, -GiNaC::numeric(1, 2)));
+    case 4:
+      return real_sqrt(1 + a * a);
+    case 5:
+      return real_pow(1 + b * b, GiNaC::numeric(7, 10));
+    case 6:
+      return GiNaC::log(2 + GiNaC::csgn(a - b));
+    case 7:
+      return decay_mean(real_abs(a));
+    default:
+      return GiNaC::sin(3 * a + b);
+  }
+}
+
 /// Sums of products of what stands before, with squares, constants, calls, quotients and brackets.
+/// @param calls  others than sine, cosine and sign too
 Trace random_trace(const SymbolTable* inputs, const std::vector<GiNaC::ex>& input,
-                   std::uint64_t seed) {
+                   std::uint64_t seed, bool calls = false) {
   std::mt19937_64 random(seed);
   const auto pick = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
   Trace trace(inputs);
@@ -148,6 +175,12 @@ Trace random_trace(const SymbolTable* inputs, const std::vector<GiNaC::ex>& inpu
       if (pick(12) == 0) term *= 2;
       if (pick(12) == 0) term *= GiNaC::csgn(input[pick(input.size())]);
       if (pick(15) == 0) term /= input[pick(input.size())];
+      if (calls && pick(6) == 0) {
+        // powers that grow from statement to statement would leave no digit for a sine
+        const GiNaC::ex argument = GiNaC::tanh(known[pick(known.size())]);
+        const GiNaC::ex call = random_call(pick(9), argument, known[pick(input.size())]);
+        term = assign_calls(trace, "c" + std::to_string(i), term * call);
+      }
       sum += term;
     }
     const GiNaC::ex value = trace.assign("v" + std::to_string(i), sum);
@@ -220,6 +253,23 @@ TEST_F(PassesTest, RandomProgramsKeepTheirValues) {
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     expect_kept(random_trace(&inputs_, input_, seed), "seed " + std::to_string(seed));
   }
+}
+
+TEST_F(PassesTest, RandomProgramsWithCallsKeepTheirValues) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const Trace before = random_trace(&inputs_, input_, seed, true);
+    expect_kept(before, "seed " + std::to_string(seed));
+    EXPECT_EQ(optimised(before, kShort).count().calls, before.count().calls) << seed;
+    const Trace after = to_trace(to_network(before), before);
+    EXPECT_LT(exact_difference(exact_outputs(before, 7), exact_outputs(after, 7)), kExact) << seed;
+  }
+}
+
+TEST_F(PassesTest, WhatACallReadsIsShortenedToo) {
+  const GiNaC::ex sum = input_[0] * input_[1] + input_[0] * input_[2];
+  trace_.output("y", 0, assign_calls(trace_, "c", GiNaC::exp(sum) * input_[3]));
+  trace_.output("y", 1, sum + input_[4]);
+  expect_operations(4);  // a * (b + c); exp * d; + e
 }
 
 TEST_F(PassesTest, NetworkAndBackKeepsValuesAndCount) {

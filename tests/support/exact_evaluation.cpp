@@ -8,7 +8,9 @@
 #include <random>
 #include <stdexcept>
 #include <unordered_map>
+#include <vector>
 
+#include "gen/symbols/calls.h"
 #include "gen/symbols/exact.h"
 
 namespace dyngen::test {
@@ -56,7 +58,13 @@ class Evaluation {
       const int exponent = GiNaC::ex_to<GiNaC::numeric>(value.op(1)).to_int();
       return cln::expt(evaluate(value.op(0)), cln::cl_I(exponent));
     }
-    return call(GiNaC::ex_to<GiNaC::function>(value).get_name(), evaluate(value.op(0)));
+    const std::string name = call_name(value);
+    if (name.empty()) throw std::invalid_argument("unknown function");
+    std::vector<ex> arguments;
+    for (std::size_t i = 0; i < value.nops(); ++i) {
+      arguments.push_back(GiNaC::numeric(evaluate(value.op(i))));
+    }
+    return number(make_call(name, arguments));
   }
 
  private:
@@ -78,14 +86,6 @@ class Evaluation {
       return it->second;
     }
     return cln::cl_float(random_value(seed_, info.array, info.index), kFormat);
-  }
-
-  static cl_R call(const std::string& name, const cl_R& argument) {
-    if (name == "sin") return cln::sin(argument);
-    if (name == "cos") return cln::cos(argument);
-    if (name != "csgn") throw std::invalid_argument("unknown function " + name);
-    if (cln::zerop(argument)) return 0;
-    return cln::plusp(argument) ? 1 : -1;
   }
 
   const SymbolTable& symbols_;
