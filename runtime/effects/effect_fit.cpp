@@ -69,6 +69,7 @@ class EffectFitter {
     for (std::size_t k = 0; k < written_.size(); ++k) point = started(std::move(point), k);
     SearchState state = EffectSearch(data_, signals_, scales_, unknowns_, weights_)
                             .with_linear_solved(std::move(point));
+    hold_steps(state);
     free_initial_states(state);
     state = searched(std::move(state));
     conclude(state);
@@ -128,6 +129,27 @@ class EffectFitter {
       if (!best || state.cost < best->cost) best = std::move(state);
     }
     return best->point;
+  }
+
+  /// A scanned parameter in which torque is made of steps (when something begins) has no
+  /// derivative: the value that the scan found is held.
+  void hold_steps(const SearchState& state) {
+    const VectorXd norms = column_norms(state.factor, weights_);
+    int taken = 0;
+    for (std::size_t k = 0; k < written_.size(); ++k) {
+      for (std::size_t p = 0; p < unknowns_.parameters[k].size(); ++p) {
+        int& place = unknowns_.parameters[k][p];
+        if (place < 0) continue;
+        const bool scanned = written_[k].law.parameters[p].role == EffectRole::kScanned;
+        if (scanned && norms[place] == 0) {
+          place = -1;
+          ++taken;
+        } else {
+          place -= taken;
+        }
+      }
+    }
+    unknowns_.size -= taken;
   }
 
   /// Initial states that the recordings would notice become unknowns.

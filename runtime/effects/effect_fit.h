@@ -28,7 +28,7 @@ struct EffectFitOptions {
 struct EffectParameterFit {
   double value = 0;
   double stddev = 0;  ///< 0 where it was held, or is at its bound
-  bool held = false;  ///< the number of the robot file
+  bool held = false;  ///< the file's number, or what a scan found of a step in time
   bool at_bound = false;
   bool seen = true;  ///< false: the recordings do not determine it
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace dyngen::runtime {
@@ -151,6 +152,7 @@ EffectScales scales_of(const EffectRecordings& data, const VectorXd& beta, int j
   scales.Fc = value_of(data.model, beta, joint, ParameterKind::kCoulomb);
   scales.Fv = value_of(data.model, beta, joint, ParameterKind::kViscous);
   scales.Ia = value_of(data.model, beta, joint, ParameterKind::kRotorInertia);
+  double coldest = std::numeric_limits<double>::infinity(), warmest = -coldest;
   double lowest = data.runs.front().motion.q(0, joint), highest = lowest;
   for (const EffectRun& run : data.runs) {
     const Motion& motion = run.motion;
@@ -161,8 +163,13 @@ EffectScales scales_of(const EffectRecordings& data, const VectorXd& beta, int j
         motion.tau.size() > 0 ? motion.tau.col(joint).eval() : VectorXd::Zero(1).eval();
     scales.tau_max = std::max(scales.tau_max, torque.cwiseAbs().maxCoeff());
     scales.duration = std::max(scales.duration, run.time[run.time.size() - 1]);
+    if (motion.temperature.size() > 0) {
+      coldest = std::min(coldest, motion.temperature.col(joint).minCoeff());
+      warmest = std::max(warmest, motion.temperature.col(joint).maxCoeff());
+    }
     scales.position_step = std::max(scales.position_step, run.position_step[joint]);
   }
+  scales.temp_range = std::max(0.0, warmest - coldest);
   scales.q_range = highest - lowest;
   scales.v90 = ninth_decile(data, joint);
   return scales;

@@ -81,6 +81,7 @@ std::vector<int> EffectSearch::places(const EffectPoint& point, bool linear) con
       const int place = unknowns_.parameters[k][p];
       if (place < 0) continue;
       is_linear[static_cast<std::size_t>(place)] =
+          point.effects[k].law.kind != EffectKind::kAlignment &&
           point.effects[k].law.parameters[p].role == EffectRole::kLinear;
     }
   }

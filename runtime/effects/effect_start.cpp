@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "runtime/effects/equation_stack.h"
@@ -17,35 +18,100 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Values of a parameter between its bounds; around the start where a bound is missing.
-std::vector<double> grid_of(const EffectParameter& parameter, double min, double max, double start,
-                            int count) {
-  constexpr double kAround = 10;
-  const bool bounded = std::isfinite(min) && std::isfinite(max) && max > min;
-  if (!bounded || (parameter.logarithmic && !(min > 0))) {
-    if (start == 0) return {start};
-    const double low = std::min(start / kAround, start * kAround);
-    const double high = std::max(start / kAround, start * kAround);
-    min = std::max(min, low);
-    max = std::min(max, high);
+constexpr int kMostValues = 4000;  // of a grid
+
+/// Values at which shapes of an effect are tried.
+class Grids {
+ public:
+  /// @param start  of all parameters       @param count  values of a shape that is not scanned
+  Grids(const EffectLaw& law, const EffectScales& scales, VectorXd start, int count)
+      : law_(law), sizes_(law.sizes(scales)), start_(std::move(start)), count_(count) {}
+
+  /// Between the bounds; around the start where a bound is missing. `also` is one of them.
+  [[nodiscard]] std::vector<double> values(Index p, double also) const {
+    std::vector<double> result = spread(p, count_of(p));
+    result.push_back(also);
+    return result;
   }
-  const bool logarithmic = parameter.logarithmic && min > 0;
-  std::vector<double> values;
-  for (int i = 0; i < count; ++i) {
-    const double part = count > 1 ? static_cast<double>(i) / (count - 1) : 0.5;
-    values.push_back(logarithmic ? min * std::pow(max / min, part) : min + part * (max - min));
+  /// A few of them.
+  [[nodiscard]] std::vector<double> few(Index p) const { return spread(p, 20); }
+  /// Between neighbours.
+  [[nodiscard]] double step(Index p, double value) const {
+    const auto [low, high, logarithmic] = range(p);
+    const double parts = std::max(1, count_of(p) - 1);
+    return logarithmic ? value * (std::pow(high / low, 1 / parts) - 1) : (high - low) / parts;
   }
-  values.push_back(start);
-  return values;
+
+ private:
+  struct Range {
+    double low, high;
+    bool logarithmic;
+  };
+
+  [[nodiscard]] const EffectParameter& parameter(Index p) const {
+    return law_.parameters[static_cast<std::size_t>(p)];
+  }
+  [[nodiscard]] int count_of(Index p) const {
+    if (parameter(p).role != EffectRole::kScanned) return count_;
+    return std::clamp(parameter(p).grid, 2, kMostValues);
+  }
+  [[nodiscard]] Range range(Index p) const {
+    constexpr double kAround = 10;
+    double low = sizes_.min[p], high = sizes_.max[p];
+    const double start = start_[p];
+    const bool bounded = std::isfinite(low) && std::isfinite(high) && high > low;
+    if (!bounded || (parameter(p).logarithmic && !(low > 0))) {
+      low = std::max(low, std::min(start / kAround, start * kAround));
+      high = std::min(high, std::max(start / kAround, start * kAround));
+    }
+    return {low, high, parameter(p).logarithmic && low > 0};
+  }
+  [[nodiscard]] std::vector<double> spread(Index p, int count) const {
+    const auto [low, high, logarithmic] = range(p);
+    std::vector<double> result;
+    for (int i = 0; i < count; ++i) {
+      const double part = count > 1 ? static_cast<double>(i) / (count - 1) : 0.5;
+      result.push_back(logarithmic ? low * std::pow(high / low, part) : low + part * (high - low));
+    }
+    return result;
+  }
+
+  const EffectLaw& law_;
+  EffectSizes sizes_;
+  VectorXd start_;
+  int count_;
+};
+
+/// Whether no linear parameter has a part in a condition.
+bool of_shapes_alone(const EffectInstance& effect, const EffectCondition& condition) {
+  const double slack = condition.slack(effect.parameters, {});
+  for (Index p = 0; p < effect.law.size(); ++p) {
+    if (effect.law.parameters[static_cast<std::size_t>(p)].role != EffectRole::kLinear) continue;
+    VectorXd moved = effect.parameters;
+    moved[p] += 1;
+    if (condition.slack(moved, {}) != slack) return false;
+  }
+  return true;
 }
 
 /// Squares that are left of `rest` when an effect's linear parameters are fitted to it.
 class Trial {
  public:
-  Trial(EffectSignals& signals, const EquationStack& stack, const Projection& others, VectorXd rest)
-      : signals_(signals), stack_(stack), others_(others), rest_(std::move(rest)) {}
+  Trial(EffectSignals& signals, const EquationStack& stack, const Projection& others, VectorXd rest,
+        const EffectScales& scales)
+      : signals_(signals),
+        stack_(stack),
+        others_(others),
+        rest_(std::move(rest)),
+        scales_(scales) {}
 
+  /// Infinite where a requirement on shapes alone is not met.
   [[nodiscard]] double cost(const EffectInstance& effect) const {
+    for (const EffectCondition& condition : effect.law.requirements) {
+      if (of_shapes_alone(effect, condition) && condition.slack(effect.parameters, scales_) < 0) {
+        return std::numeric_limits<double>::infinity();
+      }
+    }
     const MatrixXd all = stack_.stacked(signals_, effect);
     if (!all.allFinite()) return std::numeric_limits<double>::infinity();
     std::vector<Index> linear;
@@ -66,12 +132,53 @@ class Trial {
   const EquationStack& stack_;
   const Projection& others_;
   VectorXd rest_;
+  EffectScales scales_;
 };
+
+EffectInstance with_value(EffectInstance effect, Index p, double value) {
+  effect.parameters[p] = value;
+  return effect;
+}
+
+/// Of two scanned parameters that mean something together only: the beginning and end of a window.
+VectorXd best_pair(const Trial& trial, const Grids& grids, const EffectInstance& effect, Index p,
+                   Index r) {
+  VectorXd best = effect.parameters;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double first : grids.few(p)) {
+    for (const double second : grids.few(r)) {
+      EffectInstance candidate = with_value(with_value(effect, p, first), r, second);
+      const double cost = trial.cost(candidate);
+      if (!(cost < least)) continue;
+      least = cost;
+      best = candidate.parameters;
+    }
+  }
+  return best;
+}
+
+/// The best value within a step of the effect's: looked for on both sides, ever closer.
+double closer(const Trial& trial, const EffectInstance& effect, Index p, double cost, double step) {
+  constexpr int kHalvings = 7;
+  double best = effect.parameters[p];
+  for (int i = 0; i < kHalvings; ++i) {
+    step /= 2;
+    const double here = best;
+    for (const double value : {here - step, here + step}) {
+      const double next = trial.cost(with_value(effect, p, value));
+      if (!(next < cost)) continue;
+      cost = next;
+      best = value;
+    }
+  }
+  return best;
+}
 
 void check_joints(const EffectInstance& effect, int joints) {
   const EffectLaw& law = effect.law;
-  const bool joint_good =
-      effect.joint < joints && (effect.joint >= 0 || law.scope == EffectScope::kRobot);
+  // a force on a link that does not move by itself has no joint
+  const bool whole = law.scope == EffectScope::kRobot || (law.acts_on_all && effect.link > 0);
+  const bool joint_good = effect.joint < joints && (effect.joint >= 0 || whole);
   const bool other_good = effect.other < joints && effect.other != effect.joint &&
                           (effect.other >= 0 || law.scope != EffectScope::kPair);
   if (joint_good && (other_good || law.scope != EffectScope::kPair) &&
@@ -138,19 +245,20 @@ std::vector<VectorXd> start_values(const EffectRecordings& data, EffectSignals& 
   const EquationStack stack(data, Whitening::by_weights(joint_weights));
   MatrixXd equations = stack.stacked(linearised(data, signals, others, unknowns));
   const Projection projection(equations.leftCols(unknowns.size));
-  const Trial trial(signals, stack, projection, projection.rest(equations.rightCols(1)));
+  const Trial trial(signals, stack, projection, projection.rest(equations.rightCols(1)),
+                    scales.of(point.beta, effect));
 
-  const EffectSizes sizes = law.sizes(scales.of(point.beta, effect));
+  const Grids grids(law, scales.of(point.beta, effect), effect.parameters, grid);
+  if (tried.size() > 1 &&
+      law.parameters[static_cast<std::size_t>(tried[1])].role == EffectRole::kScanned) {
+    effect.parameters = best_pair(trial, grids, effect, tried[0], tried[1]);
+  }
   std::vector<VectorXd> starts;
   for (const Index p : tried) {
-    const EffectParameter& parameter = law.parameters[static_cast<std::size_t>(p)];
-    const bool scan = parameter.role == EffectRole::kScanned;
+    const bool scan = law.parameters[static_cast<std::size_t>(p)].role == EffectRole::kScanned;
     std::vector<std::pair<double, double>> costs;  // and values
-    for (const double value : grid_of(parameter, sizes.min[p], sizes.max[p], effect.parameters[p],
-                                      scan ? std::max(2, parameter.grid) : grid)) {
-      EffectInstance candidate = effect;
-      candidate.parameters[p] = value;
-      costs.emplace_back(trial.cost(candidate), value);
+    for (const double value : grids.values(p, effect.parameters[p])) {
+      costs.emplace_back(trial.cost(with_value(effect, p, value)), value);
     }
     std::stable_sort(costs.begin(), costs.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -158,6 +266,10 @@ std::vector<VectorXd> start_values(const EffectRecordings& data, EffectSignals& 
     for (std::size_t i = 1; scan && i < costs.size() && static_cast<int>(i) < refined; ++i) {
       starts.push_back(effect.parameters);
       starts.back()[p] = costs[i].second;
+    }
+    if (scan) {
+      effect.parameters[p] =
+          closer(trial, effect, p, costs.front().first, grids.step(p, effect.parameters[p]));
     }
   }
   starts.insert(starts.begin(), effect.parameters);

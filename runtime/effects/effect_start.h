@@ -15,8 +15,9 @@ std::vector<EffectInstance> with_starts(const ScaleTable& scales, const Eigen::V
                                         std::vector<EffectInstance> effects);
 
 /// Values of the effect at `place` from which a search may start: each shape that has no number yet
-/// is tried over a grid (kScanned as many values as its effect asks for, others `grid`), what is
-/// linear being fitted to what the other unknowns leave. The best comes first.
+/// is tried over a grid (kScanned as many values as its effect asks for, 4000 at most, others
+/// `grid`) and then ever closer to the best value, what is linear being fitted to what the other
+/// unknowns leave. Two that are scanned are tried together first. The best comes first.
 /// @param as_written  the effect before with_starts(): NaN where a parameter has no number
 /// @param refined     how many, where a parameter is scanned; one otherwise
 std::vector<Eigen::VectorXd> start_values(const EffectRecordings& data, EffectSignals& signals,

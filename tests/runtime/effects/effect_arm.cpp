@@ -336,7 +336,10 @@ EffectLaw delay_law() { return lateness_law("time_delay", AlignmentOperator::kDe
 EffectLaw lag_law() { return lateness_law("actuator_lag", AlignmentOperator::kLag, 1); }
 
 EffectInstance unknown(const EffectLaw& law, int joint, int other) {
-  EffectInstance effect{law, joint, other, {}};
+  EffectInstance effect;
+  effect.law = law;
+  effect.joint = joint;
+  effect.other = other;
   effect.parameters = VectorXd::Constant(law.size(), std::numeric_limits<double>::quiet_NaN());
   return effect;
 }
