@@ -22,12 +22,11 @@ using Eigen::VectorXd;
 constexpr double kAllAbsorbed = 1 - 1e-9;
 
 std::string entry_name(const EffectInstance& effect) {
+  const int joint = effect.link > 0 ? effect.link : effect.joint + 1;
   if (effect.law.scope == EffectScope::kPair) {
-    return fmt::format("{} {}<-{}", effect.law.name, effect.joint + 1, effect.other + 1);
+    return fmt::format("{} {}<-{}", effect.law.name, joint, effect.other + 1);
   }
-  if (effect.link > 0) return fmt::format("{} {}", effect.law.name, effect.link);
-  return effect.joint < 0 ? effect.law.name
-                          : fmt::format("{} {}", effect.law.name, effect.joint + 1);
+  return joint == 0 ? effect.law.name : fmt::format("{} {}", effect.law.name, joint);
 }
 
 /// The first linear parameter that is not typically 0, else the first that is not given.

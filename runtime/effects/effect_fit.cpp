@@ -24,8 +24,9 @@ constexpr int kPreviewSteps = 8;  // of a search from one of several starts
 
 /// "stribeck of joint 2", "base_tilt"
 std::string name_of(const EffectInstance& effect) {
-  if (effect.joint < 0) return effect.law.name;
-  std::string text = fmt::format("{} of joint {}", effect.law.name, effect.joint + 1);
+  const int joint = effect.link > 0 ? effect.link : effect.joint + 1;
+  if (joint == 0) return effect.law.name;
+  std::string text = fmt::format("{} of joint {}", effect.law.name, joint);
   if (effect.law.scope == EffectScope::kPair) text += fmt::format(" and {}", effect.other + 1);
   return text;
 }

@@ -18,11 +18,10 @@ namespace dyngen::runtime {
 /// What effects ask of a robot besides its linear model.
 struct EffectRobot {
   /// Derivative of every joint's torque, (N x n), at a motion and given parameters. By the name of
-  /// the variable: d_q, d_qd, d_qdd of the coordinate `joint`; d_alpha, d_d, d_r of its row of the
-  /// table; d_gx, d_gy, d_gz; payload_XX .. payload_M; contact_fx .. contact_nz on its link.
-  /// wrench_fx .. wrench_nz: column j is of joint j's own wrench. May be empty: then effects that
-  /// read them are refused.
-  std::function<Eigen::MatrixXd(const std::string& name, int joint, const JointMotion& motion,
+  /// the variable (d_*, payload_*, contact_*) and the link of the robot file, from 1, that the
+  /// effect is on; 0 of scope robot. wrench_*: column j is of joint j's own wrench. May be empty:
+  /// then effects that read them are refused.
+  std::function<Eigen::MatrixXd(const std::string& name, int link, const JointMotion& motion,
                                 const Eigen::VectorXd& beta)>
       tangent;
 };

@@ -43,7 +43,7 @@ struct Application {
 
 std::vector<Application> applications(const EffectInstance& effect, int joints) {
   std::vector<Application> all;
-  if (effect.law.acts_on_all) {
+  if (effect.law.acts_on_all || effect.joint < 0) {
     for (int i = 0; i < joints; ++i) all.push_back({i, {i}});
   } else if (effect.law.outputs == 2) {
     all.push_back({effect.joint, {effect.joint, effect.other}});

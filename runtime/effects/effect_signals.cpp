@@ -174,15 +174,15 @@ const MatrixXd& EffectSignals::filtered_rates(std::size_t run, int joint) {
   return place->second;
 }
 
-const MatrixXd& EffectSignals::tangent(std::size_t run, const std::string& name, int joint) {
-  const auto [place, added] = tangents_.try_emplace({run, name, joint});
+const MatrixXd& EffectSignals::tangent(std::size_t run, const std::string& name, int link) {
+  const auto [place, added] = tangents_.try_emplace({run, name, link});
   if (!added) return place->second;
   if (!data_.robot.tangent) {
     throw std::invalid_argument(fmt::format(
         "effects: '{}' is a derivative of the rigid model, and this robot gives none", name));
   }
   const Motion& motion = data_.runs[run].motion;
-  place->second = data_.robot.tangent(name, joint, {motion.q, motion.dq, motion.ddq},
+  place->second = data_.robot.tangent(name, link, {motion.q, motion.dq, motion.ddq},
                                       tangent_beta_.size() > 0 ? tangent_beta_ : beta_);
   return place->second;
 }
@@ -204,7 +204,7 @@ VectorXd EffectSignals::signal(std::size_t run, const std::string& name,
   }
   if (of_rigid_model(name)) {
     const int column = name.starts_with("wrench_") ? joint : target;
-    return tangent(run, name, effect.joint).col(column);
+    return tangent(run, name, effect.link).col(column);
   }
   if (name == "q") return motion.q.col(joint);
   if (name == "qd") return motion.dq.col(joint);

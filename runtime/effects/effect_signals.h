@@ -70,7 +70,7 @@ class EffectSignals {
   };
 
   const RigidTorque& rigid(std::size_t run);
-  const Eigen::MatrixXd& tangent(std::size_t run, const std::string& name, int joint);
+  const Eigen::MatrixXd& tangent(std::size_t run, const std::string& name, int link);
   Eigen::VectorXd signal(std::size_t run, const std::string& name, const EffectInstance& effect,
                          int target);
 

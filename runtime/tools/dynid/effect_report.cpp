@@ -93,11 +93,10 @@ std::string effect_rows(const EffectReport& report, const DescribedRobot& robot)
     text += fmt::format("{:<14}{:>18.4g}{:>14.4g}", fmt::format("joint {}", j + 1),
                         report.fit.rms_without[j], report.fit.rms[j]);
     if (heldout) {
-      text += fmt::format("{:>28.4g}{:>14.4g}", report.heldout_rms_without[j],
-                          report.heldout_rms[j]);
+      text +=
+          fmt::format("{:>28.4g}{:>14.4g}", report.heldout_rms_without[j], report.heldout_rms[j]);
     }
-    text += fmt::format(
-        " {}\n", robot.linear.revolute[static_cast<std::size_t>(j)] ? "N m" : "N");
+    text += fmt::format(" {}\n", robot.linear.revolute[static_cast<std::size_t>(j)] ? "N m" : "N");
   }
   return text;
 }
@@ -148,8 +147,7 @@ Json effect_json(const EffectReport& report, const DescribedRobot& robot) {
           {"heldout_rms", heldout ? numbers(report.heldout_rms) : Json(nullptr)}};
 }
 
-std::vector<std::string> effect_file_rows(const EffectReport& report,
-                                          const DescribedRobot& robot) {
+std::vector<std::string> effect_file_rows(const EffectReport& report, const DescribedRobot& robot) {
   std::vector<std::string> rows;
   for (const EffectInstance& effect : report.fit.point.effects) {
     std::string row = "effect " + effect.law.name;
@@ -173,11 +171,11 @@ std::vector<std::string> effect_comment(const EffectReport& report) {
     for (std::size_t p = 0; p < report.fit.parameters[k].size(); ++p) {
       const EffectParameterFit& parameter = report.fit.parameters[k][p];
       const bool known = !parameter.held && parameter.seen && parameter.stddev > 0;
-      std::string line = fmt::format(
-          "  {:<32} {:>13.6g} {:<13} {:<9} {}",
-          fmt::format("{} {}", effect.law.name, effect.law.parameters[p].name), parameter.value,
-          known ? fmt::format("+- {:.3g}", parameter.stddev) : "", report.units[k][p],
-          state_of(parameter));
+      std::string line =
+          fmt::format("  {:<32} {:>13.6g} {:<13} {:<9} {}",
+                      fmt::format("{} {}", effect.law.name, effect.law.parameters[p].name),
+                      parameter.value, known ? fmt::format("+- {:.3g}", parameter.stddev) : "",
+                      report.units[k][p], state_of(parameter));
       while (line.back() == ' ') line.pop_back();
       comment.push_back(std::move(line));
     }

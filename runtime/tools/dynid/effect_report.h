@@ -17,7 +17,7 @@ struct EffectReport {
   EffectFit fit;
   std::vector<std::vector<std::string>> units;  ///< [effect][parameter], of the joint's kind
   Eigen::VectorXd heldout_rms;                  ///< (n) with the effects; empty: nothing held out
-  Eigen::VectorXd heldout_rms_without;  ///< (n) of the model without them, fitted alike
+  Eigen::VectorXd heldout_rms_without;          ///< (n) of the model without them, fitted alike
 };
 
 /// Units of the parameters of effects as people write them.

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/tools/dynid/effect_laws.h"
-#include "runtime/tools/dynid/effect_robot.h"
+#include "runtime/tools/dynid/robot_tangents.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -24,8 +24,7 @@ RowSource shared_rows(std::vector<RowBlock> blocks) {
 }
 
 /// rms of the model alone, on equations of recordings with effects.
-VectorXd rms_without(const EffectRecordings& data, const EffectPoint& with,
-                     const VectorXd& beta) {
+VectorXd rms_without(const EffectRecordings& data, const EffectPoint& with, const VectorXd& beta) {
   // the same equations count: lateness leaves some out
   EffectPoint plain = with;
   plain.beta = beta;
@@ -88,16 +87,16 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
                       const std::vector<MotionSource>& heldout, ProgressLine& progress,
                       FitReport& report) {
   const LinearModel& model = report.robot.linear;
-  const EffectRobot robot = effect_robot(report.robot, task.effects);
+  const EffectRobot robot{robot_tangents(report.robot)};
   const EffectRecordings data = effect_recordings(model, robot, train, options.rows);
   const FitMethod method = method_of(options);
   EffectFitOptions settings;
   settings.weighted = method == FitMethod::kWls;
   EffectReport effects;
-  effects.fit = fit_effects(data, task.effects, settings,
-                            [&](const std::string& what, double done) {
-                              progress.show(what, static_cast<std::size_t>(100 * done), 100);
-                            });
+  effects.fit =
+      fit_effects(data, task.effects, settings, [&](const std::string& what, double done) {
+        progress.show(what, static_cast<std::size_t>(100 * done), 100);
+      });
   effects.units = effect_units(task.effects, task.catalogue, model);
   const EffectPoint& point = effects.fit.point;
 
@@ -122,8 +121,8 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
     EffectPoint begun = point;
     begun.initial.clear();
     effects.heldout_rms_without = rms_without(left, begun, effects.fit.beta_without);
-    report.data.heldout = factor_of(shared_rows(without_effects(left, begun)), model.columns,
-                                    model.size());
+    report.data.heldout =
+        factor_of(shared_rows(without_effects(left, begun)), model.columns, model.size());
     const Residual residual = residual_of(*report.data.heldout, point.beta);
     effects.heldout_rms = fit.heldout_rms = residual.rms;
     fit.heldout_percent = residual.percent;
@@ -135,8 +134,7 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
     report.notes.push_back(
         "effects: joints that stand still keep their equations (--still SPEED leaves them out)");
   }
-  if (options.motion.average_periods &&
-      !task.reading(options).motion.average_periods) {
+  if (options.motion.average_periods && !task.reading(options).motion.average_periods) {
     report.notes.push_back("effects: periods are not averaged, since an effect reads the time");
   }
   report.fits = {std::move(fit)};
