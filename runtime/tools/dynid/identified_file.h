@@ -16,7 +16,8 @@ namespace dyngen::runtime {
 /// out unless the original has it
 /// @param comment   lines without '#'
 std::string identified_text(const DescribedRobot& robot, const StandardParameters& standard,
-                            const std::vector<std::string>& comment);
+                            const std::vector<std::string>& comment,
+                            const std::vector<std::string>& effects = {});
 
 /// The standard parameters that carry base parameters; all others are zero.
 StandardParameters carried(const DescribedRobot& robot, const Eigen::VectorXd& beta);

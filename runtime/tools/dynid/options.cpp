@@ -70,6 +70,13 @@ void add_recordings(CLI::App& command, ToolOptions& options, const char* text) {
                      "as many processes as mpirun starts");
 }
 
+void add_effects(CLI::App& command, ToolOptions& options) {
+  command
+      .add_option("--effects", options.effects,
+                  "a folder of further effect files (NAME.effect); may be given again")
+      ->allow_extra_args(false);
+}
+
 void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* fit = tool.add_subcommand("fit", "identify a robot's parameters from recordings");
   fit->add_option("robot", options.robot, "robot file; its rows that are absent or * are estimated")
@@ -106,6 +113,7 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   fit->add_option("--passes", options.fit.passes, "of lms over the data")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  add_effects(*fit, options);
   fit->add_flag("--own-friction", options.own_friction,
                 "robots of .qr files share inertia; each has its own friction and offset");
   add_motion_options(*fit, options, words);

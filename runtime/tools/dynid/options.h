@@ -21,12 +21,13 @@ struct ToolOptions {
   std::vector<std::string> recordings;  ///< .csv, .csv.gz; of fit also .qr; of merge .qr
   std::string list;                     ///< a file with one more of them per line; empty: none
   std::vector<std::string> heldout;
-  double heldout_part = 0;    ///< the last part of every recording is held out: 0 .. 0.9
-  std::string output;         ///< empty: none
-  std::string json;           ///< empty: none
-  std::string tracked;        ///< the commanded motion, for instruments; empty: none
-  std::string robot_name;     ///< of accumulate: whose recordings these are
-  bool own_friction = false;  ///< robots share inertia, each has its own friction and offset
+  double heldout_part = 0;           ///< the last part of every recording is held out: 0 .. 0.9
+  std::string output;                ///< empty: none
+  std::string json;                  ///< empty: none
+  std::string tracked;               ///< the commanded motion, for instruments; empty: none
+  std::string robot_name;            ///< of accumulate: whose recordings these are
+  std::vector<std::string> effects;  ///< folders of effect files besides the program's own
+  bool own_friction = false;         ///< robots share inertia, each has its own friction and offset
   bool consistent = false;
   bool every_method = false;
   MotionOptions motion;
