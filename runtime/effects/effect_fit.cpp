@@ -255,9 +255,8 @@ class EffectFitter {
             const ConstraintName& name = held.constraints.names[i];
             parameter.at_bound =
                 parameter.at_bound ||
-                (held.multipliers[static_cast<Index>(i)] > 0 &&
-                 name.kind == ConstraintName::Kind::kBound && name.effect == static_cast<int>(k) &&
-                 name.parameter == static_cast<int>(p));
+                (held.stands[i] && name.kind == ConstraintName::Kind::kBound &&
+                 name.effect == static_cast<int>(k) && name.parameter == static_cast<int>(p));
           }
         }
         fit_.parameters.back().push_back(parameter);
