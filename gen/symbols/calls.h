@@ -31,6 +31,9 @@ GiNaC::ex real_pow(const GiNaC::ex& x, const GiNaC::ex& y);
 GiNaC::ex decay_mean(const GiNaC::ex& x);
 GiNaC::ex decay_mean_slope(const GiNaC::ex& x);
 
+/// d value / d symbol, where that of sign() is 0.
+GiNaC::ex derivative(const GiNaC::ex& value, const GiNaC::symbol& symbol);
+
 /// Name of a call as forms, programs and C know it: sin, cos, sign, exp, log, tanh, abs, min, max,
 /// sqrt, pow, phi, dphi. Empty if it is none of these.
 std::string call_name(const GiNaC::ex& call);

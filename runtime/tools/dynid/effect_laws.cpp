@@ -155,6 +155,13 @@ class EffectEvaluation {
       if (slopes) {
         step_slopes.run({middle.data(), parameters.data(), state.data(), &h},
                         {by_z.data(), by_p.data(), by_m.data()});
+        // where a state is at a point without a slope (a power at zero) it is carried on
+        for (Index i = 0; i < by_z.size(); ++i) {
+          double& slope = by_z.data()[i];
+          if (!std::isfinite(slope)) slope = i % (states_ + 1) == 0 ? 1 : 0;
+        }
+        by_p = by_p.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
+        by_m = by_m.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
         parameter = (by_z * parameter + by_p).eval();
         for (Index c = 0; c < constants; ++c) {
           constant.col(c) =

@@ -32,7 +32,7 @@ EffectScales usual_scales() {
   scales.v90 = 1.5;
   scales.q_range = 3;
   scales.tau_max = 100;
-  scales.duration = 0.3;
+  scales.duration = 60;
   scales.position_step = 1e-5;
   scales.temp_range = 30;
   return scales;
@@ -61,9 +61,9 @@ MatrixXd motion_of(const EffectLaw& law, Index samples, double phase) {
       } else if (name == "sign_qd") {
         value = qd > 0 ? 1 : -1;
       } else if (name == "t") {
-        value = t;
+        value = 250 * t;  // so that windows open and close
       } else if (name == "temp") {
-        value = 25 + 60 * t;
+        value = 25 + 100 * t;
       } else if (name == "Fc") {
         value = scales.Fc;
       } else if (name == "Fv") {
@@ -123,8 +123,8 @@ TEST_P(EveryEffect, HasDerivativesThatDifferencesAgreeWith) {
   const VectorXd parameters = sizes(law);
   const MatrixXd motion = motion_of(law, 240, 0.4);
   VectorXd state = still(law);
-  const EffectTorque found = law.evaluate(motion, parameters, kSampleTime, state,
-                                          {.by_parameter = true, .by_initial = true});
+  const EffectTorque found =
+      law.evaluate(motion, parameters, kSampleTime, state, {.by_parameter = true});
   ASSERT_TRUE(found.torque.allFinite());
   for (Index k = 0; k < law.size(); ++k) {
     const auto& parameter = law.parameters[static_cast<std::size_t>(k)];
@@ -142,13 +142,18 @@ TEST_P(EveryEffect, HasDerivativesThatDifferencesAgreeWith) {
           << parameter.name << ", output " << o;
     }
   }
+  // a power of a state has no slope at zero: begin beside it
+  constexpr double kBeside = 1e-4, kStep = 1e-7;
+  const VectorXd beside = still(law).array() + kBeside;
+  VectorXd moved = beside;
+  const MatrixXd by_initial =
+      law.evaluate(motion, parameters, kSampleTime, moved, {.by_initial = true}).by_initial;
   for (std::size_t s = 0; s < law.states.size(); ++s) {
-    constexpr double kStep = 1e-7;
     const auto at = static_cast<Index>(s);
-    VectorXd more = still(law), less = still(law);
+    VectorXd more = beside, less = beside;
     more[at] += kStep;
     less[at] -= kStep;
-    EXPECT_LT(largest_difference(found.by_initial.col(at), torque_of(law, motion, parameters, more),
+    EXPECT_LT(largest_difference(by_initial.col(at), torque_of(law, motion, parameters, more),
                                  torque_of(law, motion, parameters, less), kStep),
               3e-5)
         << law.states[s];
@@ -214,15 +219,17 @@ TEST_P(EveryEffect, IsTheSameInPiecesOfARun) {
 
 std::vector<std::string> all_effects() {
   std::vector<std::string> names;
-  for (const auto& effect : EffectCatalogue().all()) names.push_back(effect->name);
+  const EffectCatalogue catalogue;
+  for (const auto& effect : catalogue.all()) names.push_back(effect->name);
   return names;
 }
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(all_effects()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& own) { return own.param; });
 
 TEST(EffectCatalogueTest, HasEveryFamilyAndTheMembersThatAreKnown) {
   std::set<std::string> families, names;
-  for (const auto& effect : EffectCatalogue().all()) {
+  const EffectCatalogue catalogue;
+  for (const auto& effect : catalogue.all()) {
     families.insert(effect->family);
     names.insert(effect->name);
   }

@@ -254,8 +254,8 @@ TEST(RobotTangents, OfAWrenchAreTorquesOfJointsAlongItsAxes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, RobotTangents, testing::ValuesIn(kRobots),
-                         [](const testing::TestParamInfo<const char*>& info) {
-                           std::string name = info.param;
+                         [](const testing::TestParamInfo<const char*>& own) {
+                           std::string name = own.param;
                            name = name.substr(name.rfind('/') + 1);
                            return name.substr(0, name.find('.'));
                          });
