@@ -55,14 +55,16 @@ double distance_from_nothing(const MatrixXd& columns, int parameter, double typi
 
 class Atlas {
  public:
-  Atlas(const EffectRecordings& data, const VectorXd& beta, const AtlasNoise& noise)
+  Atlas(const EffectRecordings& data, const VectorXd& beta, const AtlasNoise& noise,
+        std::size_t entries)
       : data_(data),
         noise_(noise),
         signals_(data),
         scales_(data),
         beta_(beta),
         stack_(data, Whitening{noise.joints}),
-        projection_(regressor()) {
+        projection_(regressor()),
+        left_(MatrixXd::Zero(stack_.rows(), static_cast<Index>(entries))) {
     signals_.set_beta(beta);
     signals_.set_tangent_beta(beta);
   }
@@ -75,18 +77,20 @@ class Atlas {
     entry.name = entry_name(effect);
     entry.parameter = main_parameter(effect.law, sizes.typical);
     entry.typical = entry.parameter < 0 ? 0 : sizes.typical[entry.parameter];
-    left_.emplace_back();
-    MatrixXd columns;
+    const Index place = entries_++;
+    MatrixXd plain;
     try {
-      columns = stack_.stacked(signals_, effect);
+      plain = stack_.plain(signals_, effect);
     } catch (const std::invalid_argument& error) {
       entry.missing = error.what();
       return entry;
     }
-    if (!columns.allFinite()) {
+    if (!plain.allFinite()) {
       entry.missing = "its torque is not finite on this motion";
       return entry;
     }
+    entry.enr_before = rms_over_noise(plain.col(0));
+    const MatrixXd columns = stack_.whitened(std::move(plain));
     const VectorXd psi = columns.col(0);
     const double squares = psi.squaredNorm();
     if (!(squares > 0)) {
@@ -101,7 +105,6 @@ class Atlas {
       const bool theorem = std::find(aliases.begin(), aliases.end(), "base") != aliases.end();
       entry.kind = theorem ? Absorbed::kOnAnyData : Absorbed::kByThisMotion;
     }
-    entry.enr_before = rms_over_noise(effect);
     entry.enr_left = entry.enr_before * std::sqrt(entry.lambda / squares);
     entry.worth = entry.lambda / (entry.enr_left * entry.enr_left);
     const double change = entry.parameter < 0 ? 0
@@ -111,17 +114,11 @@ class Atlas {
     entry.detectable = entry.kind == Absorbed::kPartly
                            ? std::abs(change) * std::sqrt(kDetectableLambda / entry.lambda)
                            : std::numeric_limits<double>::infinity();
-    if (entry.kind == Absorbed::kPartly) left_.back() = left.normalized();
+    if (entry.kind == Absorbed::kPartly) left_.col(place) = left.normalized();
     return entry;
   }
 
-  [[nodiscard]] MatrixXd likeness() const {
-    MatrixXd all = MatrixXd::Zero(stack_.rows(), static_cast<Index>(left_.size()));
-    for (std::size_t i = 0; i < left_.size(); ++i) {
-      if (left_[i].size() > 0) all.col(static_cast<Index>(i)) = left_[i];
-    }
-    return (all.transpose() * all).cwiseAbs();
-  }
+  [[nodiscard]] MatrixXd likeness() const { return (left_.transpose() * left_).cwiseAbs(); }
 
  private:
   static bool linear(const EffectInstance& effect, int parameter) {
@@ -135,24 +132,14 @@ class Atlas {
     return all.leftCols(data_.model.size());
   }
 
-  /// Of the joints on which the effect has a torque.
-  double rms_over_noise(const EffectInstance& effect) {
+  /// Of the joints on which the effect has a torque. @param torque  of all equations
+  [[nodiscard]] double rms_over_noise(const VectorXd& torque) const {
     double squares = 0, rows = 0;
-    std::vector<double> of_joint(static_cast<std::size_t>(data_.joints()), 0.0);
-    for (std::size_t run = 0; run < data_.runs.size(); ++run) {
-      const EffectSignature signature = signature_of(data_, signals_, run, effect);
-      for (std::size_t i = 0; i < signature.joints.size(); ++i) {
-        const std::size_t j = static_cast<std::size_t>(signature.joints[i]);
-        of_joint[j] += signature.columns[i]
-                           .col(0)
-                           .cwiseProduct(data_.runs[run].rows.counted.col(signature.joints[i]))
-                           .squaredNorm();
-      }
-    }
-    for (std::size_t j = 0; j < of_joint.size(); ++j) {
-      if (of_joint[j] == 0) continue;
-      const double deviation = noise_.joints[j].deviation;
-      squares += of_joint[j] / (deviation * deviation);
+    for (int j = 0; j < data_.joints(); ++j) {
+      const double of_joint = torque.segment(stack_.first(j), stack_.of_joint()).squaredNorm();
+      if (of_joint == 0) continue;
+      const double deviation = noise_.joints[static_cast<std::size_t>(j)].deviation;
+      squares += of_joint / (deviation * deviation);
       rows += static_cast<double>(stack_.of_joint());
     }
     return rows > 0 ? std::sqrt(squares / rows) : 0;
@@ -165,7 +152,8 @@ class Atlas {
   VectorXd beta_;
   EquationStack stack_;
   Projection projection_;
-  std::vector<VectorXd> left_;  // of unit length; empty: nothing is left
+  MatrixXd left_;  // of each entry, of unit length; 0: nothing is left
+  Index entries_ = 0;
 };
 
 }  // namespace
@@ -244,15 +232,19 @@ std::vector<EffectInstance> atlas_effects(const LinearModel& model,
 }
 
 AbsorptionAtlas absorption_atlas(const EffectRecordings& data, const VectorXd& beta,
-                                 const AtlasNoise& noise, std::vector<EffectInstance> effects) {
+                                 const AtlasNoise& noise, std::vector<EffectInstance> effects,
+                                 const AtlasProgress& progress) {
   if (beta.size() != data.model.size() || static_cast<int>(noise.joints.size()) != data.joints()) {
     throw std::invalid_argument(
         fmt::format("absorption_atlas(): {} parameters and noise of {} joints, expected {} and {}",
                     beta.size(), noise.joints.size(), data.model.size(), data.joints()));
   }
-  Atlas atlas(data, beta, noise);
+  Atlas atlas(data, beta, noise, effects.size());
   AbsorptionAtlas result;
-  for (EffectInstance& effect : effects) result.entries.push_back(atlas.entry(std::move(effect)));
+  for (EffectInstance& effect : effects) {
+    if (progress) progress(effect.law.name, result.entries.size(), effects.size());
+    result.entries.push_back(atlas.entry(std::move(effect)));
+  }
   result.likeness = atlas.likeness();
   return result;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,10 @@ std::vector<EffectInstance> atlas_effects(const LinearModel& model,
 /// false alarm in a hundred among 200 tests.
 constexpr double kDetectableLambda = 28;
 
+/// Told which effect is next: its name, its place and how many there are.
+using AtlasProgress =
+    std::function<void(const std::string& effect, std::size_t place, std::size_t count)>;
+
 /// Every effect at its typical size, projected off the regressor; equations whitened by the noise.
 ///
 /// Numbers are to first order: shapes, and what is given or scanned, stand at their typical values.
@@ -73,6 +78,7 @@ constexpr double kDetectableLambda = 28;
 /// @param beta  (nb) at which tau_load and friction are taken
 /// @throws std::invalid_argument  if a size is wrong
 AbsorptionAtlas absorption_atlas(const EffectRecordings& data, const Eigen::VectorXd& beta,
-                                 const AtlasNoise& noise, std::vector<EffectInstance> effects);
+                                 const AtlasNoise& noise, std::vector<EffectInstance> effects,
+                                 const AtlasProgress& progress = {});
 
 }  // namespace dyngen::runtime

@@ -202,10 +202,11 @@ class EffectFitter {
     return state;
   }
 
-  void conclude(const SearchState& state) {
+  void conclude(SearchState state) {
     tell("noise and intervals", 0);
     const EffectSearch search(data_, signals_, scales_, unknowns_, weights_);
     const EffectSearch::Held held = search.held_at(state);
+    state.point = on_bounds(std::move(state.point), held);
     const VectorXd x = values_of(state.point, unknowns_);
     Estimate all = least_squares(state.factor, weights_);
     all.beta = x;
@@ -224,6 +225,21 @@ class EffectFitter {
     fit_.textbook = white.head(unknowns_.base);
     conclude_base(all);
     conclude_parameters(state.point, all, held);
+  }
+
+  /// A parameter that stands at a bound but for rounding is the bound.
+  EffectPoint on_bounds(EffectPoint point, const EffectSearch::Held& held) const {
+    for (std::size_t i = 0; i < held.stands.size(); ++i) {
+      const ConstraintName& name = held.constraints.names[i];
+      if (!held.stands[i] || name.kind != ConstraintName::Kind::kBound) continue;
+      EffectInstance& effect = point.effects[static_cast<std::size_t>(name.effect)];
+      const EffectSizes sizes = effect.law.sizes(scales_.of(point.beta, effect));
+      double& value = effect.parameters[name.parameter];
+      const double min = sizes.min[name.parameter], max = sizes.max[name.parameter];
+      const double bound = std::abs(value - min) <= std::abs(value - max) ? min : max;
+      if (std::isfinite(bound)) value = bound;
+    }
+    return point;
   }
 
   /// What the model's parameters are worth beside the effects.
@@ -255,9 +271,8 @@ class EffectFitter {
             const ConstraintName& name = held.constraints.names[i];
             parameter.at_bound =
                 parameter.at_bound ||
-                (held.multipliers[static_cast<Index>(i)] > 0 &&
-                 name.kind == ConstraintName::Kind::kBound && name.effect == static_cast<int>(k) &&
-                 name.parameter == static_cast<int>(p));
+                (held.stands[i] && name.kind == ConstraintName::Kind::kBound &&
+                 name.effect == static_cast<int>(k) && name.parameter == static_cast<int>(p));
           }
         }
         fit_.parameters.back().push_back(parameter);

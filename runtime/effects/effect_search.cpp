@@ -179,18 +179,37 @@ SearchState EffectSearch::run(EffectPoint start, const SearchOptions& options) c
 }
 
 EffectSearch::Held EffectSearch::held_at(const SearchState& state) const {
+  constexpr double kAt = 1e-7;     // relative: an inequality that the point stands at
+  constexpr double kHolds = 1e-6;  // of the gradient: what is less is rounding
   Held held;
   held.constraints = constraints(state.point);
   const Inequalities& inequalities = held.constraints.inequalities;
   const StackedRows rows = stacked(state.factor, weights_);
   const VectorXd x = values_of(state.point, unknowns_);
-  held.multipliers = constrained_least_squares(rows.W, rows.tau, inequalities, x).multipliers;
-  // an inequality of the full step may lie far from here: it holds only what stands at it
+  held.stands = std::vector<bool>(held.constraints.names.size(), false);
+  held.multipliers = VectorXd::Zero(inequalities.h.size());
+  std::vector<Index> active;
   for (Index i = 0; i < inequalities.h.size(); ++i) {
     const double slack = inequalities.G.row(i).dot(x) - inequalities.h[i];
     const double size =
         inequalities.G.row(i).cwiseAbs().dot(x.cwiseAbs()) + std::abs(inequalities.h[i]);
-    if (slack > 1e-5 * size) held.multipliers[i] = 0;
+    if (slack > kAt * size + 1e-12) continue;
+    active.push_back(i);
+    held.stands[static_cast<std::size_t>(i)] = true;
+  }
+  if (active.empty()) return held;
+  // half the gradient of the cost is a sum of the inequalities' normals, in scaled unknowns
+  VectorXd scale = rows.W.colwise().norm();
+  for (double& s : scale) s = s > 0 ? 1 / s : 1;
+  const VectorXd gradient = scale.cwiseProduct(rows.W.transpose() * (rows.W * x - rows.tau));
+  MatrixXd normals = (inequalities.G(active, Eigen::all) * scale.asDiagonal()).transpose();
+  const VectorXd lengths = normals.colwise().norm().cwiseMax(1e-300);
+  normals = normals * lengths.cwiseInverse().asDiagonal();
+  const VectorXd forces = nonnegative_least_squares(normals, gradient).x;
+  const double least = kHolds * (1e-6 * std::sqrt(state.cost) + gradient.norm());
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const double force = forces[static_cast<Index>(i)];
+    if (force > least) held.multipliers[active[i]] = force / lengths[static_cast<Index>(i)];
   }
   return held;
 }

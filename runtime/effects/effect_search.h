@@ -42,9 +42,11 @@ class EffectSearch {
   /// Levenberg and Marquardt from there.
   [[nodiscard]] SearchState run(EffectPoint start, const SearchOptions& options) const;
 
-  /// Inequalities at a state, and the multipliers of those that hold the full step back there.
+  /// Inequalities at a state: which it stands at, and the multipliers of those that hold it back
+  /// (conditions of the first order).
   struct Held {
     EffectConstraints constraints;
+    std::vector<bool> stands;
     Eigen::VectorXd multipliers;
   };
   [[nodiscard]] Held held_at(const SearchState& state) const;

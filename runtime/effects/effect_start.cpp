@@ -112,7 +112,7 @@ class Trial {
         return std::numeric_limits<double>::infinity();
       }
     }
-    const MatrixXd all = stack_.stacked(signals_, effect);
+    const MatrixXd all = stack_.whitened(stack_.plain(signals_, effect));
     if (!all.allFinite()) return std::numeric_limits<double>::infinity();
     std::vector<Index> linear;
     VectorXd fixed = all.col(0);

@@ -4,13 +4,10 @@
 #include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
-namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-}  // namespace
 
 Whitening Whitening::by_weights(const VectorXd& weights) {
   Whitening whitening;
@@ -36,6 +33,7 @@ void EquationStack::whiten(Eigen::Ref<MatrixXd> columns, std::size_t run, int jo
   const auto counted = data_.runs[run].rows.counted.col(joint);
   const Index order = noise.coefficients.size();
   for (Index c = 0; c < columns.cols(); ++c) {
+    if (columns.col(c).isZero(0)) continue;
     columns.col(c) = columns.col(c).cwiseProduct(counted) / noise.innovation;
     // from the last sample on, so that each still finds those before it
     for (Index t = columns.rows() - 1; t >= 0; --t) {
@@ -62,18 +60,28 @@ MatrixXd EquationStack::stacked(const EffectEquations& equations) const {
   return all;
 }
 
-MatrixXd EquationStack::stacked(EffectSignals& signals, const EffectInstance& effect) const {
+MatrixXd EquationStack::plain(EffectSignals& signals, const EffectInstance& effect) const {
   MatrixXd all = MatrixXd::Zero(rows_, 1 + effect.law.size());
   for (std::size_t run = 0; run < data_.runs.size(); ++run) {
     const EffectSignature signature = signature_of(data_, signals, run, effect);
     for (std::size_t i = 0; i < signature.joints.size(); ++i) {
       const int j = signature.joints[i];
-      auto part = all.middleRows(first(j) + run_starts_[run], signature.columns[i].rows());
-      part = signature.columns[i];
-      whiten(part, run, j);
+      const auto counted = data_.runs[run].rows.counted.col(j);
+      all.middleRows(first(j) + run_starts_[run], signature.columns[i].rows()) =
+          counted.asDiagonal() * signature.columns[i];
     }
   }
   return all;
+}
+
+MatrixXd EquationStack::whitened(MatrixXd columns) const {
+  for (std::size_t run = 0; run < data_.runs.size(); ++run) {
+    for (int j = 0; j < data_.joints(); ++j) {
+      whiten(columns.middleRows(first(j) + run_starts_[run], data_.runs[run].rows.tau.rows()), run,
+             j);
+    }
+  }
+  return columns;
 }
 
 Projection::Projection(const MatrixXd& W, double tolerance) {

@@ -29,8 +29,10 @@ class EquationStack {
 
   /// J of all equations, and tau in the last column. @return (rows x size + 1)
   [[nodiscard]] Eigen::MatrixXd stacked(const EffectEquations& equations) const;
-  /// Torque of an effect, and its derivatives by parameters. @return (rows x 1 + np)
-  [[nodiscard]] Eigen::MatrixXd stacked(EffectSignals& signals, const EffectInstance& effect) const;
+  /// Torque of an effect, and its derivatives by parameters, N m or N. @return (rows x 1 + np)
+  [[nodiscard]] Eigen::MatrixXd plain(EffectSignals& signals, const EffectInstance& effect) const;
+  /// The same, whitened. @param columns  of plain()
+  [[nodiscard]] Eigen::MatrixXd whitened(Eigen::MatrixXd columns) const;
 
  private:
   /// A column of one joint and one run, whitened in place. Equations that do not count are 0.

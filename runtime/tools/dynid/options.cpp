@@ -119,6 +119,27 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   add_motion_options(*fit, options, words);
 }
 
+void add_atlas(CLI::App& tool, ToolOptions& options, Words& words) {
+  CLI::App* atlas = tool.add_subcommand(
+      "atlas", "what a refit hides of every effect, and how small it may be to be found");
+  atlas->add_option("robot", options.robot, "robot file; with a trajectory, one with numbers")
+      ->required();
+  atlas->add_option("recordings", options.recordings, "recordings");
+  atlas->add_option("--trajectory", options.atlas.trajectory,
+                    "a motion that is planned, instead of recordings (CSV)");
+  atlas
+      ->add_option("--noise", options.atlas.noise,
+                   "standard deviation of the torque's noise, one number a joint, with commas; "
+                   "else from the residual, or 1 % of the largest torque of a trajectory")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  add_effects(*atlas, options);
+  atlas->add_option("--json", options.json, "all results for programs");
+  atlas->add_option("--picture", options.atlas.picture,
+                    "how alike effects are, as a picture (.svg, .png)");
+  add_motion_options(*atlas, options, words);
+}
+
 void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* check = tool.add_subcommand("check", "residuals of a robot file, without a fit");
   check->add_option("robot", options.robot, "robot file with numbers")->required();
@@ -171,6 +192,12 @@ std::string understand(const Words& words, ToolOptions& options) {
     }
     options.fit.methods.push_back(*method);
   }
+  if (options.command == Command::kAtlas) {
+    if (options.recordings.empty() == options.atlas.trajectory.empty()) {
+      return "expected recordings, or --trajectory FILE";
+    }
+    return "";
+  }
   if (options.recordings.empty() && options.list.empty()) {
     return "there is no recording: expected at least one";
   }
@@ -188,6 +215,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   tool.require_subcommand(1);
   add_fit(tool, parsed.options, words);
   add_others(tool, parsed.options, words);
+  add_atlas(tool, parsed.options, words);
   add_simulate(tool, parsed.options.simulate);
   add_excite(tool, parsed.options.robot, parsed.options.output, parsed.options.json,
              parsed.options.excite);
@@ -209,7 +237,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                                                    {"accumulate", Command::kAccumulate},
                                                    {"merge", Command::kMerge},
                                                    {"simulate", Command::kSimulate},
-                                                   {"excite", Command::kExcite}};
+                                                   {"excite", Command::kExcite},
+                                                   {"atlas", Command::kAtlas}};
   parsed.options.command = commands.at(name);
   if (parsed.options.command == Command::kSimulate) return parsed;
   const std::string message = parsed.options.command == Command::kExcite

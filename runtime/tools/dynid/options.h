@@ -12,7 +12,14 @@
 
 namespace dyngen::runtime {
 
-enum class Command { kFit, kCheck, kAccumulate, kMerge, kSimulate, kExcite };
+enum class Command { kFit, kCheck, kAccumulate, kMerge, kSimulate, kExcite, kAtlas };
+
+/// What dynid atlas is asked for besides a robot, recordings and --effects.
+struct AtlasOptions {
+  std::string trajectory;     ///< instead of recordings; empty: none
+  std::vector<double> noise;  ///< N m or N of each joint; empty: from the residual, or 1 %
+  std::string picture;        ///< .svg or .png; empty: none
+};
 
 /// The command line of dynid.
 struct ToolOptions {
@@ -35,6 +42,7 @@ struct ToolOptions {
   FitOptions fit;
   SimulateOptions simulate;
   ExciteOptions excite;
+  AtlasOptions atlas;
 };
 
 /// Reads the command line. @return what to do, or the exit code if there is nothing left to do
