@@ -157,6 +157,18 @@ RestingJoints Regime::rest(const RobotState& state, const double* tau) {
     act(state, joints.ddq.data());
     joints = resting_joints(M_, pushing(state, tau), level, at_rest);
   }
+  if (model.effects.reads_acceleration()) {
+    // who stays is known: the others' accelerations to the end
+    const auto before = stuck;
+    const Eigen::VectorXi sliding = direction;
+    stuck = at_rest && joints.direction.array() == 0;
+    for (Index j = 0; j < direction.size(); ++j) {
+      if (at_rest[j]) direction[j] = joints.direction[j];
+    }
+    if (!stuck.all()) solve_for_acceleration(state, tau, joints.ddq.data());
+    stuck = before;
+    direction = sliding;
+  }
   return joints;
 }
 
