@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 #include "runtime/effects/effect_constraints.h"
@@ -201,8 +202,12 @@ std::vector<std::size_t> AbsorptionAtlas::nearest(std::size_t entry, std::size_t
 }
 
 std::vector<EffectInstance> atlas_effects(const LinearModel& model,
-                                          const std::vector<EffectLaw>& laws) {
+                                          const std::vector<EffectLaw>& laws,
+                                          const std::vector<std::pair<int, int>>& pairs) {
   const int n = model.joints();
+  std::set<std::pair<int, int>> coupled;
+  for (int j = 0; j + 1 < n; ++j) coupled.insert({{j, j + 1}, {j + 1, j}});
+  for (const auto& [joint, other] : pairs) coupled.insert({{joint, other}, {other, joint}});
   std::vector<EffectInstance> effects;
   for (const EffectLaw& law : laws) {
     const auto add = [&](int joint, int other) {
@@ -218,10 +223,7 @@ std::vector<EffectInstance> atlas_effects(const LinearModel& model,
     if (law.scope == EffectScope::kRobot) {
       add(-1, -1);
     } else if (law.scope == EffectScope::kPair) {
-      for (int j = 0; j + 1 < n; ++j) {
-        add(j, j + 1);
-        add(j + 1, j);
-      }
+      for (const auto& [joint, other] : coupled) add(joint, other);
     } else if (law.family == "contact") {
       add(n - 1, -1);
     } else {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/effects/effect_law.h"
@@ -58,9 +59,11 @@ struct AbsorptionAtlas {
 };
 
 /// Which effects to look at: each law on each joint it can be on; of scope pair on neighbouring
-/// joints, both ways; of scope robot once; a force on a link (contact) on the last one.
+/// joints and on the given pairs, both ways; of scope robot once; a force on a link (contact) on
+/// the last one.
 std::vector<EffectInstance> atlas_effects(const LinearModel& model,
-                                          const std::vector<EffectLaw>& laws);
+                                          const std::vector<EffectLaw>& laws,
+                                          const std::vector<std::pair<int, int>>& pairs = {});
 
 /// The noncentrality at which a test of one parameter finds an effect nine times in ten, at one
 /// false alarm in a hundred among 200 tests.

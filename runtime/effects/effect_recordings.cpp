@@ -45,7 +45,7 @@ RowBlock rows_of_run(const LinearModel& model, const MotionSource& recording, co
     visit(piece);
   };
   RowBlock all;
-  rows_of(model, run, plan)([&](const RowBlock& block) {
+  planned_rows(model, run, plan)([&](const RowBlock& block) {
     all.Y = below(all.Y, block.Y);
     all.tau = below(all.tau, block.tau);
     const bool every = block.counted.size() == 0;

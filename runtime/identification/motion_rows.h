@@ -36,7 +36,8 @@ RowPlan plan_rows(const MotionSource& source, const RowOptions& options);
 /// Source: Gautier, "Dynamic identification of robots with power model", ICRA 1997 (filtering and
 /// decimation of both sides).
 RowSource rows_of(const LinearModel& model, const MotionSource& source, const RowOptions& options);
-RowSource rows_of(const LinearModel& model, const MotionSource& source, const RowPlan& plan);
+/// The same by a plan of one's own.
+RowSource planned_rows(const LinearModel& model, const MotionSource& source, const RowPlan& plan);
 
 /// All rows of several sources, one after the other.
 RowSource joined(std::vector<RowSource> sources);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/tool/output_files.h"
@@ -153,10 +154,15 @@ AtlasNoise noise_of(const ToolOptions& options, const Motions& motions, AtlasRep
   return white_noise(deviation);
 }
 
-/// Every effect where it can be, with the links that the robot file counts.
+/// Every effect where it can be, with the links that the robot file counts. Pairs that the file
+/// names in its rows are looked at besides neighbours.
 std::vector<EffectInstance> effects_of(const DescribedRobot& robot,
                                        const EffectCatalogue& catalogue) {
-  std::vector<EffectInstance> effects = atlas_effects(robot.linear, effect_laws(catalogue));
+  std::vector<std::pair<int, int>> pairs;
+  for (const EffectInstance& row : effect_instances(robot.model, catalogue)) {
+    if (row.other >= 0 && row.joint >= 0) pairs.emplace_back(row.joint, row.other);
+  }
+  std::vector<EffectInstance> effects = atlas_effects(robot.linear, effect_laws(catalogue), pairs);
   for (EffectInstance& effect : effects) {
     for (int j = 1; j <= robot.model.size(); ++j) {
       if (effect.joint >= 0 && robot.model.joint(j).coordinate == effect.joint) effect.link = j;

@@ -42,14 +42,17 @@ std::string row(const AtlasReport& report, std::size_t place) {
   const AtlasEntry& entry = report.atlas.entries[place];
   if (!entry.missing.empty()) return fmt::format("{:<32}  {}\n", entry.name, entry.missing);
   std::string text =
-      fmt::format("{:<32}{:>20}{:>10.3g}{:>10.3g}{:>11.4g}", entry.name, absorbed_text(entry),
-                  entry.enr_before, entry.enr_left, entry.lambda);
-  if (std::isfinite(entry.detectable)) {
+      fmt::format("{:<32}{:>20}{:>10.3g}", entry.name, absorbed_text(entry), entry.enr_before);
+  // what rounding left of a theorem is no number
+  const bool left = entry.kind == Absorbed::kPartly;
+  text += left ? fmt::format("{:>10.3g}{:>11.4g}", entry.enr_left, entry.lambda)
+               : fmt::format("{:>10}{:>11}", "0", "0");
+  if (left) {
     text += fmt::format(
         "  {:<26}",
         fmt::format("{} {:.3g} {}",
                     entry.effect.law.parameters[static_cast<std::size_t>(entry.parameter)].name,
-                    entry.detectable, report.units[place]));
+                    entry.detectable, report.units[place] == "1" ? "" : report.units[place]));
   } else {
     text += fmt::format("  {:<26}", "never");
   }

@@ -153,6 +153,10 @@ TEST(Absorption, OfPairsBothWaysAndOfRobotsOnce) {
   EXPECT_EQ(effects[1].joint, 1);
   EXPECT_EQ(effects[2].joint, -1);
   EXPECT_EQ(effects[3].joint, 0);
+  model.joint_names = {"1", "2", "3"};
+  model.revolute = {true, true, true};
+  EXPECT_EQ(atlas_effects(model, {pair}).size(), 4u);
+  EXPECT_EQ(atlas_effects(model, {pair}, {{2, 0}, {0, 1}}).size(), 6u);
 }
 
 }  // namespace
