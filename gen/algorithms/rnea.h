@@ -13,15 +13,13 @@ struct RneaTerms {
   bool rotor = true;     ///< IA ddq
   bool friction = true;  ///< FS sign(dq) + FV dq + OFF
   bool wrench = true;    ///< the last link's, if the model has one
+  bool effects = false;  ///< those of the model
 };
 
 /// Writes tau by customised Newton-Euler in a given form, as the output array "tau" (N m, N if
-/// prismatic).
+/// prismatic); with effects that have states, the members of the state too.
 ///
 /// Source: Khalil and Dombre 2002, ch. 9.
 void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, const RneaForm& form);
-
-/// Writes the friction torque FS sign(dq) + FV dq + OFF of every joint.
-void write_friction(Trace& trace, const CodeModel& code);
 
 }  // namespace dyngen

@@ -43,7 +43,7 @@ class Writing {
     if (!source_.assignments().empty()) last_section = source_.assignments().back().section;
     for (const NetworkOutput& output : network_.outputs) {
       if (output.call >= 0) continue;
-      const std::string name = output.array + "_" + std::to_string(output.index + 1);
+      const std::string name = output_name(output.array, output.index);
       write(output.node, name, last_section);
       const ex value = value_of(output.node);
       trace_.output(output.array, output.index, output.negative ? ex(-value) : value);

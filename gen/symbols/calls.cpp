@@ -102,8 +102,10 @@ ex power_evalf(const ex& x, const ex& y) {
   if (!is_float(x) || !is_float(y)) return power_of(x, y).hold();
   return x.is_zero() ? ex(0) : ex(GiNaC::pow(x, y).evalf());
 }
+/// At 0 it is that of a tiny x: a product with a factor that is 0 there is a number then.
 ex power_derivative(const ex& x, const ex& y, unsigned which) {
-  return which == 0 ? ex(y * power_of(x, y - 1)) : ex(power_of(x, y) * GiNaC::log(x));
+  const ex positive = larger_of(x, GiNaC::pow(ex(10), -30));
+  return which == 0 ? ex(y * power_of(positive, y - 1)) : ex(power_of(x, y) * GiNaC::log(positive));
 }
 
 // phi and its derivative. For |x| <= 1 the terms of their series, which is where 1 - exp(-x) loses

@@ -22,7 +22,8 @@ GiNaC::ex real_min(const GiNaC::ex& a, const GiNaC::ex& b);
 GiNaC::ex real_max(const GiNaC::ex& a, const GiNaC::ex& b);
 /// The root of x >= 0; its derivative at 0 is not finite.
 GiNaC::ex real_sqrt(const GiNaC::ex& x);
-/// x^y of x >= 0 and any exponent. Small whole powers are products: write GiNaC::pow for them.
+/// x^y of x >= 0 and any exponent; its derivatives at 0 are those at 1e-30, which are finite. Small
+/// whole powers are products: write GiNaC::pow for them.
 GiNaC::ex real_pow(const GiNaC::ex& x, const GiNaC::ex& y);
 
 /// phi(x) = (1 - exp(-x)) / x, 1 at x = 0: the part of a step in which a state that decays still

@@ -93,7 +93,19 @@ class CallWriting {
       const ex value = statement(make_call(form.call, {-arguments[0]}));
       return form.call == "sin" ? ex(-value) : value;
     }
+    if (form.call == "pow" && is_known(form.parts[1])) {
+      return power(arguments[0], number_of(form.parts[1]), arguments[1]);
+    }
     return statement(make_call(form.call, arguments));
+  }
+
+  /// Whole and half exponents need no logarithm.
+  ex power(const ex& base, const ex& number, const ex& exponent) {
+    constexpr int kMostProduct = 8;
+    const bool small = number <= kMostProduct && number >= -kMostProduct;
+    if (small && number.info(GiNaC::info_flags::integer)) return GiNaC::pow(base, number);
+    if (number.is_equal(ex(1) / 2)) return statement(real_sqrt(base));
+    return statement(real_pow(base, exponent));
   }
 
   /// A symbol, its negation or a number.
@@ -151,8 +163,12 @@ class CallWriting {
     const bool single = form.kind == Form::Kind::kSum && form.parts.size() == 1;
     if (single && !form.negative[0]) return known_number(form.parts[0]);
     if (form.kind == Form::Kind::kSymbol || form.kind == Form::Kind::kNumber) return form.leaf;
-    return trace_.constant(name_ + "_K" + std::to_string(++numbers_), number_of(form), {},
-                           spell(form));
+    const std::string formula = spell(form);
+    for (const SymbolInfo& info : trace_.symbols().own()) {
+      if (info.kind == SymbolKind::kConstant && info.comment == formula) return info.symbol;
+    }
+    const std::string name = name_ + "_K" + std::to_string(++numbers_);
+    return trace_.constant(name, number_of(form), {}, formula);
   }
 
   Trace& trace_;
