@@ -106,7 +106,7 @@ class Writing {
         return;
       }
       case Node::Kind::kInverse:
-        prepare(node.of, section, node.name + "_divisor", true);
+        prepare(node.of, section, (node.name.empty() ? name : node.name) + "_divisor", true);
         if (!node.name.empty()) {
           assign(id, name, 1 / value_of(node.of), section);
         } else {
@@ -153,6 +153,7 @@ class Writing {
     }
     std::string name = node.name.empty() ? name_for(node, reader) : name_of(node);
     if (node.name.empty() && node.kind == Node::Kind::kCall) name = reader + "_" + node.call;
+    if (node.name.empty() && node.kind == Node::Kind::kInverse) name = reader;
     write(id, name, section);
   }
 

@@ -17,6 +17,14 @@ class CallWriting {
  public:
   CallWriting(Trace& trace, const std::string& name) : trace_(trace), name_(name) {}
 
+  /// Written twice: numbers of inner products stand beside those of outer ones after the first
+  /// time. Each product has one number then, whose sign is not of GiNaC's choosing.
+  ex write(const ex& expression) {
+    const ex once = write(canonical_form(expression, trace_.symbols()));
+    return write(canonical_form(once, trace_.symbols()));
+  }
+
+ private:
   ex write(const Form& form) {
     if (form.kind == Form::Kind::kNumber || form.kind == Form::Kind::kSymbol) return form.leaf;
     if (is_known(form)) return known_number(form);
@@ -44,7 +52,6 @@ class CallWriting {
     }
   }
 
- private:
   static Form joined(Form::Kind kind, std::vector<Form> parts) {
     Form form;
     form.kind = kind;
@@ -110,8 +117,9 @@ class CallWriting {
 
   /// A symbol, its negation or a number.
   ex argument(const ex& value) {
-    return is_number(value) ? value
-                            : trace_.assign(name_ + "_x" + std::to_string(calls_ + 1), value);
+    if (is_number(value)) return value;
+    const ex settled = write(canonical_form(value, trace_.symbols()));
+    return trace_.assign(name_ + "_x" + std::to_string(calls_ + 1), settled);
   }
 
   ex statement(const ex& value) {
@@ -180,7 +188,7 @@ class CallWriting {
 
 ex assign_calls(Trace& trace, const std::string& name, const ex& expression) {
   CallWriting writing(trace, name);
-  return writing.write(canonical_form(expression, trace.symbols()));
+  return writing.write(expression);
 }
 
 }  // namespace dyngen
