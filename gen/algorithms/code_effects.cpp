@@ -100,11 +100,13 @@ class EffectBinding {
       link.rotor = link.chi[index(Chi::kIA)];
       return;
     }
-    const ex value = with_known_values(robot_.link(joint).chi[index(Chi::kIA)], robot_);
-    if (is_number(value)) {
-      link.rotor = add_constant(code_.inputs, fmt::format("rotor_{}", joint), value,
-                                std::string(chi_unit(Chi::kIA, link.type != JointType::kPrismatic)),
-                                "IA of the robot file");
+    const auto entry =
+        std::find_if(robot_.parameters.begin(), robot_.parameters.end(),
+                     [&](const FileSymbol& own) { return own.name == chi_name(Chi::kIA, joint); });
+    if (entry == robot_.parameters.end()) return;  // known to be 0
+    if (entry->known) {
+      link.rotor = add_constant(code_.inputs, fmt::format("rotor_{}", joint), entry->value,
+                                entry->unit, origin(entry->line));
       link.grouped_rotor = link.rotor;
       return;
     }
