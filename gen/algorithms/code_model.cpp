@@ -35,20 +35,6 @@ ex add_input(SymbolTable& table, const std::string& array, int index, const std:
   return table.add(std::move(info));
 }
 
-ex add_chi(CodeModel& code, ChiEntry entry) {
-  SymbolInfo info;
-  info.name = entry.name;
-  info.kind = SymbolKind::kParameter;
-  info.unit = entry.unit;
-  info.comment = entry.comment;
-  info.array = "chi";
-  info.index = static_cast<int>(code.chi.size());
-  info.shared = true;
-  code.takes_chi = true;
-  code.chi.push_back(std::move(entry));
-  return code.inputs.add(std::move(info));
-}
-
 /// Only numbers in it?
 std::optional<ex> known_number(const ex& value) {
   if (is_number(value)) return value;
@@ -142,8 +128,22 @@ void add_weights(CodeModel& code) {
 
 }  // namespace
 
+ex add_chi_entry(CodeModel& code, ChiEntry entry) {
+  SymbolInfo info;
+  info.name = entry.name;
+  info.kind = SymbolKind::kParameter;
+  info.unit = entry.unit;
+  info.comment = entry.comment;
+  info.array = "chi";
+  info.index = static_cast<int>(code.chi.size());
+  info.shared = true;
+  code.takes_chi = true;
+  code.chi.push_back(std::move(entry));
+  return code.inputs.add(std::move(info));
+}
+
 CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedParameter>& base,
-                          const CodeOptions& options) {
+                          const CodeOptions& options, const std::vector<BoundEffect>& effects) {
   const ParameterMode mode = options.parameters;
   const SymbolicRobot& robot = grouping.robot;
   CodeModel code;
@@ -195,12 +195,12 @@ CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedP
       from_geometry.emplace_back(column, value);
       code.chi.push_back(std::move(entry));
     } else {
-      target = add_chi(code, std::move(entry));
+      target = add_chi_entry(code, std::move(entry));
     }
   }
   for (const FileSymbol& length : robot.geometry) {
     if (options.gravity && is_gravity(robot, length.symbol)) continue;
-    geometry[length.symbol] = add_chi(
+    geometry[length.symbol] = add_chi_entry(
         code, {length.name, length.unit, origin(robot.file_name, length.line), std::nullopt});
   }
   for (const auto& [column, value] : from_geometry) {
@@ -257,6 +257,7 @@ CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedP
   }
   if (options.wrench) add_wrench(code);
   if (options.weights) add_weights(code);
+  add_effects(code, effects, robot);
   return code;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gen/algorithms/code_effects.h"
 #include "gen/algorithms/link_form.h"
 #include "gen/base_parameters/base_parameters.h"
 #include "gen/symbols/symbol_table.h"
@@ -56,6 +57,9 @@ struct CodeLink {
   std::array<GiNaC::ex, kChiCount> chi;  ///< 0, a symbol, or a sum (see with_named_parameters())
   GiNaC::ex q = 0, dq = 0, ddq = 0;      ///< inputs; 0 for a fixed joint
   GiNaC::ex tau = 0;                     ///< input of the forward dynamics
+  /// Where effects read it: rotor inertia, of chi or the robot file's number; and how much of it is
+  /// grouped into others, so that the torque of the rigid links has it in.
+  GiNaC::ex rotor = 0, grouped_rotor = 0;
   int coordinate = -1;
 };
 
@@ -70,13 +74,16 @@ struct CodeModel {
   /// The argument speaks of the file's frame, this of the link's frame here.
   std::array<GiNaC::ex, 6> wrench;
   std::vector<GiNaC::ex> weights;  ///< with the option weights: A, row-major
-  std::vector<ChiEntry> chi;  ///< dynamic parameters, then unknown lengths and gravity components
+  /// Dynamic parameters, then unknown lengths and gravity components, then parameters of effects.
+  std::vector<ChiEntry> chi;
   std::vector<Column> chi_columns;  ///< what the dynamic parameters in chi are: its first entries
   std::vector<std::string> beta;    ///< names of the base parameters
   std::vector<Column> beta_columns;
   std::vector<std::string> coordinate_names;
   std::vector<bool> coordinate_revolute;
   bool takes_chi = false;  ///< the functions have an argument chi: some entry of it is read
+  std::vector<CodeEffect> effects;  ///< that run in a controller, in the order of the file
+  EffectMemory memory;              ///< of the effects with states
   CodeOptions options;
   std::vector<std::string>
       folded;  ///< with the option fold, when functions are written: its entries
@@ -93,8 +100,13 @@ struct CodeModel {
 
 /// @param grouping  the parameters to use: regroup(robot) or keep_standard(robot)
 /// @param base      the base parameters: of regroup(robot)
+/// @param effects   of the robot; those that cannot run in a controller are left out
+/// @throws ModelError  if an effect reads what is unknown and grouped: see add_effects()
 CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedParameter>& base,
-                          const CodeOptions& options);
+                          const CodeOptions& options, const std::vector<BoundEffect>& effects = {});
+
+/// Adds an entry to chi. @return its symbol
+GiNaC::ex add_chi_entry(CodeModel& code, ChiEntry entry);
 
 /// The links with one name for each parameter that is a sum (with a payload, or of lengths).
 /// @param trace  gets the statements

@@ -31,16 +31,23 @@ std::vector<std::vector<std::size_t>> carriers(const CodeModel& code) {
   return result;
 }
 
-/// tau - c - g - friction
+/// tau - c - g - friction - effects
 std::vector<ex> write_net_torque(Trace& trace, const CodeModel& code) {
   RneaTerms terms;
   terms.motion.acceleration = false;
+  terms.effects = true;
   write_shortest_rnea(trace, code, terms);
   std::vector<ex> torque(code.coordinate_names.size(), 0);
   for (const Output& output : trace.take_outputs()) {
-    torque[static_cast<std::size_t>(output.index)] = output.value;
+    if (output.array == "tau") {
+      torque[static_cast<std::size_t>(output.index)] = output.value;
+    } else {  // what effects remember
+      trace.output(output.array, output.index, output.value);
+    }
   }
-  trace.section("torque that accelerates: tau less Coriolis, gravity and friction");
+  trace.section(code.effects.empty()
+                    ? "torque that accelerates: tau less Coriolis, gravity and friction"
+                    : "torque that accelerates: tau less Coriolis, gravity, friction and effects");
   for (const CodeLink& link : code.links) {
     if (link.coordinate < 0) continue;
     ex& own = torque[static_cast<std::size_t>(link.coordinate)];
@@ -52,6 +59,10 @@ std::vector<ex> write_net_torque(Trace& trace, const CodeModel& code) {
 }  // namespace
 
 std::string why_no_forward_dynamics(const CodeModel& code) {
+  if (effects_read(code, {"qdd", "tau_load"})) {
+    return "an effect reads accelerations or the torque of the links: its torque is known when the "
+           "accelerations are";
+  }
   const int joint = undetermined_joint(code);
   if (joint == 0) return {};
   return fmt::format(

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "gen/algorithms/effects.h"
+#include "gen/algorithms/friction.h"
 #include "gen/algorithms/link_inertia.h"
 #include "gen/algorithms/link_wrench.h"
 
@@ -30,13 +32,6 @@ struct Wrench {
 Vector3 sum(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
 ex chi(const CodeLink& link, Chi kind) { return link.chi[index(kind)]; }
-
-ex friction_torque(const CodeLink& link) {
-  ex torque = chi(link, Chi::kFV) * link.dq + chi(link, Chi::kOFF);
-  const ex FS = chi(link, Chi::kFS);
-  if (!FS.is_zero()) torque += FS * GiNaC::csgn(link.dq);
-  return torque;
-}
 
 /// Writes the backward recursion. The wrench that a link hands over is kept in both views; what
 /// stands in one of them is turned into the other only where the parent's frame is at an angle.
@@ -174,21 +169,28 @@ void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, con
     const auto& w = code.wrench;
     backward.add_wrench({-w[0], -w[1], -w[2]}, {-w[3], -w[4], -w[5]}, -shifts.back());
   }
-  std::vector<ex> torque(code.links.size() + 1);
+  std::vector<ex> torque(code.links.size() + 1), load(code.coordinate_names.size());
   for (int j = code.size(); j >= 1; --j) {
     const CodeLink& link = code.link(j);
     ex& own = torque[static_cast<std::size_t>(j)];
     const Wrench wrench = backward.write_link(j);
     own = link.type == JointType::kPrismatic ? wrench.force[2] : wrench.moment[2];
+    if (link.coordinate >= 0) load[static_cast<std::size_t>(link.coordinate)] = own;
     if (terms.rotor && terms.motion.acceleration) own += chi(link, Chi::kIA) * link.ddq;
     if (terms.friction) own += friction_torque(link);
   }
+  EffectTorques effects;
+  effects.torque.assign(load.size(), 0);
+  if (terms.effects && !code.effects.empty()) effects = write_effects(trace, code, load);
   trace.section("joint torques");
   for (int j = 1; j <= code.size(); ++j) {
     const CodeLink& link = code.link(j);
-    if (link.coordinate >= 0) {
-      trace.output("tau", link.coordinate, torque[static_cast<std::size_t>(j)]);
-    }
+    if (link.coordinate < 0) continue;
+    const ex& own = effects.torque[static_cast<std::size_t>(link.coordinate)];
+    trace.output("tau", link.coordinate, torque[static_cast<std::size_t>(j)] + own);
+  }
+  for (const Output& output : effects.memory) {
+    trace.output(output.array, output.index, output.value);
   }
 }
 
@@ -210,12 +212,6 @@ void write_joint_wrenches(Trace& trace, const CodeModel& code) {
       trace.output("w", k * joints + coordinate, wrench.force[at]);
       trace.output("w", (3 + k) * joints + coordinate, wrench.moment[at]);
     }
-  }
-}
-
-void write_friction(Trace& trace, const CodeModel& code) {
-  for (const CodeLink& link : code.links) {
-    if (link.coordinate >= 0) trace.output("tau", link.coordinate, friction_torque(link));
   }
 }
 

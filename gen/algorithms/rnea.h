@@ -13,10 +13,11 @@ struct RneaTerms {
   bool rotor = true;     ///< IA ddq
   bool friction = true;  ///< FS sign(dq) + FV dq + OFF
   bool wrench = true;    ///< the last link's, if the model has one
+  bool effects = false;  ///< those of the model
 };
 
 /// Writes tau by customised Newton-Euler in a given form, as the output array "tau" (N m, N if
-/// prismatic).
+/// prismatic); with effects that have states, the members of the state too.
 ///
 /// Source: Khalil and Dombre 2002, ch. 9.
 void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, const RneaForm& form);
@@ -26,8 +27,5 @@ void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, con
 /// fy fz nx ny nz. Without rotor and friction. The parameters must be those of bodies: regrouped
 /// ones give the same torque, not the same wrench.
 void write_joint_wrenches(Trace& trace, const CodeModel& code);
-
-/// Writes the friction torque FS sign(dq) + FV dq + OFF of every joint.
-void write_friction(Trace& trace, const CodeModel& code);
 
 }  // namespace dyngen

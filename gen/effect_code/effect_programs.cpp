@@ -89,7 +89,7 @@ Program program_of(const Symbols& symbols, const std::string& array,
 std::vector<ex> slopes(const std::vector<ex>& values, const std::vector<GiNaC::symbol>& by) {
   std::vector<ex> result;
   for (const ex& value : values) {
-    for (const GiNaC::symbol& symbol : by) result.push_back(derivative(value, symbol));
+    for (const GiNaC::symbol& symbol : by) result.push_back(derivative_of(value, symbol));
   }
   return result;
 }

@@ -66,7 +66,7 @@ std::vector<ex> states_after(const EffectFile& effect, const EffectValues& value
   const std::vector<StateLimits> limits = state_limits(effect, values);
   std::vector<ex> next;
   for (std::size_t i = 0; i < rates.size(); ++i) {
-    const ex decay = -derivative(rates[i], symbols[i]);
+    const ex decay = -derivative_of(rates[i], symbols[i]);
     const ex mean = decay.is_zero() ? ex(1) : decay_mean(decay * step);
     ex moved = symbols[i] + step * mean * rates[i];
     moved = moved.subs(back, GiNaC::subs_options::no_pattern);

@@ -30,12 +30,11 @@ std::string place(const Argument& argument) {
 
 std::string lanes_function(const CodeModel& code, const RobotFunction& function,
                            const EmitOptions& options) {
-  const std::string type = scalar(options);
   const std::vector<Argument> all = arguments(*function.spec, code);
   const Body body(function.trace, all, options, Body::Width::kLanes);
   std::string parameters, loads;
   for (const Argument& argument : all) {
-    parameters += fmt::format(", {}{} *{}", argument.output ? "" : "const ", type, place(argument));
+    parameters += ", " + declared(argument, place(argument), options);
     if (argument.output) continue;
     if (!body.reads(argument.name)) {
       loads += fmt::format("  (void){};\n", place(argument));
@@ -74,8 +73,7 @@ std::string batch_signature(const CodeModel& code, const RobotFunction& function
                             const EmitOptions& options) {
   std::string text = fmt::format("void {}_{}_batch(size_t n", options.prefix, function.name);
   for (const Argument& argument : arguments(*function.spec, code)) {
-    text +=
-        fmt::format(", {}{} *{}", argument.output ? "" : "const ", scalar(options), argument.name);
+    text += ", " + declared(argument, argument.name, options);
   }
   return text + ")";
 }

@@ -30,11 +30,23 @@ std::string CSpelling::number(const GiNaC::ex& value) const {
                                             : shortest_decimal_float(value) + "f";
 }
 
+std::string CSpelling::element(const std::string& array, int index) {
+  if (array == kStepArray || array == kPeriodArray) return array;
+  return array + "[" + std::to_string(index) + "]";
+}
+
+std::string declared(const Argument& argument, const std::string& array,
+                     const EmitOptions& options) {
+  if (argument.state) return options.prefix + "_state *" + array;
+  const std::string scalar = options.scalar == Scalar::kDouble ? "double" : "float";
+  return (argument.output ? "" : "const ") + scalar + " *" + array;
+}
+
 std::string CSpelling::symbol(const GiNaC::ex& symbol) const {
   const SymbolInfo& info = symbols_.info(symbol);
   switch (info.kind) {
     case SymbolKind::kInput:
-      return info.array + "[" + std::to_string(info.index) + "]";
+      return element(info.array, info.index);
     case SymbolKind::kParameter:
       return info.array + "[" + upper_case(options_.prefix) + "_" + info.name + "]";
     default:

@@ -24,6 +24,8 @@ class CSpelling {
   /// "9.81", "9.81f"; a leading minus if negative
   [[nodiscard]] std::string number(const GiNaC::ex& value) const;
   [[nodiscard]] std::string symbol(const GiNaC::ex& symbol) const;
+  /// "tau[2]"; "s->dt" of what is one number
+  [[nodiscard]] static std::string element(const std::string& array, int index);
   [[nodiscard]] std::string expression(const GiNaC::ex& value) const;
   /// Functions of ours that the expression calls, as call_helpers() names them.
   [[nodiscard]] std::set<std::string> helpers(const GiNaC::ex& value) const;
@@ -41,6 +43,10 @@ class CSpelling {
 
 /// "PUMA560" of "puma560".
 std::string upper_case(std::string text);
+
+/// "const double *q": how a function declares an argument. @param array  its name as an array
+std::string declared(const Argument& argument, const std::string& array,
+                     const EmitOptions& options);
 
 /// Breaks a statement at its operators so that lines stay within 100 columns.
 std::string wrap_statement(const std::string& statement);

@@ -17,6 +17,7 @@
 #include "gen/emit_c/function_text.h"
 #include "gen/emit_c/inline_trig.h"
 #include "gen/emit_c/lanes.h"
+#include "gen/emit_c/state_text.h"
 #include "gen/symbols/exact.h"
 
 namespace dyngen {
@@ -147,6 +148,7 @@ std::string make_header(const CodeModel& code, const std::vector<RobotFunction>&
         "extern const {} {}_chi_values[];\n",
         options.scalar == Scalar::kDouble ? "double" : "float", options.prefix);
   }
+  if (any_has_state(code, functions)) text += state_declarations(code, options);
   for (const RobotFunction& function : functions) {
     if (function.scalar) {
       text += "\n" + function_comment(code, function, options);
@@ -171,6 +173,7 @@ std::string make_source(const CodeModel& code, const std::vector<RobotFunction>&
   text += name_table(options.prefix + "_chi_names", chi_names(code)) + "\n";
   text += name_table(options.prefix + "_beta_names", code.beta) + "\n";
   if (code.takes_chi || !code.chi.empty()) text += chi_values(code, options) + "\n";
+  if (any_has_state(code, functions)) text += state_definitions(code, options) + "\n";
   text += helpers(code, functions, options);
   for (std::size_t i = 0; i < functions.size(); ++i) {
     const RobotFunction& function = functions[i];

@@ -32,6 +32,7 @@ std::string argument_legend(const CodeModel& code, const FunctionSpec& spec,
   const auto joints = [&](const char* revolute, const char* prismatic) {
     return array_legend(code, name, revolute, prismatic);
   };
+  if (argument.state) return fmt::format("{} what effects remember, in and out", name);
   if (name == "folded") {
     return fmt::format("folded[{}] see enum {}_folded{}", argument.size(), options.prefix,
                        argument.output ? ", out" : "");
@@ -67,8 +68,31 @@ std::string argument_legend(const CodeModel& code, const FunctionSpec& spec,
 
 }  // namespace
 
+namespace {
+
+/// What of the robot's effects is in the function.
+std::string effects_text(const CodeModel& code, const FunctionSpec& spec) {
+  if (code.effects.empty() || spec.effects == EffectPart::kNone) return {};
+  if (spec.effects == EffectPart::kLeftOut) return " The robot's effects are left out.";
+  std::string names;
+  for (const CodeEffect& effect : code.effects) {
+    names +=
+        fmt::format("{}{} of joint {}", names.empty() ? "" : ", ", effect.file->name, effect.joint);
+    if (effect.other > 0) names += fmt::format(" and {}", effect.other);
+  }
+  std::string text = fmt::format(" Effects: {}.", names);
+  if (has_state(spec, code)) {
+    text += fmt::format(
+        " Moves *{0} on by {0}->dt: of the functions that take it, one is called in each period.",
+        kStateArgument);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string summary_text(const CodeModel& code, const RobotFunction& function) {
-  std::string text(function.spec->summary);
+  std::string text = std::string(function.spec->summary) + effects_text(code, *function.spec);
   if (!function.spec->of_link()) return text;
   const int link = parse_function_name(function.name).link;
   return text + fmt::format(" The link: {}.", link == 0 ? code.size() : link);
@@ -87,6 +111,7 @@ std::string function_comment(const CodeModel& code, const RobotFunction& functio
       line = " *";
     }
     line += entry;
+    if (argument.state) written += "*" + argument.name;
     if (argument.output) written += (written.empty() ? "" : ", ") + argument.name;
   }
   text += line + "\n";
@@ -101,12 +126,10 @@ std::string function_comment(const CodeModel& code, const RobotFunction& functio
 
 std::string signature(const CodeModel& code, const RobotFunction& function,
                       const EmitOptions& options) {
-  const char* scalar = options.scalar == Scalar::kDouble ? "double" : "float";
   std::string text = fmt::format("void {}_{}(", options.prefix, function.name);
   bool first = true;
   for (const Argument& argument : arguments(*function.spec, code)) {
-    text += fmt::format("{}{}{} *{}", first ? "" : ", ", argument.output ? "" : "const ", scalar,
-                        argument.name);
+    text += (first ? "" : ", ") + declared(argument, argument.name, options);
     first = false;
   }
   return text + ")";
@@ -123,13 +146,14 @@ std::string function_definition(const CodeModel& code, const RobotFunction& func
   text += body.constants() + body.statements();
   if (!text.ends_with("{\n")) text += "\n";
   for (const Argument& argument : all) {
+    if (argument.state) continue;
     const bool used = argument.output ? argument.size() > 0 : body.reads(argument.name);
     if (!used) {
       text += fmt::format("  (void){};\n", argument.name);
     }
   }
   for (const Output& output : trace.outputs()) {
-    text += wrap_statement(fmt::format("  {}[{}] = {};", output.array, output.index,
+    text += wrap_statement(fmt::format("  {} = {};", CSpelling::element(output.array, output.index),
                                        spelling.expression(output.value)));
   }
   return text + "}\n";

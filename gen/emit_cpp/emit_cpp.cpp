@@ -12,6 +12,7 @@
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/emit_c/c_spelling.h"
 #include "gen/emit_c/function_text.h"
+#include "gen/emit_c/state_text.h"
 
 namespace dyngen {
 namespace {
@@ -143,6 +144,11 @@ std::string function_text(const RobotFunction& function, const CodeModel& code,
   std::string parameters, passed, before, after;
   for (const Argument& argument : arguments(spec, code)) {
     if (argument.output) continue;
+    if (argument.state) {
+      parameters += "State& " + argument.name;
+      passed += "&" + argument.name + ", ";
+      continue;
+    }
     parameters += fmt::format("{}const {}& {}", parameters.empty() ? "" : ", ",
                               input_type(argument, code), argument.name);
     passed += argument.name + ".data(), ";
@@ -341,6 +347,15 @@ std::string emit_cpp(const CodeModel& code, const std::vector<RobotFunction>& fu
         "/// The numbers of the robot file; NaN where the file says '*'.\n"
         "[[nodiscard]] inline Chi chi_values() noexcept {{\n"
         "  return Eigen::Map<const Chi>(::{}_chi_values);\n}}\n\n",
+        options.prefix);
+  }
+  if (any_has_state(code, functions)) {
+    text += fmt::format(
+        "/// What effects remember between two calls; of the functions that take it, one is called "
+        "in each\n/// period. @param dt  the time between two calls, s\n"
+        "using State = ::{0}_state;\n"
+        "[[nodiscard]] inline State new_state(Scalar dt) noexcept {{\n"
+        "  State s;\n  ::{0}_reset(&s, dt);\n  return s;\n}}\n\n",
         options.prefix);
   }
   for (const RobotFunction& function : functions) {

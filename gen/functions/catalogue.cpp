@@ -9,6 +9,7 @@
 #include "gen/algorithms/derivatives.h"
 #include "gen/algorithms/energy.h"
 #include "gen/algorithms/forward_dynamics.h"
+#include "gen/algorithms/friction.h"
 #include "gen/algorithms/gravity.h"
 #include "gen/algorithms/gravity_regressor.h"
 #include "gen/algorithms/jacobian.h"
@@ -22,7 +23,9 @@ namespace dyngen {
 namespace {
 
 void write_id(Trace& trace, const CodeModel& code) {
-  write_shortest_rnea(trace, code, RneaTerms{});
+  RneaTerms terms;
+  terms.effects = true;
+  write_shortest_rnea(trace, code, terms);
 }
 
 void write_id_rigid(Trace& trace, const CodeModel& code) {
@@ -86,13 +89,14 @@ int extent_size(Extent extent, const CodeModel& code) {
 
 const std::vector<FunctionSpec>& function_catalogue() {
   static const std::vector<FunctionSpec> kCatalogue = {
-      {"id",
-       {"q", "dq", "ddq"},
-       {joint_torque()},
-       kAll,
-       "tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised Newton-Euler "
-       "[KD02, ch. 9].",
-       write_id},
+      {.name = "id",
+       .inputs = {"q", "dq", "ddq"},
+       .outputs = {joint_torque()},
+       .reads = kAll,
+       .summary = "tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised "
+                  "Newton-Euler [KD02, ch. 9].",
+       .write = write_id,
+       .effects = EffectPart::kIn},
       {"id_rigid",
        {"q", "dq", "ddq"},
        {joint_torque()},
@@ -111,12 +115,22 @@ const std::vector<FunctionSpec>& function_catalogue() {
        {.payload = true},
        "tau = c(q, dq): Coriolis and centrifugal torque.",
        write_coriolis},
-      {"friction",
-       {"dq"},
-       {joint_torque()},
-       {},
-       "tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.",
-       write_friction},
+      {.name = "friction",
+       .inputs = {"dq"},
+       .outputs = {joint_torque()},
+       .reads = {},
+       .summary = "tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.",
+       .write = write_friction,
+       .effects = EffectPart::kIn,
+       .inputs_of = friction_inputs},
+      {.name = "effects",
+       .inputs = {"q", "dq", "ddq"},
+       .outputs = {joint_torque()},
+       .reads = {},
+       .summary = "tau: the torque of the effects alone.",
+       .write = write_effect_torque,
+       .why_absent = why_no_effects,
+       .effects = EffectPart::kIn},
       {"mass_matrix",
        {"q"},
        {{.array = "M", .rows = Extent::kJoints, .columns = Extent::kJoints, .unit = "kg m^2"}},
@@ -130,7 +144,8 @@ const std::vector<FunctionSpec>& function_catalogue() {
        .reads = kAll,
        .summary = "ddq = M(q)^-1 (tau - c(q, dq) - g(q) - friction): forward dynamics.",
        .write = write_forward_dynamics,
-       .why_absent = why_no_forward_dynamics},
+       .why_absent = why_no_forward_dynamics,
+       .effects = EffectPart::kIn},
       {"regressor",
        {"q", "dq", "ddq"},
        {{.array = "Y", .columns = Extent::kChi, .unit = "torque per unit parameter"}},
@@ -202,14 +217,16 @@ const std::vector<FunctionSpec>& function_catalogue() {
        .outputs = {{"T", Extent::kFour, Extent::kFour, "m (last column)"}},
        .reads = {},
        .summary = "T: pose of the link's frame in frame 0.",
-       .write_of_link = write_pose},
+       .write_of_link = write_pose,
+       .effects = EffectPart::kNone},
       {.name = "jacobian",
        .inputs = {"q"},
        .outputs = {{"J", Extent::kSix, Extent::kJoints, "m, 1 (m/s, rad/s per joint rate)"}},
        .reads = {},
        .summary = "v = J dq: velocity vx vy vz of the link's origin and angular velocity wx wy wz, "
                   "in the axes of frame 0.",
-       .write_of_link = write_jacobian},
+       .write_of_link = write_jacobian,
+       .effects = EffectPart::kNone},
   };
   return kCatalogue;
 }
@@ -220,7 +237,8 @@ const FunctionSpec& fold_spec() {
       .inputs = {},
       .outputs = {{.array = "folded", .rows = Extent::kFolded}},
       .reads = {},
-      .summary = "What the other functions read of chi: to be called when chi has changed."};
+      .summary = "What the other functions read of chi: to be called when chi has changed.",
+      .effects = EffectPart::kNone};
   return kFold;
 }
 
@@ -256,19 +274,29 @@ std::string catalogue_names() {
   return names;
 }
 
+bool has_state(const FunctionSpec& spec, const CodeModel& code) {
+  return spec.effects == EffectPart::kIn && !code.memory.empty();
+}
+
 std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code) {
   std::vector<Argument> result;
+  if (has_state(spec, code)) {
+    result.push_back({.name = std::string(kStateArgument), .state = true});
+  }
   const int joints = extent_size(Extent::kJoints, code);
   const auto add = [&](std::string_view name, int size, bool shared) {
     result.push_back({.name = std::string(name), .rows = size, .shared = shared});
   };
-  for (const std::string_view name : spec.inputs) add(name, joints, false);
-  if (spec.reads.weights) {
+  const auto inputs = spec.inputs_of == nullptr ? spec.inputs : spec.inputs_of(code);
+  for (const std::string_view name : inputs) add(name, joints, false);
+  ExtraInputs reads = spec.reads;
+  if (spec.effects == EffectPart::kIn && effects_read(code, {"tau_load"})) reads = kAll;
+  if (reads.weights) {
     result.push_back({.name = "A", .rows = joints, .columns = extent_size(Extent::kBeta, code)});
   }
-  if (code.options.gravity && spec.reads.gravity) add("gravity", 3, true);
-  if (code.options.wrench && spec.reads.wrench) add("wrench", 6, false);
-  if (code.options.payload && spec.reads.payload) add("payload", kInertialCount, true);
+  if (code.options.gravity && reads.gravity) add("gravity", 3, true);
+  if (code.options.wrench && reads.wrench) add("wrench", 6, false);
+  if (code.options.payload && reads.payload) add("payload", kInertialCount, true);
   if (code.folds() && &spec != &fold_spec()) {
     add("folded", extent_size(Extent::kFolded, code), true);
   } else if (code.takes_chi) {

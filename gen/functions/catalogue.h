@@ -30,6 +30,13 @@ struct ExtraInputs {
   bool weights = false;  ///< A[n x nbeta], wherever there are any
 };
 
+/// What a function has to do with the effects of a robot.
+enum class EffectPart {
+  kIn,       ///< they are in its result
+  kLeftOut,  ///< it is that of the model without them
+  kNone      ///< it knows nothing of torque
+};
+
 /// A function that dyngen can write: the one place that knows its name, inputs and meaning.
 ///
 /// A function of one link's frame (`of_link()`) has a name for each link: "fk" speaks of the last
@@ -44,6 +51,9 @@ struct FunctionSpec {
   void (*write_of_link)(Trace&, const CodeModel&, int link) = nullptr;  ///< instead of `write`
   /// Why a robot has no such function; empty if it has. Null: every robot has it.
   std::string (*why_absent)(const CodeModel&) = nullptr;
+  EffectPart effects = EffectPart::kLeftOut;
+  /// The inputs of a robot with effects; null: they are `inputs` on every robot.
+  std::vector<std::string_view> (*inputs_of)(const CodeModel&) = nullptr;
 
   [[nodiscard]] bool of_link() const { return write_of_link != nullptr; }
 };
@@ -80,11 +90,15 @@ struct Argument {
   int columns = 1;
   bool output = false;
   bool shared = false;  ///< a batch has one of it for all samples
+  bool state = false;   ///< not an array: what effects remember, read and written
 
   [[nodiscard]] int size() const { return rows * columns; }
 };
 
-/// The arguments in the order of the C function: q, dq, ddq or tau, A, gravity, wrench, payload,
+/// True if the function has the argument s: effects with states are in it. It has no batch then.
+bool has_state(const FunctionSpec& spec, const CodeModel& code);
+
+/// The arguments in the order of the C function: s, q, dq, ddq or tau, A, gravity, wrench, payload,
 /// chi (or folded), outputs. The one definition of a function's signature.
 std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code);
 

@@ -85,6 +85,23 @@ bool is_absent(const FunctionName& name, const CodeModel& code, const GeneratorO
   return true;
 }
 
+/// A batch has no order of samples: what remembers the call before has none.
+/// @throws ModelError  if it was asked for by its name
+void check_batch(const WantedFunction& wanted, const CodeModel& code,
+                 const GeneratorOptions& options) {
+  if (!wanted.batch || !has_state(*wanted.name.spec, code)) return;
+  for (const std::string& text : options.functions) {
+    if (text == kAllFunctions || without_batch(text) == text ||
+        parse_function_name(without_batch(text)).spec != wanted.name.spec) {
+      continue;
+    }
+    throw ModelError(
+        fmt::format("{}: error: --functions: '{}': effects of this robot remember the call before, "
+                    "and the samples of a batch have no order\n",
+                    code.file_name, text));
+  }
+}
+
 }  // namespace
 
 void GeneratorOptions::validate() const {
@@ -125,6 +142,11 @@ SymbolicRobot make_symbolic(const RobotModel& model, const GeneratorOptions& opt
   return make_symbolic(options.gravity ? with_unknown_gravity(model) : model);
 }
 
+std::vector<BoundEffect> bound_effects(const RobotModel& model, const GeneratorOptions& options) {
+  if (!options.effects || model.effects.empty()) return {};
+  return bind_effects(model, options.catalogue ? *options.catalogue : EffectCatalogue());
+}
+
 CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& options) {
   const SymbolicRobot robot = make_symbolic(model, options);
   const Regrouping base = regroup(robot);
@@ -134,14 +156,19 @@ CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& optio
                           .wrench = options.wrench,
                           .payload = options.payload,
                           .weights = asks_for_weights(options),
-                          .fold = options.fold});
+                          .fold = options.fold},
+                         bound_effects(model, options));
 }
 
 std::vector<RobotFunction> write_functions(CodeModel& code, const GeneratorOptions& options) {
   std::vector<WantedFunction> all = wanted_functions(options);
   std::erase_if(all, [&](const auto& wanted) { return is_absent(wanted.name, code, options); });
   std::vector<FunctionName> names;
-  for (const WantedFunction& wanted : all) names.push_back(wanted.name);
+  for (WantedFunction& wanted : all) {
+    check_batch(wanted, code, options);
+    wanted.batch = wanted.batch && !has_state(*wanted.name.spec, code);
+    names.push_back(wanted.name);
+  }
   std::vector<RobotFunction> functions =
       write_functions(names, code, options.search, options.progress);
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "gen/algorithms/code_model.h"
+#include "gen/effect_code/bound_effect.h"
+#include "gen/effects/effect_catalogue.h"
 #include "gen/emit_c/emit_c.h"
 #include "gen/functions/functions.h"
 #include "gen/model/robot_model.h"
@@ -28,9 +31,12 @@ struct GeneratorOptions {
   bool cpp_wrapper = false;  ///< a C++ header too
   Scalar scalar = Scalar::kDouble;
   Trig trig = Trig::kInline;
-  SearchOptions search;     ///< how long to look for fewer operations
-  Progress progress;        ///< told of each function; may be empty
-  std::string prefix;       ///< empty: the robot's name
+  SearchOptions search;  ///< how long to look for fewer operations
+  Progress progress;     ///< told of each function; may be empty
+  std::string prefix;    ///< empty: the robot's name
+  bool effects = true;   ///< those of the robot that run in a controller are in the functions
+  /// What rows `effect` mean; null: the effects that are part of the program.
+  std::shared_ptr<const EffectCatalogue> catalogue;
   std::string header_name;  ///< what the source includes
 
   /// @throws std::invalid_argument  naming the option, what was found and what was expected
@@ -42,7 +48,11 @@ struct GeneratorOptions {
 /// The robot's symbols; those of gravity too if it is an argument.
 SymbolicRobot make_symbolic(const RobotModel& model, const GeneratorOptions& options);
 
-/// From the checked robot to what the algorithms see.
+/// The robot's effects by the catalogue of the options; none if they are not asked for.
+/// @throws ModelError  positioned in the robot file
+std::vector<BoundEffect> bound_effects(const RobotModel& model, const GeneratorOptions& options);
+
+/// From the checked robot to what the algorithms see. @throws ModelError  as bound_effects()
 CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& options);
 
 /// The functions of the options, in the catalogue's order.

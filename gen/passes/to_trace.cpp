@@ -43,7 +43,7 @@ class Writing {
     if (!source_.assignments().empty()) last_section = source_.assignments().back().section;
     for (const NetworkOutput& output : network_.outputs) {
       if (output.call >= 0) continue;
-      const std::string name = output.array + "_" + std::to_string(output.index + 1);
+      const std::string name = output_name(output.array, output.index);
       write(output.node, name, last_section);
       const ex value = value_of(output.node);
       trace_.output(output.array, output.index, output.negative ? ex(-value) : value);
@@ -106,7 +106,7 @@ class Writing {
         return;
       }
       case Node::Kind::kInverse:
-        prepare(node.of, section, node.name + "_divisor", true);
+        prepare(node.of, section, (node.name.empty() ? name : node.name) + "_divisor", true);
         if (!node.name.empty()) {
           assign(id, name, 1 / value_of(node.of), section);
         } else {
@@ -153,6 +153,7 @@ class Writing {
     }
     std::string name = node.name.empty() ? name_for(node, reader) : name_of(node);
     if (node.name.empty() && node.kind == Node::Kind::kCall) name = reader + "_" + node.call;
+    if (node.name.empty() && node.kind == Node::Kind::kInverse) name = reader;
     write(id, name, section);
   }
 

@@ -102,11 +102,10 @@ ex power_evalf(const ex& x, const ex& y) {
   if (!is_float(x) || !is_float(y)) return power_of(x, y).hold();
   return x.is_zero() ? ex(0) : ex(GiNaC::pow(x, y).evalf());
 }
+/// At 0 it is that of a tiny x: a product with a factor that is 0 there is a number then.
 ex power_derivative(const ex& x, const ex& y, unsigned which) {
-  if (which == 0) return y * power_of(x, y - 1);
-  // x^y log(x) goes to 0 with x: its logarithm must not be infinite there
-  const ex least = GiNaC::pow(ex(10), -300);
-  return power_of(x, y) * GiNaC::log(real_max(x, least));
+  const ex positive = larger_of(x, GiNaC::pow(ex(10), -30));
+  return which == 0 ? ex(y * power_of(positive, y - 1)) : ex(power_of(x, y) * GiNaC::log(positive));
 }
 
 // phi and its derivative. For |x| <= 1 the terms of their series, which is where 1 - exp(-x) loses
@@ -220,17 +219,6 @@ ex real_sqrt(const ex& x) { return root_of(x); }
 ex real_pow(const ex& x, const ex& y) { return power_of(x, y); }
 ex decay_mean(const ex& x) { return mean_of_decay(x); }
 ex decay_mean_slope(const ex& x) { return slope_of_decay(x); }
-
-GiNaC::ex derivative(const GiNaC::ex& value, const GiNaC::symbol& symbol) {
-  // GiNaC leaves the derivative of csgn as an object of its own
-  struct NoSlopeOfSign : public GiNaC::map_function {
-    GiNaC::ex operator()(const GiNaC::ex& part) override {
-      return GiNaC::is_a<GiNaC::fderivative>(part) ? GiNaC::ex(0) : part.map(*this);
-    }
-  };
-  NoSlopeOfSign without;
-  return without(value.diff(symbol));
-}
 
 std::string call_name(const ex& call) {
   if (!GiNaC::is_exactly_a<GiNaC::function>(call)) return {};

@@ -22,7 +22,8 @@ GiNaC::ex real_min(const GiNaC::ex& a, const GiNaC::ex& b);
 GiNaC::ex real_max(const GiNaC::ex& a, const GiNaC::ex& b);
 /// The root of x >= 0; its derivative at 0 is not finite.
 GiNaC::ex real_sqrt(const GiNaC::ex& x);
-/// x^y of x >= 0 and any exponent. Small whole powers are products: write GiNaC::pow for them.
+/// x^y of x >= 0 and any exponent; its derivatives at 0 are those at 1e-30, which are finite. Small
+/// whole powers are products: write GiNaC::pow for them.
 GiNaC::ex real_pow(const GiNaC::ex& x, const GiNaC::ex& y);
 
 /// phi(x) = (1 - exp(-x)) / x, 1 at x = 0: the part of a step in which a state that decays still
@@ -30,9 +31,6 @@ GiNaC::ex real_pow(const GiNaC::ex& x, const GiNaC::ex& y);
 /// Source: Hochbruck and Ostermann, "Exponential integrators", Acta Numerica 2010, (2.10).
 GiNaC::ex decay_mean(const GiNaC::ex& x);
 GiNaC::ex decay_mean_slope(const GiNaC::ex& x);
-
-/// d value / d symbol, where that of sign() is 0.
-GiNaC::ex derivative(const GiNaC::ex& value, const GiNaC::symbol& symbol);
 
 /// Name of a call as forms, programs and C know it: sin, cos, sign, exp, log, tanh, abs, min, max,
 /// sqrt, pow, phi, dphi. Empty if it is none of these.

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "gen/algorithms/code_effects.h"
 #include "gen/diagnostic/assert.h"
 #include "gen/explain/explain.h"
 #include "gen/generator/generator.h"
@@ -20,17 +23,42 @@ namespace {
 
 constexpr int kDone = 0, kInputWrong = 1, kUsage = 2, kOurBug = 70;
 
-void print_warnings(const RobotFile& file, const RobotModel& model) {
+void print_warnings(const RobotFile& file, const RobotModel& model,
+                    const GeneratorOptions& options) {
   Diagnostics diagnostics(file.file_name, file.text);
   for (const Diagnostic& warning : file.warnings) {
     diagnostics.warning(warning.position, warning.length, warning.message, warning.hint);
   }
-  for (const EffectRow& effect : model.effects) {
-    diagnostics.warning(
-        effect.position, static_cast<int>(effect.name.size()),
-        "effect '" + effect.name + "' is read but not part of the emitted functions");
+  for (const BoundEffect& effect : bound_effects(model, options)) {
+    const std::string reason = why_not_in_controller(*effect.file);
+    if (reason.empty()) continue;
+    const std::string& name = effect.file->name;
+    diagnostics.warning(effect.position, static_cast<int>(name.size()),
+                        "effect '" + name + "' cannot run in a controller: " + reason +
+                            "; it is left out of the emitted functions");
   }
   std::cerr << diagnostics.render();
+}
+
+/// What rows `effect` mean, with the folders of the command line.
+std::shared_ptr<const EffectCatalogue> read_catalogue(const ToolOptions& options) {
+  auto catalogue = std::make_shared<EffectCatalogue>();
+  for (const std::string& folder : options.effect_folders) catalogue->add_folder(folder);
+  return catalogue;
+}
+
+/// The files that the output depends on.
+std::vector<std::string> dependencies(const ToolOptions& options) {
+  std::vector<std::string> files = {options.robot};
+  for (const std::string& folder : options.effect_folders) {
+    std::vector<std::string> own;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() == ".effect") own.push_back(entry.path().string());
+    }
+    std::sort(own.begin(), own.end());
+    files.insert(files.end(), own.begin(), own.end());
+  }
+  return files;
 }
 
 void print(const std::string& text) {
@@ -68,11 +96,14 @@ std::string counted(const RobotModel& model, const GeneratorOptions& options) {
   return count_table(code, write_functions(code, with_progress(options, line)));
 }
 
-int run(const ToolOptions& options) {
+int run(ToolOptions options) {
   const RobotFile file = read_robot_file(options.robot);
   const RobotModel model = build_model(file);
   if (report_misuse(options.generator, model)) return kUsage;
-  print_warnings(file, model);
+  if (!model.effects.empty() || !options.effect_folders.empty()) {
+    options.generator.catalogue = read_catalogue(options);
+  }
+  print_warnings(file, model, options.generator);
   if (!options.output.empty()) {
     const CText text = generated_text(model, options.generator);
     std::vector<OutputFile> files = {{options.output, text.source},
@@ -81,7 +112,7 @@ int run(const ToolOptions& options) {
     if (!options.depfile.empty()) {
       std::vector<std::string> targets;
       for (const OutputFile& written : files) targets.push_back(written.path);
-      files.push_back({options.depfile, depfile_text(targets, options.robot)});
+      files.push_back({options.depfile, depfile_text(targets, dependencies(options))});
     }
     write_files(files);
   }

@@ -140,7 +140,12 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       ->type_name("WORK");
   app.add_flag("--cpp-wrapper", options.generator.cpp_wrapper,
                "Write a C++20 header beside the C one (.hpp): the functions over Eigen's types");
-  app.add_option("--depfile", options.depfile, "Write a Make rule that names the robot file")
+  app.add_option("--effects", options.effect_folders,
+                 "Folder of more effects, files NAME.effect; may stand several times")
+      ->allow_extra_args(false)
+      ->type_name("DIR");
+  app.add_option("--depfile", options.depfile,
+                 "Write a Make rule that names the robot file and effect files")
       ->type_name("FILE");
   app.add_flag("--count", options.count,
                "Print multiplications and additions beside the bounds 105n-92 and 94n-86");

@@ -64,7 +64,8 @@ void write_files(const std::vector<OutputFile>& files) {
   temporaries.paths.clear();
 }
 
-std::string depfile_text(const std::vector<std::string>& targets, const std::string& dependency) {
+std::string depfile_text(const std::vector<std::string>& targets,
+                         const std::vector<std::string>& dependencies) {
   const auto absolute = [](const std::string& path) {  // a ".." behind a link is not what it seems
     return fs::weakly_canonical(fs::absolute(path)).string();
   };
@@ -72,7 +73,9 @@ std::string depfile_text(const std::vector<std::string>& targets, const std::str
   for (const std::string& target : targets) {
     text += (text.empty() ? "" : " ") + escape(absolute(target));
   }
-  return text + ": " + escape(absolute(dependency)) + "\n";
+  text += ":";
+  for (const std::string& dependency : dependencies) text += " " + escape(absolute(dependency));
+  return text + "\n";
 }
 
 }  // namespace dyngen

@@ -24,7 +24,8 @@ class OutputError : public std::runtime_error {
 /// @throws OutputError  nothing half-written stays behind: what could not be written is as it was
 void write_files(const std::vector<OutputFile>& files);
 
-/// A Make rule that says the targets depend on the robot file, with absolute paths.
-std::string depfile_text(const std::vector<std::string>& targets, const std::string& dependency);
+/// A Make rule that says the targets depend on these files, with absolute paths.
+std::string depfile_text(const std::vector<std::string>& targets,
+                         const std::vector<std::string>& dependencies);
 
 }  // namespace dyngen

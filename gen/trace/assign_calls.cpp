@@ -17,6 +17,14 @@ class CallWriting {
  public:
   CallWriting(Trace& trace, const std::string& name) : trace_(trace), name_(name) {}
 
+  /// Written twice: numbers of inner products stand beside those of outer ones after the first
+  /// time. Each product has one number then, whose sign is not of GiNaC's choosing.
+  ex write(const ex& expression) {
+    const ex once = write(canonical_form(expression, trace_.symbols()));
+    return write(canonical_form(once, trace_.symbols()));
+  }
+
+ private:
   ex write(const Form& form) {
     if (form.kind == Form::Kind::kNumber || form.kind == Form::Kind::kSymbol) return form.leaf;
     if (is_known(form)) return known_number(form);
@@ -44,7 +52,6 @@ class CallWriting {
     }
   }
 
- private:
   static Form joined(Form::Kind kind, std::vector<Form> parts) {
     Form form;
     form.kind = kind;
@@ -93,13 +100,26 @@ class CallWriting {
       const ex value = statement(make_call(form.call, {-arguments[0]}));
       return form.call == "sin" ? ex(-value) : value;
     }
+    if (form.call == "pow" && is_known(form.parts[1])) {
+      return power(arguments[0], number_of(form.parts[1]), arguments[1]);
+    }
     return statement(make_call(form.call, arguments));
+  }
+
+  /// Whole and half exponents need no logarithm.
+  ex power(const ex& base, const ex& number, const ex& exponent) {
+    constexpr int kMostProduct = 8;
+    const bool small = number <= kMostProduct && number >= -kMostProduct;
+    if (small && number.info(GiNaC::info_flags::integer)) return GiNaC::pow(base, number);
+    if (number.is_equal(ex(1) / 2)) return statement(real_sqrt(base));
+    return statement(real_pow(base, exponent));
   }
 
   /// A symbol, its negation or a number.
   ex argument(const ex& value) {
-    return is_number(value) ? value
-                            : trace_.assign(name_ + "_x" + std::to_string(calls_ + 1), value);
+    if (is_number(value)) return value;
+    const ex settled = write(canonical_form(value, trace_.symbols()));
+    return trace_.assign(name_ + "_x" + std::to_string(calls_ + 1), settled);
   }
 
   ex statement(const ex& value) {
@@ -151,8 +171,12 @@ class CallWriting {
     const bool single = form.kind == Form::Kind::kSum && form.parts.size() == 1;
     if (single && !form.negative[0]) return known_number(form.parts[0]);
     if (form.kind == Form::Kind::kSymbol || form.kind == Form::Kind::kNumber) return form.leaf;
-    return trace_.constant(name_ + "_K" + std::to_string(++numbers_), number_of(form), {},
-                           spell(form));
+    const std::string formula = spell(form);
+    for (const SymbolInfo& info : trace_.symbols().own()) {
+      if (info.kind == SymbolKind::kConstant && info.comment == formula) return info.symbol;
+    }
+    const std::string name = name_ + "_K" + std::to_string(++numbers_);
+    return trace_.constant(name, number_of(form), {}, formula);
   }
 
   Trace& trace_;
@@ -164,7 +188,7 @@ class CallWriting {
 
 ex assign_calls(Trace& trace, const std::string& name, const ex& expression) {
   CallWriting writing(trace, name);
-  return writing.write(canonical_form(expression, trace.symbols()));
+  return writing.write(expression);
 }
 
 }  // namespace dyngen

@@ -194,6 +194,11 @@ Operand signed_form(const ex& expression, const SymbolTable& symbols) {
   form.kind = Form::Kind::kCall;
   form.call = call_name(expression);
   DYNGEN_ASSERT(!form.call.empty(), "an unknown function");
+  if (form.call == "sign") {  // GiNaC may hold sign(a - b) c as -sign(b - a) c: the sign is ours
+    Operand argument = inner_sum(expression.op(0), symbols);
+    form.parts.push_back(std::move(argument.form));
+    return make_operand(argument.negative, std::move(form), symbols);
+  }
   for (std::size_t i = 0; i < expression.nops(); ++i) {
     form.parts.push_back(sum_form(expression.op(i), symbols));
   }

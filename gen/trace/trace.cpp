@@ -29,6 +29,12 @@ void collect_symbols(const ex& value, std::set<std::string>& names) {
 
 }  // namespace
 
+std::string output_name(const std::string& array, int index) {
+  const std::size_t member = array.rfind('>');
+  return array.substr(member == std::string::npos ? 0 : member + 1) + "_" +
+         std::to_string(index + 1);
+}
+
 void Trace::section(std::string title) { sections_.push_back(std::move(title)); }
 
 bool Trace::is_constant(const ex& value) const {
@@ -183,7 +189,7 @@ Trace::SinCos Trace::sin_cos(const std::string& suffix, const ex& angle) {
 
 /// Outputs are written last, from locals: a caller may pass one array as input and output.
 void Trace::output(const std::string& array, int index, const ex& value) {
-  const std::string name = array + "_" + std::to_string(index + 1);
+  const std::string name = output_name(array, index);
   ex result = assign(name, value);
   const ex symbol = GiNaC::is_a<GiNaC::mul>(result) ? result.op(0) : result;
   if (GiNaC::is_a<GiNaC::symbol>(symbol)) {

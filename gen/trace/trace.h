@@ -27,6 +27,9 @@ struct Output {
   GiNaC::ex value;
 };
 
+/// The name that an output's value gets where it needs a statement: "tau_1", "z_1" of "s->z".
+std::string output_name(const std::string& array, int index);
+
 /// A program being written: ordered assignments to named scalars.
 ///
 /// GiNaC does the algebra inside a value; the order of the statements is the order in which an

@@ -53,6 +53,11 @@ TEST_F(FormTest, SquareIsAProduct) {
   EXPECT_EQ(count(s(0) * s(0)).multiplications, 1);
 }
 
+TEST_F(FormTest, SignHasAnArgumentThatBeginsPositive) {
+  EXPECT_EQ(text(GiNaC::csgn(s(1) - s(0))), "-sign(a - b)");
+  EXPECT_EQ(text(s(2) * GiNaC::csgn(-s(0) * (s(1) - s(2)))), "-sign(a * (b - c)) * c");
+}
+
 TEST_F(FormTest, InnerSumKeepsItsBrackets) { EXPECT_EQ(text(s(0) * (s(1) - s(2))), "a * (b - c)"); }
 
 TEST_F(FormTest, NumbersCountAsFactorsButSignsDoNot) {

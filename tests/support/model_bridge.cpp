@@ -280,6 +280,9 @@ EvaluatedModel::EvaluatedModel(const RobotModel& model, const RobotModel& values
     const bool is_argument = options.gravity && entry.name[0] == 'g';
     if (!is_argument) chi_.push_back(to_double(known[entry.symbol]));
   }
+  for (std::size_t i = chi_.size(); i < code_.chi.size(); ++i) {  // of effects
+    chi_.push_back(code_.chi[i].value ? to_double(*code_.chi[i].value) : 0.25);
+  }
   functions_ = write_functions(code_, with_short_search(options));
   for (const RobotFunction& function : functions_) programs_.push_back(lower(function.trace));
 }
@@ -291,8 +294,26 @@ std::size_t EvaluatedModel::place(const std::string& function) const {
   throw std::invalid_argument("EvaluatedModel: no function " + function);
 }
 
+EffectState EvaluatedModel::new_state(double dt) const {
+  EffectState state;
+  for (const CodeState& own : code_.memory.states) state.z.push_back(to_double(own.start));
+  state.last.assign(code_.memory.last.size(), 0.0);
+  state.dt = dt;
+  return state;
+}
+
 std::vector<double> EvaluatedModel::call(const std::string& function, const MotionSample& sample,
                                          const std::string& output) const {
+  return run(function, sample, output, nullptr);
+}
+
+std::vector<double> EvaluatedModel::advance(const std::string& function, const MotionSample& sample,
+                                            EffectState& state) const {
+  return run(function, sample, {}, &state);
+}
+
+std::vector<double> EvaluatedModel::run(const std::string& function, const MotionSample& sample,
+                                        const std::string& output, EffectState* state) const {
   const std::size_t at = place(function);
   std::vector<InputArray> inputs;
   std::vector<OutputArray> outputs;
@@ -300,7 +321,17 @@ std::vector<double> EvaluatedModel::call(const std::string& function, const Moti
   std::map<std::string, std::vector<double>> values;
   std::string wanted = output;
   const std::vector<Argument> all = arguments(*functions_[at].spec, code_);
+  EffectState before;
+  if (state != nullptr) {
+    before = *state;
+    inputs = {{kStateArray, before.z},
+              {kLastArray, before.last},
+              {kStepArray, {&before.step, 1}},
+              {kPeriodArray, {&before.dt, 1}}};
+    outputs = {{kStateArray, state->z}, {kLastArray, state->last}, {kStepArray, {&state->step, 1}}};
+  }
   for (const Argument& argument : all) {
+    if (argument.state) continue;
     if (argument.output) {
       if (wanted.empty()) wanted = argument.name;
       std::vector<double>& array = values[argument.name];

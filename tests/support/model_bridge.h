@@ -57,11 +57,17 @@ std::vector<MotionSample> random_samples(int coordinates, int count, std::uint64
 std::vector<double> judge(const RobotModel& model, const NumericRobot& robot,
                           const std::string& function, const MotionSample& sample);
 
+/// What effects with states remember between two calls: the members of <prefix>_state.
+struct EffectState {
+  std::vector<double> z, last;
+  double step = 0, dt = 0;
+};
+
 /// A generated model that runs without a compiler.
 class EvaluatedModel {
  public:
   /// @param values  a model with the same structure in which every quantity is known: where chi
-  /// comes from
+  /// comes from; what a row `effect` leaves open is 0.25
   EvaluatedModel(const RobotModel& model, const RobotModel& values,
                  const GeneratorOptions& options);
   /// The model's own numbers.
@@ -71,6 +77,11 @@ class EvaluatedModel {
   /// The function's first output, or the one of this name.
   [[nodiscard]] std::vector<double> call(const std::string& function, const MotionSample& sample,
                                          const std::string& output = {}) const;
+  /// As <prefix>_reset makes it.
+  [[nodiscard]] EffectState new_state(double dt) const;
+  /// The first output of a function that takes a state, which is moved on.
+  std::vector<double> advance(const std::string& function, const MotionSample& sample,
+                              EffectState& state) const;
   [[nodiscard]] const CodeModel& code() const { return code_; }
   [[nodiscard]] const std::vector<RobotFunction>& functions() const { return functions_; }
   [[nodiscard]] const std::vector<double>& chi() const { return chi_; }
@@ -78,6 +89,8 @@ class EvaluatedModel {
 
  private:
   [[nodiscard]] std::size_t place(const std::string& function) const;
+  [[nodiscard]] std::vector<double> run(const std::string& function, const MotionSample& sample,
+                                        const std::string& output, EffectState* state) const;
 
   CodeModel code_;
   std::vector<double> chi_;
