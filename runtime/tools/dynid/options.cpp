@@ -217,6 +217,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_others(tool, parsed.options, words);
   add_atlas(tool, parsed.options, words);
   add_simulate(tool, parsed.options.simulate);
+  add_effects(tool, parsed.options.catalogue);
   add_excite(tool, parsed.options.robot, parsed.options.output, parsed.options.json,
              parsed.options.excite);
   try {
@@ -238,7 +239,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                                                    {"merge", Command::kMerge},
                                                    {"simulate", Command::kSimulate},
                                                    {"excite", Command::kExcite},
-                                                   {"atlas", Command::kAtlas}};
+                                                   {"atlas", Command::kAtlas},
+                                                   {"effects", Command::kEffects}};
   parsed.options.command = commands.at(name);
   if (parsed.options.command == Command::kSimulate) return parsed;
   const std::string message = parsed.options.command == Command::kExcite

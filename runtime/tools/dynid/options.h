@@ -8,11 +8,12 @@
 #include "runtime/identification/motion_rows.h"
 #include "runtime/identification/motion_source.h"
 #include "runtime/tools/dynid/excite_options.h"
+#include "runtime/tools/dynid/effects_command.h"
 #include "runtime/tools/dynid/simulate_options.h"
 
 namespace dyngen::runtime {
 
-enum class Command { kFit, kCheck, kAccumulate, kMerge, kSimulate, kExcite, kAtlas };
+enum class Command { kFit, kCheck, kAccumulate, kMerge, kSimulate, kExcite, kAtlas, kEffects };
 
 /// What dynid atlas is asked for besides a robot, recordings and --effects.
 struct AtlasOptions {
@@ -43,6 +44,7 @@ struct ToolOptions {
   SimulateOptions simulate;
   ExciteOptions excite;
   AtlasOptions atlas;
+  EffectsOptions catalogue;  ///< of dynid effects
 };
 
 /// Reads the command line. @return what to do, or the exit code if there is nothing left to do

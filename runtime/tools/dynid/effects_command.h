@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace dyngen::runtime {
+
+/// The command line of `dynid effects`.
+struct EffectsOptions {
+  std::string name;                  ///< of one effect; empty: a list of all
+  std::string markdown;              ///< the document; empty: none
+  std::string figures;               ///< the folder of its pictures; empty: none
+  std::vector<std::string> folders;  ///< of a user's own effects
+};
+
+/// Adds the subcommand to the command line.
+void add_effects(CLI::App& tool, EffectsOptions& options);
+
+/// Prints what effects there are, or what one of them says; writes the document that is made of
+/// them all. @throws ModelError, OutputError, FigureError, std::invalid_argument
+int run_effects(const EffectsOptions& options);
+
+}  // namespace dyngen::runtime
