@@ -194,4 +194,25 @@ void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, con
   }
 }
 
+void write_joint_wrenches(Trace& trace, const CodeModel& code) {
+  // every force and moment in the links' own frames: nothing is left in the other view
+  const RneaForm form(code.links.size(), LinkForm{.moment = View::kLink});
+  const std::vector<ex> shifts = origin_shifts(code, form);
+  const std::vector<LinkInertia> inertia = write_inertia(trace, code, form, shifts);
+  const std::vector<LinkFrame> frames = write_frames(trace, code, shifts);
+  const std::vector<ChainMotion> motions = write_chain_motion(trace, code, frames, {}, form);
+  Backward backward(trace, code, frames, motions, inertia, form);
+  const int joints = static_cast<int>(code.coordinate_names.size());
+  for (int j = code.size(); j >= 1; --j) {
+    const Wrench wrench = backward.write_link(j);
+    const int coordinate = code.link(j).coordinate;
+    if (coordinate < 0) continue;
+    for (int k = 0; k < 3; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      trace.output("w", k * joints + coordinate, wrench.force[at]);
+      trace.output("w", (3 + k) * joints + coordinate, wrench.moment[at]);
+    }
+  }
+}
+
 }  // namespace dyngen

@@ -22,4 +22,10 @@ struct RneaTerms {
 /// Source: Khalil and Dombre 2002, ch. 9.
 void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, const RneaForm& form);
 
+/// Writes force and moment of the links on each joint, about the origin and in the axes of its
+/// link's frame (whose z is the joint's axis), as the output array "w": 6 x n, row-major, rows fx
+/// fy fz nx ny nz. Without rotor and friction. The parameters must be those of bodies: regrouped
+/// ones give the same torque, not the same wrench.
+void write_joint_wrenches(Trace& trace, const CodeModel& code);
+
 }  // namespace dyngen

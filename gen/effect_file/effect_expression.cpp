@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "gen/diagnostic/assert.h"
@@ -287,6 +289,20 @@ ex raise(const ex& base, const ex& exponent) {
   return real_pow(base, exponent);
 }
 
+double call_value(const std::string& name, double a, double b) {
+  if (name == "sin") return std::sin(a);
+  if (name == "cos") return std::cos(a);
+  if (name == "exp") return std::exp(a);
+  if (name == "log") return std::log(a);
+  if (name == "tanh") return std::tanh(a);
+  if (name == "sqrt") return std::sqrt(a);
+  if (name == "abs") return std::abs(a);
+  if (name == "sign") return static_cast<double>((a > 0) - (a < 0));
+  if (name == "min") return std::min(a, b);
+  DYNGEN_ASSERT(name == "max", name);
+  return std::max(a, b);
+}
+
 bool is_own_velocity(const EffectExpression& expression) {
   return expression.kind == Kind::kName && expression.name == "qd";
 }
@@ -346,6 +362,35 @@ ex to_algebra(const EffectExpression& expression,
     default:
       DYNGEN_ASSERT(expression.kind == Kind::kCall, "an expression of effects");
       return make_call(expression.name, operands);
+  }
+}
+
+double evaluate(const EffectExpression& expression,
+                const std::function<double(const std::string&)>& value_of) {
+  if (expression.kind == Kind::kNumber) {
+    return GiNaC::ex_to<GiNaC::numeric>(expression.number).to_double();
+  }
+  if (expression.kind == Kind::kName) {
+    return expression.name == "pi" ? std::numbers::pi : value_of(expression.name);
+  }
+  const double a = evaluate(expression.operands[0], value_of);
+  const double b =
+      expression.operands.size() > 1 ? evaluate(expression.operands[1], value_of) : 0.0;
+  switch (expression.kind) {
+    case Kind::kNegate:
+      return -a;
+    case Kind::kSum:
+      return a + b;
+    case Kind::kDifference:
+      return a - b;
+    case Kind::kProduct:
+      return a * b;
+    case Kind::kQuotient:
+      return a / b;
+    case Kind::kPower:
+      return std::pow(a, b);
+    default:
+      return call_value(expression.name, a, b);
   }
 }
 

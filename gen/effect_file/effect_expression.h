@@ -57,6 +57,10 @@ std::vector<std::string> names_in(const EffectExpression& expression);
 GiNaC::ex to_algebra(const EffectExpression& expression,
                      const std::function<GiNaC::ex(const std::string&)>& value_of);
 
+/// The expression in numbers; not finite where it has no value there.
+double evaluate(const EffectExpression& expression,
+                const std::function<double(const std::string&)>& value_of);
+
 /// "(Fs - Fc)*exp(-(qd/vs)^2)": one spelling, for documents.
 std::string spell(const EffectExpression& expression);
 

@@ -115,7 +115,8 @@ struct EffectLaw {
 /// An effect of one robot with its numbers.
 struct EffectInstance {
   EffectLaw law;
-  int joint = -1;              ///< coordinate, from 0; -1 of scope robot
+  int joint = -1;              ///< coordinate, from 0; -1 of scope robot and of fixed links
+  int link = 0;                ///< of the robot file, from 1: what `joint` moves; 0 of scope robot
   int other = -1;              ///< of scope pair
   Eigen::VectorXd parameters;  ///< (np); NaN: unknown
 };

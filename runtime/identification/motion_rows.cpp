@@ -142,7 +142,11 @@ RowPlan plan_rows(const MotionSource& source, const RowOptions& options) {
 
 RowSource rows_of(const LinearModel& model, const MotionSource& source, const RowOptions& options) {
   check_joints(model, source);
-  const RowPlan plan = plan_rows(source, options);
+  return planned_rows(model, source, plan_rows(source, options));
+}
+
+RowSource planned_rows(const LinearModel& model, const MotionSource& source, const RowPlan& plan) {
+  check_joints(model, source);
   const Decimator decimator = design_decimator(plan.decimation);
   return [&model, pieces = source.pieces, decimator,
           still = plan.still_speed](const std::function<void(const RowBlock&)>& visit) {

@@ -24,7 +24,7 @@ struct RowOptions {
 struct RowPlan {
   Eigen::Index decimation = 1;
   double row_time = 0;                 ///< s, between equations of a run
-  Eigen::VectorXd still_speed;         ///< (n)
+  Eigen::VectorXd still_speed;         ///< (n) negative: joints that stand still keep equations
   Eigen::VectorXd acceleration_noise;  ///< (n) standard deviation behind all filters
 };
 RowPlan plan_rows(const MotionSource& source, const RowOptions& options);
@@ -36,6 +36,8 @@ RowPlan plan_rows(const MotionSource& source, const RowOptions& options);
 /// Source: Gautier, "Dynamic identification of robots with power model", ICRA 1997 (filtering and
 /// decimation of both sides).
 RowSource rows_of(const LinearModel& model, const MotionSource& source, const RowOptions& options);
+/// The same by a plan of one's own.
+RowSource planned_rows(const LinearModel& model, const MotionSource& source, const RowPlan& plan);
 
 /// All rows of several sources, one after the other.
 RowSource joined(std::vector<RowSource> sources);

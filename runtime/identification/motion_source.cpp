@@ -103,6 +103,7 @@ MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
                               const MotionOptions& options) {
   MotionSource source;
   source.name = recording.file_name;
+  source.start = recording.samples() > 0 ? recording.time[0] : 0;
   look_at_signals(recording, condition);
   recording = with_uniform_time(std::move(recording), condition);
   recording = with_averaged_periods(std::move(recording), options, condition);
@@ -220,7 +221,10 @@ MotionSource part_of(const MotionSource& source, double from, double to) {
                       motion.q.middleRows(skip, count),
                       motion.dq.middleRows(skip, count),
                       motion.ddq.middleRows(skip, count),
-                      motion.tau.middleRows(skip, count)};
+                      motion.tau.middleRows(skip, count),
+                      motion.temperature.size() == 0
+                          ? motion.temperature
+                          : motion.temperature.middleRows(skip, count).eval()};
         cut.continues_run = first > begin;
         visit(cut);
       }

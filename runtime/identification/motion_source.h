@@ -42,6 +42,7 @@ struct RecordingCondition {
 struct MotionSource {
   std::string name;
   double sample_time = 0;  ///< s
+  double start = 0;        ///< s, time of the recording's first sample
   Cutoff cutoff;
   Eigen::VectorXd position_noise;  ///< (n) standard deviation of measured positions, rad or m
   Eigen::VectorXd fastest;         ///< (n) largest speed, rad/s or m/s

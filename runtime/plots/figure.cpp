@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 
 namespace dyngen::runtime {
@@ -152,13 +153,50 @@ std::string gnuplot_script(const Figure& figure, const std::string& terminal,
   return text + "unset multiplot\nset output\n";
 }
 
-bool can_draw() {
-  static const bool found = run_gnuplot({"--version"});
-  return found;
+void HeatMap::validate() const {
+  const Index count = static_cast<Index>(names.size());
+  if (count > 0 && values.rows() == count && values.cols() == count) return;
+  throw std::invalid_argument(
+      fmt::format("HeatMap: {} names and a table of {} x {}", count, values.rows(), values.cols()));
 }
 
-void draw(const Figure& figure, const std::string& path) {
-  figure.validate();
+std::string gnuplot_script(const HeatMap& map, const std::string& terminal,
+                           const std::string& output) {
+  map.validate();
+  constexpr int kCell = 13, kNames = 230;  // pixels
+  const int side = kCell * static_cast<int>(map.names.size());
+  std::string text =
+      fmt::format("set terminal {} size {},{} font \"sans,8\" background rgb \"white\"\n", terminal,
+                  side + kNames + 90, side + kNames + 40);
+  text += "set output " + quoted(output) + "\n$table << EOD\n";
+  for (Index i = 0; i < map.values.rows(); ++i) {
+    for (Index k = 0; k < map.values.cols(); ++k) {
+      text += fmt::format("{}{:.3f}", k > 0 ? " " : "", map.values(i, k));
+    }
+    text += "\n";
+  }
+  text += "EOD\nset title " + quoted(map.title) + " noenhanced\nunset key\nset tics out nomirror\n";
+  std::string tics;
+  for (std::size_t i = 0; i < map.names.size(); ++i) {
+    tics += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(map.names[i]), i);
+  }
+  text += "set xtics rotate by 90 right noenhanced (" + tics + ")\n";
+  text += "set ytics noenhanced (" + tics + ")\n";
+  // one colour that grows darker: readable without colours too
+  text +=
+      "set palette defined (0 \"#ffffff\", 0.5 \"#7fb2d8\", 0.9 \"#0072b2\", 1 \"#00263b\")\n"
+      "set cbrange [0:1]\n";
+  text += fmt::format("set xrange [-0.5:{0}.5]\nset yrange [{0}.5:-0.5]\n", map.names.size() - 1);
+  return text + "plot $table matrix with image\nset output\n";
+}
+
+namespace {
+
+/// Draws what a script says into a file that appears when it is complete.
+/// @param script_of  of the terminal and the file to write
+void draw_script(const std::string& path,
+                 const std::function<std::string(const std::string& terminal,
+                                                 const std::string& part)>& script_of) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".svg" && ending != ".png") {
     throw FigureError(
@@ -171,8 +209,7 @@ void draw(const Figure& figure, const std::string& path) {
   }
   const std::string part = fmt::format("{}.{}.part", path, getpid());
   const std::string script = part + ".gnuplot";
-  std::ofstream(script) << gnuplot_script(figure, ending == ".svg" ? "svg dynamic" : "pngcairo",
-                                          part);
+  std::ofstream(script) << script_of(ending == ".svg" ? "svg dynamic" : "pngcairo", part);
   const bool drawn = run_gnuplot({script});
   std::error_code error;
   std::filesystem::remove(script, error);
@@ -184,6 +221,27 @@ void draw(const Figure& figure, const std::string& path) {
   std::error_code ignored;
   std::filesystem::remove(part, ignored);
   throw FigureError(fmt::format("{}: cannot be written", path));
+}
+
+}  // namespace
+
+bool can_draw() {
+  static const bool found = run_gnuplot({"--version"});
+  return found;
+}
+
+void draw(const Figure& figure, const std::string& path) {
+  figure.validate();
+  draw_script(path, [&](const std::string& terminal, const std::string& part) {
+    return gnuplot_script(figure, terminal, part);
+  });
+}
+
+void draw(const HeatMap& map, const std::string& path) {
+  map.validate();
+  draw_script(path, [&](const std::string& terminal, const std::string& part) {
+    return gnuplot_script(map, terminal, part);
+  });
 }
 
 }  // namespace dyngen::runtime

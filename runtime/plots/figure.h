@@ -37,6 +37,16 @@ struct Figure {
   void validate() const;
 };
 
+/// A square table as colours: how alike things are.
+struct HeatMap {
+  std::string title;
+  std::vector<std::string> names;  ///< of rows and columns
+  Eigen::MatrixXd values;          ///< (names x names), 0 to 1
+
+  /// @throws std::invalid_argument  if there is no name or the table has another size
+  void validate() const;
+};
+
 /// A picture could not be drawn; what() says why.
 class FigureError : public std::runtime_error {
  public:
@@ -53,10 +63,13 @@ bool can_draw();
 /// @throws FigureError  without gnuplot, for another ending, or if the file cannot be written
 /// @throws std::invalid_argument  as validate()
 void draw(const Figure& figure, const std::string& path);
+void draw(const HeatMap& map, const std::string& path);
 
 /// The script and the data that gnuplot is given; the same text for the same figure.
 /// @param terminal  of gnuplot: "svg", "pngcairo"
 std::string gnuplot_script(const Figure& figure, const std::string& terminal,
+                           const std::string& output);
+std::string gnuplot_script(const HeatMap& map, const std::string& terminal,
                            const std::string& output);
 
 }  // namespace dyngen::runtime

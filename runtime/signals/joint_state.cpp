@@ -170,9 +170,21 @@ Cutoff cutoff_of(const Recording& recording, const std::vector<Rows>& runs) {
   return result;
 }
 
+/// One column for each joint, or one that all share; other counts say nothing of joints.
+Eigen::MatrixXd temperature_of(const Recording& recording, const Rows& rows) {
+  const Index columns = recording.temperature.cols(), n = recording.q.cols();
+  if (columns != n && columns != 1) return {};
+  const auto values = recording.temperature.middleRows(rows.begin, rows.count);
+  return columns == n ? values.eval() : values.replicate(1, n).eval();
+}
+
 bool needs_cutoff(const JointStateOptions& options, const Recording& recording) {
   return options.method == StateMethod::kLowPass || options.method == StateMethod::kSpectral ||
          (options.method == StateMethod::kRecorded && recording.ddq.size() == 0);
+}
+
+Eigen::MatrixXd rows_of_any(const Eigen::MatrixXd& matrix, Index from, Index count) {
+  return matrix.size() == 0 ? matrix : matrix.middleRows(from, count).eval();
 }
 
 Motion cut(const Motion& motion, Index from, Index count) {
@@ -181,7 +193,8 @@ Motion cut(const Motion& motion, Index from, Index count) {
           motion.q.middleRows(from, count),
           motion.dq.middleRows(from, count),
           motion.ddq.middleRows(from, count),
-          motion.tau.size() == 0 ? motion.tau : motion.tau.middleRows(from, count).eval()};
+          rows_of_any(motion.tau, from, count),
+          rows_of_any(motion.temperature, from, count)};
 }
 
 Filled fill(Motion& motion, const Recording& recording, const Rows& rows,
@@ -254,6 +267,7 @@ JointStates joint_states(const Recording& recording, const JointStateOptions& op
     motion.dq = Eigen::MatrixXd::Zero(rows.count, motion.q.cols());
     motion.ddq = motion.dq;
     if (recording.tau.size() > 0) motion.tau = recording.tau.middleRows(rows.begin, rows.count);
+    motion.temperature = temperature_of(recording, rows);
     const Filled filled = fill(motion, recording, rows, options, result.cutoff.hz);
     for (const auto& message : filled.messages) {
       result.messages.push_back(fmt::format("run {}: {}", r + 1, message));

@@ -16,6 +16,8 @@ struct Motion {
   Eigen::MatrixXd dq;      ///< (N x n)
   Eigen::MatrixXd ddq;     ///< (N x n)
   Eigen::MatrixXd tau;     ///< (N x n) as measured, or what a simulator says
+  /// (N x n) of each joint, as it was recorded; 0 x 0 if it was not
+  Eigen::MatrixXd temperature{};
 
   [[nodiscard]] Eigen::Index samples() const { return time.size(); }
   [[nodiscard]] int joints() const { return static_cast<int>(q.cols()); }

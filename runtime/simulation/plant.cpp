@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/simulation/stiction.h"
+#include "runtime/simulation/regime.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -22,9 +22,8 @@ namespace odeint = boost::numeric::odeint;
 using Eigen::Index;
 using Eigen::Map;
 using Eigen::VectorXd;
-using Values = std::vector<double>;  ///< q, then dq
+using Values = std::vector<double>;  ///< q, then dq, then the states of effects
 using Formula = odeint::runge_kutta_dopri5<Values>;
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr double kEventTime = 1e-13;  ///< s
 
@@ -34,85 +33,6 @@ std::runtime_error runaway(double time) {
   return std::runtime_error(fmt::format(
       "the motion does not stay bounded after {:.6g} s: expected a stable controller", time));
 }
-
-double sign(double x) { return static_cast<double>((x > 0) - (x < 0)); }
-
-/// The dynamics while no joint changes between standing and sliding.
-class Regime {
- public:
-  explicit Regime(PlantModel plant)
-      : model(std::move(plant)),
-        direction(Eigen::VectorXi::Zero(model.joints)),
-        stuck(model.joints),
-        zero_(VectorXd::Zero(model.joints)),
-        push_(model.joints),
-        friction_(model.joints),
-        M_(model.joints, model.joints) {
-    stuck.setConstant(false);
-  }
-
-  PlantModel model;
-  Eigen::VectorXi direction;  ///< of sliding: the sign that Coulomb friction has
-  Eigen::Array<bool, Eigen::Dynamic, 1> stuck;
-
-  [[nodiscard]] bool has_coulomb(Index j) const { return model.coulomb[j] > 0; }
-
-  /// ddq at a state near the regime's: a velocity that overshoots zero within a step keeps its
-  /// friction, so that what is integrated is smooth.
-  void accelerate(const double* q, const double* dq, const double* tau, double* ddq) {
-    if (stuck.any()) {
-      const VectorXd torque = pushing(q, dq, tau);
-      std::vector<Index> moving;
-      for (Index j = 0; j < push_.size(); ++j) {
-        if (!stuck[j]) moving.push_back(j);
-      }
-      model.mass_matrix(q, M_.data());
-      Map<VectorXd>(ddq, push_.size()) = accelerations(M_, torque, moving);
-      return;
-    }
-    for (Index j = 0; j < push_.size(); ++j) push_[j] = tau[j] - overshoot(j, dq[j]);
-    model.forward(q, dq, push_.data(), ddq);
-  }
-
-  /// How joints at rest go on under a torque: of all with Coulomb friction and no velocity.
-  RestingJoints rest(const double* q, const double* dq, const double* tau) {
-    Eigen::Array<bool, Eigen::Dynamic, 1> at_rest(push_.size());
-    for (Index j = 0; j < push_.size(); ++j) at_rest[j] = has_coulomb(j) && dq[j] == 0;
-    for (Index j = 0; j < push_.size(); ++j) {
-      if (at_rest[j]) direction[j] = 0;
-    }
-    const VectorXd torque = pushing(q, dq, tau);
-    model.mass_matrix(q, M_.data());
-    return resting_joints(M_, torque, model.coulomb, at_rest);
-  }
-
-  /// What friction holds at the joints that are stuck.
-  VectorXd held(const double* q, const double* dq, const double* tau) {
-    VectorXd ddq(push_.size());
-    accelerate(q, dq, tau, ddq.data());
-    const VectorXd torque = pushing(q, dq, tau);
-    model.mass_matrix(q, M_.data());
-    return torque - M_ * ddq;
-  }
-
- private:
-  /// Coulomb friction of the regime less that of sign(dq).
-  [[nodiscard]] double overshoot(Index j, double dq) const {
-    return has_coulomb(j) ? model.coulomb[j] * (direction[j] - sign(dq)) : 0;
-  }
-  /// tau - c - g - friction
-  VectorXd pushing(const double* q, const double* dq, const double* tau) {
-    model.rigid(q, dq, zero_.data(), push_.data());
-    model.friction(dq, friction_.data());
-    for (Index j = 0; j < push_.size(); ++j) {
-      push_[j] = tau[j] - push_[j] - friction_[j] - overshoot(j, dq[j]);
-    }
-    return push_;
-  }
-
-  VectorXd zero_, push_, friction_;
-  RowMajor M_;
-};
 
 }  // namespace
 
@@ -148,7 +68,7 @@ struct Plant::State {
         options(chosen),
         controlled(odeint::make_controlled(chosen.tolerance, chosen.tolerance, Formula())),
         n(static_cast<std::size_t>(regime.model.joints)),
-        x(2 * n),
+        x(2 * n + regime.effect_states()),
         tau(n),
         step(chosen.max_step),
         stuck_time(VectorXd::Zero(regime.model.joints)) {}
@@ -160,13 +80,16 @@ struct Plant::State {
   void locate(const TorqueSource& torque, double taken, const Values& after);
   void take_event(const TorqueSource& torque, double at, const Values& values);
   void pass(double at, Values values);
+  [[nodiscard]] RobotState state(double at, const Values& values) const {
+    return {at, values.data(), values.data() + n, values.data() + 2 * n};
+  }
   [[nodiscard]] auto system(const TorqueSource& torque) {
     return [this, &torque](const Values& values, Values& rate, double at) {
       const double* q = values.data();
       const double* dq = q + n;
       torque(at, q, dq, tau.data());
       std::copy_n(dq, n, rate.begin());
-      regime.accelerate(q, dq, tau.data(), rate.data() + n);
+      regime.accelerate({at, q, dq, dq + n}, tau.data(), rate.data() + n, rate.data() + 2 * n);
     };
   }
 
@@ -189,16 +112,19 @@ void Plant::State::decide(const TorqueSource& torque) {
   bool any_at_rest = false;
   for (std::size_t j = 0; j < n; ++j) {
     const auto i = static_cast<Index>(j);
-    regime.direction[i] = static_cast<int>(sign(dq[j]));
+    regime.direction[i] = sign(dq[j]);
     regime.stuck[i] = false;
-    any_at_rest = any_at_rest || (dq[j] == 0 && regime.has_coulomb(i));
+  }
+  regime.find_dry_joints(state(time, x));
+  for (std::size_t j = 0; j < n; ++j) {
+    any_at_rest = any_at_rest || (dq[j] == 0 && regime.is_dry(static_cast<Index>(j)));
   }
   controlled.reset();  // the rate at the beginning of the next step is a new one
   if (!any_at_rest) return;
   torque(time, x.data(), dq, tau.data());
-  const RestingJoints rest = regime.rest(x.data(), dq, tau.data());
+  const RestingJoints rest = regime.rest(state(time, x), tau.data());
   for (Index j = 0; j < rest.direction.size(); ++j) {
-    if (!regime.has_coulomb(j) || dq[j] != 0) continue;
+    if (!regime.is_dry(j) || dq[j] != 0) continue;
     regime.direction[j] = rest.direction[j];
     regime.stuck[j] = rest.direction[j] == 0;
   }
@@ -229,17 +155,17 @@ double Plant::State::least_margin(const TorqueSource& torque, double at, const V
   const double* q = values.data();
   const double* dq = q + n;
   for (Index j = 0; j < regime.direction.size(); ++j) {
-    if (regime.has_coulomb(j) && !regime.stuck[j]) {
+    if (regime.is_dry(j) && !regime.stuck[j]) {
       margin = std::min(margin, regime.direction[j] * dq[j]);
     }
   }
   if (regime.stuck.any()) {
     torque(at, q, dq, tau.data());
-    const VectorXd held = regime.held(q, dq, tau.data());
+    const VectorXd held = regime.held(state(at, values), tau.data());
+    const VectorXd level = regime.dry_friction(state(at, values));
     for (Index j = 0; j < held.size(); ++j) {
       if (!regime.stuck[j]) continue;
-      margin =
-          std::min(margin, regime.model.coulomb[j] * (1 + kStictionMargin) - std::abs(held[j]));
+      margin = std::min(margin, level[j] * (1 + kStictionMargin) - std::abs(held[j]));
     }
   }
   return margin;
@@ -306,7 +232,7 @@ void Plant::State::take_event(const TorqueSource& torque, double at, const Value
   bool reversal = false;
   for (Index j = 0; j < regime.direction.size(); ++j) {
     double& dq = x[n + static_cast<std::size_t>(j)];
-    if (!regime.has_coulomb(j) || regime.stuck[j] || regime.direction[j] * dq >= 0) continue;
+    if (!regime.is_dry(j) || regime.stuck[j] || regime.direction[j] * dq >= 0) continue;
     dq = 0;
     reversal = true;
   }
@@ -317,7 +243,7 @@ void Plant::State::take_event(const TorqueSource& torque, double at, const Value
 void Plant::State::advance(const TorqueSource& torque, double until) {
   decide(torque);
   long events = 0;
-  Values after(2 * n);
+  Values after(x.size());
   while (time < until) {
     const double left = until - time;
     const double taken = try_step(torque, left, after);
@@ -372,8 +298,8 @@ VectorXd Plant::acceleration(const VectorXd& torque) const {
   const double* q = state_->x.data();
   const double* dq = q + state_->n;
   const Eigen::VectorXi before = regime.direction;
-  for (Index j = 0; j < torque.size(); ++j) regime.direction[j] = static_cast<int>(sign(dq[j]));
-  const VectorXd ddq = regime.rest(q, dq, torque.data()).ddq;
+  for (Index j = 0; j < torque.size(); ++j) regime.direction[j] = sign(dq[j]);
+  const VectorXd ddq = regime.rest({time(), q, dq, dq + state_->n}, torque.data()).ddq;
   regime.direction = before;  // what is asked here changes nothing
   return ddq;
 }

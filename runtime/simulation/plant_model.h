@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <functional>
 
+#include "runtime/simulation/plant_effects.h"
+
 namespace dyngen::runtime {
 
 /// The functions of the robot that is simulated. Pointers are to `joints` values each, M to its
@@ -19,6 +21,8 @@ struct PlantModel {
   std::function<void(const double* dq, double* tau)> friction;
   /// (n) Fs, N m or N, not negative: what a joint that stands can resist
   Eigen::VectorXd coulomb;
+  /// Effects that act while it moves; friction() and forward() are without them.
+  PlantEffects effects{};
 
   /// @throws std::invalid_argument  if a function is missing or coulomb is not n such values
   void validate() const;

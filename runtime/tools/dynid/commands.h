@@ -15,6 +15,7 @@ inline constexpr int kDone = 0, kInputWrong = 1, kUsage = 2, kCannotAnswer = 3, 
 int run_fit(const ToolOptions& options, ProcessGroup& group);
 int run_check(const ToolOptions& options);
 int run_accumulate(const ToolOptions& options);
+int run_atlas(const ToolOptions& options);
 int run_merge(const ToolOptions& options);
 int run_simulate(const SimulateOptions& options);
 /// Where NLopt was absent when dynid was built: says so, exit 2.

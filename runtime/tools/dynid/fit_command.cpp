@@ -13,6 +13,7 @@
 #include "runtime/tools/dynid/commands.h"
 #include "runtime/tools/dynid/consistent_fit.h"
 #include "runtime/tools/dynid/file_summaries.h"
+#include "runtime/tools/dynid/fit_with_effects.h"
 #include "runtime/tools/dynid/loading.h"
 
 namespace dyngen::runtime {
@@ -194,34 +195,46 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   const bool file_by_file = !options.list.empty() || group.size() > 1;
   const bool summaries = !file_by_file && are_summaries(options.recordings);
   check_what_is_summed_up(options, file_by_file, summaries);
+  const EffectTask task = EffectTask::of(report.robot, options);
+  const bool with_effects = !task.effects.empty();
+  if (with_effects) refuse_with_effects(options, file_by_file, summaries);
   if (file_by_file) {
     load_by_file(options, group, progress, report);
   } else if (summaries) {
     load_summaries(options, report);
   } else {
-    train = load_recordings(options.recordings, options, false, progress);
-    heldout = load_recordings(options.heldout, options, true, progress);
+    const ToolOptions reading = task.reading(options);
+    train = load_recordings(options.recordings, reading, false, progress);
+    heldout = load_recordings(options.heldout, reading, true, progress);
     hold_out_parts(options.heldout_part, train, heldout, options);
     report.recordings = train.lines;
-    report.data.summary = summarise_together(model, train.sources, options, progress);
-    report.data.rows = joined(rows_of_all(model, train.sources, options));
-    make_instruments(options, train, report);
+    if (with_effects) {
+      fit_with_effects(task, options, train.sources, heldout.sources, progress, report);
+    } else {
+      report.data.summary = summarise_together(model, train.sources, options, progress);
+      report.data.rows = joined(rows_of_all(model, train.sources, options));
+      make_instruments(options, train, report);
+    }
   }
   if (!options.heldout.empty() && heldout.sources.empty()) {
     heldout = load_recordings(options.heldout, options, true, progress);
   }
   if (!heldout.sources.empty()) {
-    report.data.heldout = factor_of(joined(rows_of_all(model, heldout.sources, options)),
-                                    model.columns, model.size());
+    if (!with_effects) {
+      report.data.heldout = factor_of(joined(rows_of_all(model, heldout.sources, options)),
+                                      model.columns, model.size());
+    }
     report.recordings.insert(report.recordings.end(), heldout.lines.begin(), heldout.lines.end());
   }
-  FitOptions fit_options = options.fit;
-  fit_options.prior = prior_of(model);
-  fit_options.methods = methods_of(options, report.data);
-  report.fits =
-      fit_methods(model, report.data, fit_options, [&](const std::string& what, double done) {
-        progress.show(what, static_cast<std::size_t>(100 * done), 100);
-      });
+  if (!with_effects) {
+    FitOptions fit_options = options.fit;
+    fit_options.prior = prior_of(model);
+    fit_options.methods = methods_of(options, report.data);
+    report.fits =
+        fit_methods(model, report.data, fit_options, [&](const std::string& what, double done) {
+          progress.show(what, static_cast<std::size_t>(100 * done), 100);
+        });
+  }
   progress.show("trust", 0, 1);
   report.trust = measure_trust(report.data.summary.equations, report.main().estimate,
                                report.data.summary.regressor_noise, report.data.summary.row_time);
@@ -240,6 +253,11 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     std::cerr << fmt::format(
         "dynid: these recordings do not determine {} combination{} of parameters (listed above)\n",
         report.unseen.size(), report.unseen.size() == 1 ? "" : "s");
+    return kCannotAnswer;
+  }
+  if (report.effects && !report.effects->fit.all_seen()) {
+    std::cerr << "dynid: these recordings do not determine all parameters of the effects (listed "
+                 "above)\n";
     return kCannotAnswer;
   }
   return kDone;

@@ -192,6 +192,7 @@ std::string fit_json(const FitReport& report) {
                           {"heldout_percent", numbers(report.consistent->heldout_percent)},
                           {"message", report.consistent->message}};
   }
+  if (report.effects) json["effects"] = effect_json(*report.effects, report.robot);
   if (report.hierarchy) json["hierarchy"] = hierarchy(report);
   return json.dump(2) + "\n";
 }

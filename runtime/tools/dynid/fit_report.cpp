@@ -69,18 +69,25 @@ std::string identified_file(const FitReport& report) {
   const std::string method(fit_method_names()[static_cast<std::size_t>(fit.method)]);
   const Eigen::VectorXd stddev =
       fit.estimate.covariance.size() != 0 ? fit.stddev() : Eigen::VectorXd();
-  std::vector<std::string> comment = {""};
+  std::vector<std::string> comment = {""}, effects;
+  if (report.effects) effects = effect_file_rows(*report.effects, report.robot);
+  const auto add_effects = [&] {
+    if (!report.effects) return;
+    for (std::string& line : effect_comment(*report.effects)) comment.push_back(std::move(line));
+  };
   if (report.consistent) {
     comment.push_back(origin(report, method + ", physically consistent"));
     comment.emplace_back(
         "full parameters of bodies that can exist; only these base parameters were measured");
     add_values(report, report.consistent->beta, stddev, comment);
-    return identified_text(report.robot, report.consistent->standard, comment);
+    add_effects();
+    return identified_text(report.robot, report.consistent->standard, comment, effects);
   }
   comment.push_back(origin(report, method));
   comment.emplace_back(kBaseParameters);
   add_values(report, fit.estimate.beta, stddev, comment);
-  return identified_text(report.robot, carried(report.robot, fit.estimate.beta), comment);
+  add_effects();
+  return identified_text(report.robot, carried(report.robot, fit.estimate.beta), comment, effects);
 }
 
 std::string identified_file(const FitReport& report, std::size_t robot) {

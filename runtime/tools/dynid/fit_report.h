@@ -12,6 +12,7 @@
 #include "runtime/identification/hierarchy.h"
 #include "runtime/identification/motion_source.h"
 #include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/effect_report.h"
 
 namespace dyngen::runtime {
 
@@ -56,6 +57,7 @@ struct FitReport {
   Conditioning conditioning;
   std::vector<UnseenCombination> unseen;
   std::optional<ConsistentFit> consistent;
+  std::optional<EffectReport> effects;    ///< of a robot file with rows 'effect'
   std::optional<HierarchyFit> hierarchy;  ///< robots that share inertia
   std::vector<std::string> notes;
 

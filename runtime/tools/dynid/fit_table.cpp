@@ -265,9 +265,11 @@ std::string method_columns(const FitReport& report) {
 }  // namespace
 
 std::string fit_table(const FitReport& report) {
-  std::string text = heading(report) + parameter_rows(report) + joint_rows(report) +
-                     conditioning_rows(report) + trust_rows(report) + consistent_rows(report) +
-                     unseen_rows(report) + hierarchy_rows(report) + method_columns(report);
+  std::string text = heading(report) + parameter_rows(report) +
+                     (report.effects ? effect_rows(*report.effects, report.robot) : "") +
+                     joint_rows(report) + conditioning_rows(report) + trust_rows(report) +
+                     consistent_rows(report) + unseen_rows(report) + hierarchy_rows(report) +
+                     method_columns(report);
   std::string messages;
   for (const MethodFit& fit : report.fits) {
     for (const std::string& message : fit.messages) {

@@ -66,7 +66,8 @@ StandardParameters carried(const DescribedRobot& robot, const Eigen::VectorXd& b
 }
 
 std::string identified_text(const DescribedRobot& robot, const StandardParameters& standard,
-                            const std::vector<std::string>& comment) {
+                            const std::vector<std::string>& comment,
+                            const std::vector<std::string>& effects) {
   const int links = robot.model.size();
   std::map<int, bool> old_rows;  // lines of the original that are left out
   int last = 0;
@@ -75,6 +76,10 @@ std::string identified_text(const DescribedRobot& robot, const StandardParameter
     if (!original.present) continue;
     old_rows[original.keyword.line] = true;
     last = std::max(last, original.keyword.line);
+  }
+  std::map<int, std::string> new_rows;  // lines of effects
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    new_rows[robot.file.effects[i].position.line] = effects[i];
   }
   std::string parameters;
   for (const std::string& line : comment) parameters += line.empty() ? "#\n" : "# " + line + "\n";
@@ -98,7 +103,9 @@ std::string identified_text(const DescribedRobot& robot, const StandardParameter
       text += parameters;
       written = true;
     }
-    if (!old_rows.contains(number)) text += line + "\n";
+    if (old_rows.contains(number)) continue;
+    const auto effect = new_rows.find(number);
+    text += (effect != new_rows.end() ? effect->second : line) + "\n";
   }
   if (!written) text += parameters;
   return text;

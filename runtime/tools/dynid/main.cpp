@@ -36,6 +36,8 @@ int run(const ToolOptions& options, ProcessGroup& group) {
 #endif
     case Command::kExcite:
       return run_excite(options);
+    case Command::kAtlas:
+      return run_atlas(options);
   }
   return kUsage;
 }

@@ -70,6 +70,13 @@ void add_recordings(CLI::App& command, ToolOptions& options, const char* text) {
                      "as many processes as mpirun starts");
 }
 
+void add_effects(CLI::App& command, ToolOptions& options) {
+  command
+      .add_option("--effects", options.effects,
+                  "a folder of further effect files (NAME.effect); may be given again")
+      ->allow_extra_args(false);
+}
+
 void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* fit = tool.add_subcommand("fit", "identify a robot's parameters from recordings");
   fit->add_option("robot", options.robot, "robot file; its rows that are absent or * are estimated")
@@ -106,9 +113,31 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   fit->add_option("--passes", options.fit.passes, "of lms over the data")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  add_effects(*fit, options);
   fit->add_flag("--own-friction", options.own_friction,
                 "robots of .qr files share inertia; each has its own friction and offset");
   add_motion_options(*fit, options, words);
+}
+
+void add_atlas(CLI::App& tool, ToolOptions& options, Words& words) {
+  CLI::App* atlas = tool.add_subcommand(
+      "atlas", "what a refit hides of every effect, and how small it may be to be found");
+  atlas->add_option("robot", options.robot, "robot file; with a trajectory, one with numbers")
+      ->required();
+  atlas->add_option("recordings", options.recordings, "recordings");
+  atlas->add_option("--trajectory", options.atlas.trajectory,
+                    "a motion that is planned, instead of recordings (CSV)");
+  atlas
+      ->add_option("--noise", options.atlas.noise,
+                   "standard deviation of the torque's noise, one number a joint, with commas; "
+                   "else from the residual, or 1 % of the largest torque of a trajectory")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  add_effects(*atlas, options);
+  atlas->add_option("--json", options.json, "all results for programs");
+  atlas->add_option("--picture", options.atlas.picture,
+                    "how alike effects are, as a picture (.svg, .png)");
+  add_motion_options(*atlas, options, words);
 }
 
 void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
@@ -163,6 +192,12 @@ std::string understand(const Words& words, ToolOptions& options) {
     }
     options.fit.methods.push_back(*method);
   }
+  if (options.command == Command::kAtlas) {
+    if (options.recordings.empty() == options.atlas.trajectory.empty()) {
+      return "expected recordings, or --trajectory FILE";
+    }
+    return "";
+  }
   if (options.recordings.empty() && options.list.empty()) {
     return "there is no recording: expected at least one";
   }
@@ -180,6 +215,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   tool.require_subcommand(1);
   add_fit(tool, parsed.options, words);
   add_others(tool, parsed.options, words);
+  add_atlas(tool, parsed.options, words);
   add_simulate(tool, parsed.options.simulate);
   add_excite(tool, parsed.options.robot, parsed.options.output, parsed.options.json,
              parsed.options.excite);
@@ -201,7 +237,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                                                    {"accumulate", Command::kAccumulate},
                                                    {"merge", Command::kMerge},
                                                    {"simulate", Command::kSimulate},
-                                                   {"excite", Command::kExcite}};
+                                                   {"excite", Command::kExcite},
+                                                   {"atlas", Command::kAtlas}};
   parsed.options.command = commands.at(name);
   if (parsed.options.command == Command::kSimulate) return parsed;
   const std::string message = parsed.options.command == Command::kExcite

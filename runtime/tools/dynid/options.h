@@ -12,7 +12,14 @@
 
 namespace dyngen::runtime {
 
-enum class Command { kFit, kCheck, kAccumulate, kMerge, kSimulate, kExcite };
+enum class Command { kFit, kCheck, kAccumulate, kMerge, kSimulate, kExcite, kAtlas };
+
+/// What dynid atlas is asked for besides a robot, recordings and --effects.
+struct AtlasOptions {
+  std::string trajectory;     ///< instead of recordings; empty: none
+  std::vector<double> noise;  ///< N m or N of each joint; empty: from the residual, or 1 %
+  std::string picture;        ///< .svg or .png; empty: none
+};
 
 /// The command line of dynid.
 struct ToolOptions {
@@ -21,12 +28,13 @@ struct ToolOptions {
   std::vector<std::string> recordings;  ///< .csv, .csv.gz; of fit also .qr; of merge .qr
   std::string list;                     ///< a file with one more of them per line; empty: none
   std::vector<std::string> heldout;
-  double heldout_part = 0;    ///< the last part of every recording is held out: 0 .. 0.9
-  std::string output;         ///< empty: none
-  std::string json;           ///< empty: none
-  std::string tracked;        ///< the commanded motion, for instruments; empty: none
-  std::string robot_name;     ///< of accumulate: whose recordings these are
-  bool own_friction = false;  ///< robots share inertia, each has its own friction and offset
+  double heldout_part = 0;           ///< the last part of every recording is held out: 0 .. 0.9
+  std::string output;                ///< empty: none
+  std::string json;                  ///< empty: none
+  std::string tracked;               ///< the commanded motion, for instruments; empty: none
+  std::string robot_name;            ///< of accumulate: whose recordings these are
+  std::vector<std::string> effects;  ///< folders of effect files besides the program's own
+  bool own_friction = false;         ///< robots share inertia, each has its own friction and offset
   bool consistent = false;
   bool every_method = false;
   MotionOptions motion;
@@ -34,6 +42,7 @@ struct ToolOptions {
   FitOptions fit;
   SimulateOptions simulate;
   ExciteOptions excite;
+  AtlasOptions atlas;
 };
 
 /// Reads the command line. @return what to do, or the exit code if there is nothing left to do

@@ -14,6 +14,9 @@
 #include "runtime/recordings/writer.h"
 #include "runtime/simulation/closed_loop.h"
 #include "runtime/tools/dynid/commands.h"
+#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/effect_laws.h"
+#include "runtime/tools/dynid/recorded_effects.h"
 #include "runtime/tools/dynid/simulate_picture.h"
 #include "runtime/tools/dynid/simulated_robot.h"
 
@@ -97,6 +100,25 @@ void check_joints(const std::string& what, int found, const SimulatedRobot& robo
       fmt::format("{} has {} joints, {} has {}", what, found, robot.name, robot.joints()));
 }
 
+/// s, from the first sample to the last
+double duration_of(const Trajectory& trajectory) {
+  return std::max(1e-9, trajectory.time[trajectory.time.size() - 1] - trajectory.time[0]);
+}
+
+Eigen::MatrixXd temperatures(const SimulatedTemperature& temperature, const VectorXd& time,
+                             int joints) {
+  const VectorXd since = time.array() - time[0];
+  return (temperature.start + temperature.rate * since.array()).matrix().replicate(1, joints);
+}
+
+/// What effects that do not act on the motion make of the recorded torque; its noise stays.
+void record_effects(const std::string& path, const SimulatedRobot& plant, ClosedLoopRun& run) {
+  const DescribedRobot robot = describe_robot(path, OpenParameters::kAsWritten);
+  const Eigen::MatrixXd noise = run.measured.tau - run.truth.tau;
+  run.truth.tau = recorded_torque(robot, plant.recorded_effects, run.truth);
+  run.measured.tau = run.truth.tau + noise;
+}
+
 std::string conditions(const SimulateOptions& options, const Controller& controller,
                        const SimulatedRobot& plant, const ClosedLoopRun& run) {
   const Index samples = run.measured.samples();
@@ -150,11 +172,16 @@ int run_simulate(const SimulateOptions& options) {
   for (const Notice& notice : repairs) std::cerr << notice.text() << "\n";
   progress.show("equations of " + options.robot, 0, 1);
   const bool same = options.plant.empty();
-  const SimulatedRobot model =
-      read_simulated_robot(options.robot, same ? RobotUse::kPlant : RobotUse::kController);
+  const EffectCatalogue catalogue = effect_catalogue(options.effects);
+  const double duration = options.duration > 0 ? options.duration : duration_of(trajectory);
+  const SimulatedTemperature temperature{
+      options.temperature.front(),
+      (options.temperature.back() - options.temperature.front()) / duration};
+  const SimulatedRobot model = read_simulated_robot(
+      options.robot, same ? RobotUse::kPlant : RobotUse::kController, catalogue, temperature);
   if (!same) progress.show("equations of " + options.plant, 0, 1);
-  const SimulatedRobot plant = same ? model : read_simulated_robot(options.plant, RobotUse::kPlant);
-  for (const std::string& warning : model.warnings) std::cerr << warning << "\n";
+  const SimulatedRobot plant =
+      same ? model : read_simulated_robot(options.plant, RobotUse::kPlant, catalogue, temperature);
   check_joints(options.trajectory, trajectory.joints(), model);
   check_joints("the plant " + plant.name, plant.joints(), model);
 
@@ -181,6 +208,13 @@ int run_simulate(const SimulateOptions& options) {
     progress.clear();
     std::cerr << "dynid: " << error.what() << "\n";
     return kCannotAnswer;
+  }
+  if (plant.reads_temperature)
+    run.truth.temperature = run.measured.temperature =
+        temperatures(temperature, run.truth.time, plant.joints());
+  if (!plant.recorded_effects.empty()) {
+    progress.show("effects of the recording", 0, 1);
+    record_effects(same ? options.robot : options.plant, plant, run);
   }
   progress.clear();
   write_recording(run.measured, options.output);

@@ -84,6 +84,14 @@ void add_simulate(CLI::App& tool, SimulateOptions& options) {
                    "rad or m: start at rest there; default: the trajectory's first sample")
       ->delimiter(',')
       ->allow_extra_args(false);
+  simulate
+      ->add_option("--temperature", options.temperature,
+                   "of all joints, for effects that read it; two values: at start and end")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->expected(1, 2);
+  simulate->add_option("--effects", options.effects, "a folder of effects of your own")
+      ->allow_extra_args(false);
   simulate->add_option("--tolerance", options.tolerance, "of the integration")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -33,8 +33,10 @@ struct SimulateOptions {
   std::string friction_velocity = "reference";
   std::vector<double> friction_band = {0.02};  ///< rad/s or m/s
   std::string saturate = "on";
-  std::vector<double> start;  ///< position; empty: the trajectory's first sample
-  double tolerance = 1e-10;   ///< of integration
+  std::vector<double> start;               ///< position; empty: the trajectory's first sample
+  std::vector<double> temperature = {25};  ///< of all joints; two: at the start and at the end
+  std::vector<std::string> effects;        ///< folders of a user's own effects
+  double tolerance = 1e-10;                ///< of integration
 
   /// Of a recording whose controller is continuous.
   static constexpr double kContinuousRecordRate = 1000;

@@ -8,13 +8,17 @@
 #include <map>
 
 #include "gen/diagnostic/diagnostic.h"
+#include "gen/effect_code/bound_effect.h"
 #include "gen/generator/generator.h"
 #include "gen/program/evaluator.h"
 #include "gen/robot_file/robot_file.h"
 #include "gen/symbols/exact.h"
+#include "runtime/tools/dynid/effect_laws.h"
 
 namespace dyngen::runtime {
 namespace {
+
+using Eigen::VectorXd;
 
 void refuse_what_is_no_number(const RobotFile& file) {
   Diagnostics diagnostics(file.file_name, file.text);
@@ -35,6 +39,33 @@ void refuse_what_is_no_number(const RobotFile& file) {
       diagnostics.error(value.position, value.length,
                         "'Fs' is negative: expected 0 or more, since a joint that stands is held "
                         "by it");
+    }
+  }
+  for (const EffectRow& row : file.effects) {
+    for (const EffectRow::Setting& setting : row.settings) {
+      if (!setting.value.unknown) continue;
+      diagnostics.error(setting.value.position, setting.value.length,
+                        fmt::format("'{}' of effect '{}' is unknown: expected a number, since the "
+                                    "robot is simulated",
+                                    setting.key, row.name));
+    }
+  }
+  if (diagnostics.has_errors()) throw ModelError(diagnostics.render());
+}
+
+/// A parameter that the row leaves out has no number either.
+void refuse_missing_parameters(const RobotFile& file, const RobotModel& model,
+                               const EffectCatalogue& catalogue) {
+  Diagnostics diagnostics(file.file_name, file.text);
+  for (const BoundEffect& effect : bind_effects(model, catalogue)) {
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+      if (!effect.parameters[k].unknown) continue;
+      const auto& parameter = effect.file->parameters[k];
+      diagnostics.error(effect.position, static_cast<int>(effect.file->name.size()),
+                        fmt::format("effect '{}' has no '{}=': expected a number, since the robot "
+                                    "is simulated",
+                                    effect.file->name, parameter.name),
+                        parameter.meaning);
     }
   }
   if (diagnostics.has_errors()) throw ModelError(diagnostics.render());
@@ -65,6 +96,39 @@ class Programs {
   std::map<std::string, ProgramEvaluator> programs_;
 };
 
+/// The number that a parameter of a link is in the code.
+double number_of(const CodeModel& code, const GiNaC::ex& value) {
+  return to_double(GiNaC::is_a<GiNaC::symbol>(value) ? code.inputs.info(value).value : value);
+}
+
+/// What acts on the motion into the plant, the rest beside it.
+void add_effects(SimulatedRobot& robot, const std::vector<EffectInstance>& effects,
+                 const CodeModel& code, const SimulatedTemperature& temperature, RobotUse use) {
+  EffectSurroundings surroundings;
+  for (VectorXd* part : {&surroundings.coulomb, &surroundings.viscous, &surroundings.rotor}) {
+    part->setZero(robot.joints());
+  }
+  for (const CodeLink& link : code.links) {
+    if (link.coordinate < 0) continue;
+    surroundings.coulomb[link.coordinate] = number_of(code, link.chi[index(Chi::kFS)]);
+    surroundings.viscous[link.coordinate] = number_of(code, link.chi[index(Chi::kFV)]);
+    surroundings.rotor[link.coordinate] = number_of(code, link.chi[index(Chi::kIA)]);
+  }
+  surroundings.temperature = temperature.start;
+  surroundings.warming = temperature.rate;
+  std::vector<EffectInstance> acting;
+  for (const EffectInstance& effect : effects) {
+    const auto& variables = effect.law.variables;
+    if (std::find(variables.begin(), variables.end(), "temp") != variables.end()) {
+      robot.reads_temperature = true;
+    }
+    (acts_on_plant(effect.law) ? acting : robot.recorded_effects).push_back(effect);
+  }
+  if (use == RobotUse::kPlant) {
+    robot.plant.effects = PlantEffects(std::move(acting), std::move(surroundings));
+  }
+}
+
 auto three(ProgramEvaluator program) {
   return [program](const double* a, const double* b, const double* c, double* result) mutable {
     program.run({a, b, c}, result);
@@ -76,10 +140,15 @@ auto one(ProgramEvaluator program) {
 
 }  // namespace
 
-SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use) {
+SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use,
+                                    const EffectCatalogue& catalogue,
+                                    const SimulatedTemperature& temperature) {
   const RobotFile file = read_robot_file(path);
   refuse_what_is_no_number(file);
-  const RobotModel model = build_model(file);
+  const RobotModel whole = build_model(file);
+  refuse_missing_parameters(file, whole, catalogue);
+  RobotModel model = whole;  // its functions are those of the robot without effects
+  model.effects.clear();
 
   GeneratorOptions options;
   options.functions = {"id_rigid", "gravity", "friction", "mass_matrix"};
@@ -111,10 +180,7 @@ SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use) {
     robot.plant.coulomb[joint.coordinate] = to_double(joint.chi[index(Chi::kFS)].value);
     if (taumax.present) robot.torque_limit[joint.coordinate] = to_double(taumax.values[i].value);
   }
-  if (!model.effects.empty()) {
-    robot.warnings.push_back(fmt::format("{}: warning: {} rows 'effect' are not simulated",
-                                         file.file_name, model.effects.size()));
-  }
+  add_effects(robot, effect_instances(whole, catalogue), code, temperature, use);
   return robot;
 }
 

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "gen/effects/effect_catalogue.h"
 #include "runtime/control/control_model.h"
+#include "runtime/effects/effect_law.h"
 #include "runtime/simulation/plant_model.h"
 
 namespace dyngen::runtime {
@@ -20,7 +22,10 @@ struct SimulatedRobot {
   ControlModel control;
   PlantModel plant;              ///< without `forward` unless it was asked for
   Eigen::VectorXd torque_limit;  ///< (n) taumax of the file; infinite where there is none
-  std::vector<std::string> warnings;
+  /// Rows `effect` that change what is recorded, not the motion; those that act on the motion are
+  /// in the plant.
+  std::vector<EffectInstance> recorded_effects;
+  bool reads_temperature = false;  ///< some effect does
 
   [[nodiscard]] int joints() const { return control.joints; }
 };
@@ -30,8 +35,17 @@ enum class RobotUse {
   kPlant,       ///< all; the file must describe bodies that can be accelerated
 };
 
-/// @throws ModelError  positioned: something is '*' (numbers are needed), Fs is negative; or the
-///         mass matrix of a plant is singular everywhere
-SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use);
+/// The temperature that effects of a plant read, in their unit.
+struct SimulatedTemperature {
+  double start = 25;
+  double rate = 0;  ///< per second
+};
+
+/// A plant's effects act; a controller's model is without them.
+/// @throws ModelError  positioned: something is '*' (numbers are needed), Fs is negative; an effect
+///         is not known; or the mass matrix of a plant is singular everywhere
+SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use,
+                                    const EffectCatalogue& catalogue = {},
+                                    const SimulatedTemperature& temperature = {});
 
 }  // namespace dyngen::runtime

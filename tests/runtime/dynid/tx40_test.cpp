@@ -25,9 +25,9 @@ struct Tx40 {
     const MotionSource train = part_of(all, 0, part);
     FitData data;
     data.summary = summarise(robot.linear, train, {});
-    data.rows = rows_of(robot.linear, train, {});
+    data.rows = rows_of(robot.linear, train, RowOptions{});
     if (part < 1) {
-      data.heldout = factor_of(rows_of(robot.linear, part_of(all, part, 1), {}),
+      data.heldout = factor_of(rows_of(robot.linear, part_of(all, part, 1), RowOptions{}),
                                robot.linear.columns, robot.linear.size());
     }
     return fit_methods(robot.linear, data, {}).front();

@@ -88,5 +88,20 @@ TEST(Figure, RefusesWhatDoesNotFit) {
   EXPECT_THROW(figure.validate(), std::invalid_argument);
 }
 
+TEST(HeatMap, IsDrawnWithItsNames) {
+  HeatMap map{"alike", {"stribeck 1", "dahl \"2\""}, Eigen::Matrix2d::Identity()};
+  const std::string script = gnuplot_script(map, "svg", "x.svg");
+  EXPECT_THAT(script, HasSubstr("\"stribeck 1\" 0, \"dahl \\\"2\\\"\" 1"));
+  EXPECT_THAT(script, HasSubstr("1.000 0.000\n0.000 1.000\n"));
+  map.names.pop_back();
+  EXPECT_THROW(map.validate(), std::invalid_argument);
+  if (!can_draw()) GTEST_SKIP() << "gnuplot is not installed";
+  map.names.emplace_back("dahl 2");
+  const std::string path = test::temporary_path("map.svg");
+  draw(map, path);
+  EXPECT_THAT(content(path), HasSubstr("dahl 2"));
+  std::filesystem::remove(path);
+}
+
 }  // namespace
 }  // namespace dyngen::runtime

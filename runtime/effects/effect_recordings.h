@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/effects/effect_law.h"
+#include "runtime/estimation/rows.h"
+#include "runtime/identification/motion_rows.h"
+#include "runtime/identification/motion_source.h"
+#include "runtime/model/linear_model.h"
+#include "runtime/signals/decimation.h"
+
+namespace dyngen::runtime {
+
+/// What effects ask of a robot besides its linear model.
+struct EffectRobot {
+  /// Derivative of every joint's torque, (N x n), at a motion and given parameters. By the name of
+  /// the variable (d_*, payload_*, contact_*) and the link of the robot file, from 1, that the
+  /// effect is on; 0 of scope robot. wrench_*: column j is of joint j's own wrench. May be empty:
+  /// then effects that read them are refused.
+  std::function<Eigen::MatrixXd(const std::string& name, int link, const JointMotion& motion,
+                                const Eigen::VectorXd& beta)>
+      tangent;
+};
+
+/// A run of a recording as effects see it: all samples, and the equations of the model alone.
+struct EffectRun {
+  Motion motion;
+  Eigen::VectorXd time;           ///< (N) s from the recording's first sample
+  Eigen::VectorXd position_step;  ///< (n) rad or m of the encoder; 0: not known
+  Decimator decimator;            ///< the parallel filter
+  RowBlock rows;                  ///< behind it; tau is 0 where none was recorded
+};
+
+/// Recordings of one robot, with all that effects and their estimation read.
+struct EffectRecordings {
+  LinearModel model;
+  EffectRobot robot;
+  std::vector<EffectRun> runs;  ///< those that give at least one equation
+  double row_time = 0;          ///< s between equations; the mean where recordings differ
+
+  [[nodiscard]] int joints() const { return model.joints(); }
+  /// Equations of each joint, over all runs.
+  [[nodiscard]] Eigen::Index equations() const;
+};
+
+/// The equations of recordings, filtered and decimated as rows_of() does it.
+///
+/// Joints that stand still keep their equations, since what remembers lives there; they are left
+/// out only if options.still_speed says at which speed (>= 0).
+/// @throws std::invalid_argument  if a recording has another number of joints, or no run gives an
+/// equation
+EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
+                                   const std::vector<MotionSource>& sources,
+                                   const RowOptions& options);
+
+/// Place among the parameters of a joint's kViscous, kCoulomb, kRotorInertia; -1: the model has
+/// none.
+int parameter_of(const LinearModel& model, int joint, ParameterKind kind);
+
+/// Sizes of a joint in the recordings. @param joint  -1: the largest of all joints
+/// Fc, Fv and Ia are not less than 0.
+EffectScales scales_of(const EffectRecordings& data, const Eigen::VectorXd& beta, int joint);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/effects/effect_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+#include "runtime/signals/differences.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kSincReach = 16;        // samples on each side
+constexpr double kLongestDelay = 0.05;  // s, where an effect gives no bound
+
+/// What acts on one joint at full rate: a torque, and columns of J with their places.
+struct JointColumns {
+  VectorXd torque;  ///< (N)
+  std::vector<int> places;
+  std::vector<VectorXd> columns;  ///< (N) each; a place may come again: they add up
+
+  void add(int place, VectorXd column) {
+    places.push_back(place);
+    columns.push_back(std::move(column));
+  }
+};
+
+bool is_alignment(const EffectInstance& effect) {
+  return effect.law.kind == EffectKind::kAlignment;
+}
+
+/// One evaluation of a law: on which joints its outputs act.
+struct Application {
+  int target = -1;
+  std::vector<int> outputs;
+};
+
+std::vector<Application> applications(const EffectInstance& effect, int joints) {
+  std::vector<Application> all;
+  if (effect.law.acts_on_all || effect.joint < 0) {
+    for (int i = 0; i < joints; ++i) all.push_back({i, {i}});
+  } else if (effect.law.outputs == 2) {
+    all.push_back({effect.joint, {effect.joint, effect.other}});
+  } else {
+    all.push_back({effect.joint, {effect.joint}});
+  }
+  return all;
+}
+
+double chain_of(const EffectParameter& parameter, double value) {
+  return by_logarithm(parameter) ? value : 1;
+}
+
+/// The rows of one run, joint by joint.
+class RunRows {
+ public:
+  RunRows(const EffectRecordings& data, EffectSignals& signals, const EffectPoint& point,
+          const EffectUnknowns& unknowns, std::size_t run)
+      : data_(data),
+        signals_(signals),
+        point_(point),
+        unknowns_(unknowns),
+        run_(run),
+        here_(data.runs[run]),
+        x_(values_of(point, unknowns)),
+        late_(alignment_of(point.effects, data.joints())) {
+    joints_.resize(static_cast<std::size_t>(data.joints()));
+    for (JointColumns& joint : joints_) joint.torque = VectorXd::Zero(here_.motion.samples());
+  }
+
+  RowBlock make() {
+    for (std::size_t k = 0; k < point_.effects.size(); ++k) {
+      if (!is_alignment(point_.effects[k])) add_effect(k);
+    }
+    for (std::size_t k = 0; k < point_.effects.size(); ++k) {
+      if (is_alignment(point_.effects[k])) add_lateness(k);
+    }
+    RowBlock block;
+    block.Y = MatrixXd::Zero(here_.rows.Y.rows(), Index{data_.joints()} * unknowns_.size);
+    block.tau = here_.rows.tau;
+    block.counted = here_.rows.counted;
+    for (int j = 0; j < data_.joints(); ++j) fill(block, j);
+    leave_out(block);
+    return block;
+  }
+
+ private:
+  void add_effect(std::size_t k) {
+    const EffectInstance& effect = point_.effects[k];
+    const EffectLaw& law = effect.law;
+    const Index np = law.size(), nv = static_cast<Index>(law.variables.size());
+    const Index ns = static_cast<Index>(law.states.size());
+    EffectWanted wanted;
+    wanted.by_parameter = true;
+    wanted.by_variable = std::any_of(law.variables.begin(), law.variables.end(), depends_on_model);
+    wanted.by_initial = unknowns_.initial[run_][k] >= 0;
+    for (const Application& application : applications(effect, data_.joints())) {
+      VectorXd state = point_.initial[run_][k];
+      const EffectTorque torque =
+          law.evaluate(signals_.variables(run_, effect, application.target), effect.parameters,
+                       here_.motion.sample_time, state, wanted);
+      for (std::size_t o = 0; o < application.outputs.size(); ++o) {
+        const Index out = static_cast<Index>(o);
+        JointColumns& joint = joints_[static_cast<std::size_t>(application.outputs[o])];
+        joint.torque += torque.torque.col(out);
+        for (Index p = 0; p < np; ++p) {
+          const int place = unknowns_.parameters[k][static_cast<std::size_t>(p)];
+          if (place < 0) continue;
+          const double chain =
+              chain_of(law.parameters[static_cast<std::size_t>(p)], effect.parameters[p]);
+          joint.add(place, chain * torque.by_parameter.col(out * np + p));
+        }
+        for (Index s = 0; wanted.by_initial && s < ns; ++s) {
+          joint.add(unknowns_.initial[run_][k] + static_cast<int>(s),
+                    torque.by_initial.col(out * ns + s));
+        }
+        if (!wanted.by_variable) continue;
+        ModelDerivative slope = signals_.by_model(run_, effect, application.target,
+                                                  torque.by_variable.middleCols(out * nv, nv));
+        for (std::size_t i = 0; i < slope.columns.size(); ++i) {
+          joint.add(slope.columns[i], slope.values.col(static_cast<Index>(i)));
+        }
+      }
+    }
+  }
+
+  /// A later torque is the model's now, less its rate; a lag adds it.
+  void add_lateness(std::size_t k) {
+    const EffectInstance& effect = point_.effects[k];
+    const std::size_t p = static_cast<std::size_t>(effect.law.alignment_parameter);
+    const int place = unknowns_.parameters[k][p];
+    if (place < 0) return;
+    const bool delay = effect.law.alignment == AlignmentOperator::kDelay;
+    const double chain = (delay ? -1 : 1) * chain_of(effect.law.parameters[p],
+                                                     effect.parameters[static_cast<Index>(p)]);
+    for (const int j : joints_of(effect, data_.joints())) {
+      JointColumns& joint = joints_[static_cast<std::size_t>(j)];
+      VectorXd torque = signals_.torque(run_).col(j) + joint.torque;
+      if (delay) torque += late_.lag[j] * rate(torque);
+      lateness_.push_back({j, place, chain * rate(torque)});
+    }
+  }
+
+  [[nodiscard]] VectorXd rate(const VectorXd& column) const {
+    return first_difference(column, here_.motion.sample_time);
+  }
+
+  void fill(RowBlock& block, int j) {
+    const double lag = late_.lag[j];
+    const JointColumns& joint = joints_[static_cast<std::size_t>(j)];
+    const Index size = unknowns_.size, nb = unknowns_.base;
+    block.Y.middleCols(j * size, nb) = here_.rows.Y.middleCols(Index{j} * nb, nb);
+    if (lag != 0) {
+      const MatrixXd& rates = signals_.filtered_rates(run_, j);
+      const std::vector<int>& columns = data_.model.columns[static_cast<std::size_t>(j)];
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        block.Y.col(j * size + columns[i]) += lag * rates.col(static_cast<Index>(i));
+      }
+    }
+    if (late_.delay[j] != 0 && here_.motion.tau.size() > 0) {
+      const double samples = late_.delay[j] / here_.motion.sample_time;
+      block.tau.col(j) = decimate(here_.decimator, shifted(here_.motion.tau.col(j), samples));
+    }
+    block.tau.col(j) -= filtered(joint.torque, lag);
+    for (std::size_t i = 0; i < joint.places.size(); ++i) {
+      add_column(block, j, joint.places[i], filtered(joint.columns[i], lag));
+    }
+    for (const Lateness& late : lateness_) {
+      if (late.joint == j) add_column(block, j, late.place, filtered(late.column, 0));
+    }
+  }
+
+  [[nodiscard]] VectorXd filtered(const VectorXd& column, double lag) const {
+    if (column.isZero(0)) return VectorXd::Zero(here_.rows.Y.rows());
+    return decimate(here_.decimator, lag == 0 ? column : (column + lag * rate(column)).eval());
+  }
+
+  void add_column(RowBlock& block, int j, int place, const VectorXd& column) const {
+    block.Y.col(Index{j} * unknowns_.size + place) += column;
+    block.tau.col(j) += x_[place] * column;
+  }
+
+  /// Equations that do not count are zeros; those that an undone delay does not reach count not.
+  void leave_out(RowBlock& block) const {
+    const Index count = block.tau.rows();
+    for (const EffectInstance& effect : point_.effects) {
+      if (effect.law.alignment != AlignmentOperator::kDelay) continue;
+      const double longest =
+          std::max(kLongestDelay, effect.parameters[effect.law.alignment_parameter]);
+      const double reach = longest / here_.motion.sample_time + double{kSincReach};
+      const Index rows = std::min<Index>(
+          count / 4,
+          static_cast<Index>(std::ceil(reach / static_cast<double>(here_.decimator.factor))));
+      for (const int j : joints_of(effect, data_.joints())) {
+        block.counted.col(j).head(rows).setZero();
+        block.counted.col(j).tail(rows).setZero();
+      }
+    }
+    for (Index j = 0; j < block.tau.cols(); ++j) {
+      for (Index k = 0; k < count; ++k) {
+        if (block.counted(k, j) != 0) continue;
+        block.tau(k, j) = 0;
+        block.Y.row(k).segment(j * unknowns_.size, unknowns_.size).setZero();
+      }
+    }
+  }
+
+  struct Lateness {
+    int joint, place;
+    VectorXd column;
+  };
+
+  const EffectRecordings& data_;
+  EffectSignals& signals_;
+  const EffectPoint& point_;
+  const EffectUnknowns& unknowns_;
+  std::size_t run_;
+  const EffectRun& here_;
+  VectorXd x_;
+  Alignment late_;
+  std::vector<JointColumns> joints_;
+  std::vector<Lateness> lateness_;
+};
+
+/// Which unknowns can act on each joint.
+std::vector<std::vector<int>> visible(const EffectRecordings& data, const EffectPoint& point,
+                                      const EffectUnknowns& unknowns) {
+  std::vector<std::set<int>> columns;
+  for (const auto& of_joint : data.model.columns) {
+    columns.emplace_back(of_joint.begin(), of_joint.end());
+  }
+  for (std::size_t k = 0; k < point.effects.size(); ++k) {
+    const EffectInstance& effect = point.effects[k];
+    for (const int j : joints_of(effect, data.joints())) {
+      std::set<int>& here = columns[static_cast<std::size_t>(j)];
+      for (const int place : unknowns.parameters[k]) {
+        if (place >= 0) here.insert(place);
+      }
+      for (const auto& run : unknowns.initial) {
+        for (std::size_t s = 0; run[k] >= 0 && s < effect.law.states.size(); ++s) {
+          here.insert(run[k] + static_cast<int>(s));
+        }
+      }
+      // through tau_load and its like: what acts on the joint whose load it is
+      for (const std::string& name : effect.law.variables) {
+        if (!depends_on_model(name)) continue;
+        for (const int of : {effect.joint, effect.other}) {
+          if (of < 0) continue;
+          const auto& load = data.model.columns[static_cast<std::size_t>(of)];
+          here.insert(load.begin(), load.end());
+        }
+      }
+    }
+  }
+  std::vector<std::vector<int>> result;
+  for (const std::set<int>& of_joint : columns) {
+    result.emplace_back(of_joint.begin(), of_joint.end());
+  }
+  return result;
+}
+
+}  // namespace
+
+EffectPoint at_rest(const EffectRecordings& data, VectorXd beta,
+                    std::vector<EffectInstance> effects) {
+  EffectPoint point{std::move(beta), std::move(effects), {}};
+  for (std::size_t r = 0; r < data.runs.size(); ++r) {
+    point.initial.emplace_back();
+    for (const EffectInstance& effect : point.effects) {
+      point.initial.back().push_back(VectorXd::Zero(static_cast<Index>(effect.law.states.size())));
+    }
+  }
+  return point;
+}
+
+EffectUnknowns base_unknowns(const EffectPoint& point) {
+  EffectUnknowns unknowns;
+  unknowns.base = unknowns.size = static_cast<int>(point.beta.size());
+  for (const EffectInstance& effect : point.effects) {
+    unknowns.parameters.emplace_back(static_cast<std::size_t>(effect.law.size()), -1);
+  }
+  for (std::size_t r = 0; r < point.initial.size(); ++r) {
+    unknowns.initial.emplace_back(point.effects.size(), -1);
+  }
+  return unknowns;
+}
+
+bool by_logarithm(const EffectParameter& parameter) {
+  return parameter.logarithmic && parameter.role != EffectRole::kLinear;
+}
+
+VectorXd values_of(const EffectPoint& point, const EffectUnknowns& unknowns) {
+  VectorXd x(unknowns.size);
+  x.head(unknowns.base) = point.beta;
+  for (std::size_t k = 0; k < point.effects.size(); ++k) {
+    const EffectInstance& effect = point.effects[k];
+    for (std::size_t p = 0; p < unknowns.parameters[k].size(); ++p) {
+      const int place = unknowns.parameters[k][p];
+      if (place < 0) continue;
+      const double value = effect.parameters[static_cast<Index>(p)];
+      x[place] = by_logarithm(effect.law.parameters[p]) ? std::log(value) : value;
+    }
+    for (std::size_t r = 0; r < unknowns.initial.size(); ++r) {
+      const int place = unknowns.initial[r][k];
+      if (place >= 0) x.segment(place, point.initial[r][k].size()) = point.initial[r][k];
+    }
+  }
+  return x;
+}
+
+EffectPoint with_values(EffectPoint point, const EffectUnknowns& unknowns, const VectorXd& x) {
+  point.beta = x.head(unknowns.base);
+  for (std::size_t k = 0; k < point.effects.size(); ++k) {
+    EffectInstance& effect = point.effects[k];
+    for (std::size_t p = 0; p < unknowns.parameters[k].size(); ++p) {
+      const int place = unknowns.parameters[k][p];
+      if (place < 0) continue;
+      effect.parameters[static_cast<Index>(p)] =
+          by_logarithm(effect.law.parameters[p]) ? std::exp(x[place]) : x[place];
+    }
+    for (std::size_t r = 0; r < unknowns.initial.size(); ++r) {
+      const int place = unknowns.initial[r][k];
+      if (place >= 0) point.initial[r][k] = x.segment(place, point.initial[r][k].size());
+    }
+  }
+  return point;
+}
+
+Alignment alignment_of(const std::vector<EffectInstance>& effects, int joints) {
+  Alignment late{VectorXd::Zero(joints), VectorXd::Zero(joints)};
+  for (const EffectInstance& effect : effects) {
+    if (!is_alignment(effect)) continue;
+    const double seconds = effect.parameters[effect.law.alignment_parameter];
+    for (const int j : joints_of(effect, joints)) {
+      (effect.law.alignment == AlignmentOperator::kDelay ? late.delay : late.lag)[j] += seconds;
+    }
+  }
+  return late;
+}
+
+std::vector<int> joints_of(const EffectInstance& effect, int joints) {
+  if (effect.law.acts_on_all || effect.joint < 0) {
+    std::vector<int> all(static_cast<std::size_t>(joints));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  if (effect.law.outputs == 2) return {effect.joint, effect.other};
+  return {effect.joint};
+}
+
+RowSource EffectEquations::source() const {
+  return [this](const std::function<void(const RowBlock&)>& visit) {
+    for (const RowBlock& block : blocks) visit(block);
+  };
+}
+
+EffectEquations linearised(const EffectRecordings& data, EffectSignals& signals,
+                           const EffectPoint& point, const EffectUnknowns& unknowns) {
+  signals.set_beta(point.beta);
+  EffectEquations equations;
+  equations.size = unknowns.size;
+  equations.columns = visible(data, point, unknowns);
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    equations.blocks.push_back(RunRows(data, signals, point, unknowns, run).make());
+  }
+  return equations;
+}
+
+EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signals, std::size_t run,
+                             const EffectInstance& effect) {
+  const EffectRun& here = data.runs[run];
+  const Index np = effect.law.size();
+  EffectSignature signature;
+  for (const Application& application : applications(effect, data.joints())) {
+    VectorXd state = VectorXd::Zero(static_cast<Index>(effect.law.states.size()));
+    EffectWanted wanted;
+    wanted.by_parameter = true;
+    const EffectTorque torque =
+        effect.law.evaluate(signals.variables(run, effect, application.target), effect.parameters,
+                            here.motion.sample_time, state, wanted);
+    for (std::size_t o = 0; o < application.outputs.size(); ++o) {
+      MatrixXd columns(here.motion.samples(), 1 + np);
+      columns << torque.torque.col(static_cast<Index>(o)),
+          torque.by_parameter.middleCols(static_cast<Index>(o) * np, np);
+      signature.joints.push_back(application.outputs[o]);
+      signature.columns.push_back(decimate(here.decimator, columns));
+    }
+  }
+  return signature;
+}
+
+VectorXd shifted(const VectorXd& x, double shift) {
+  const double whole = std::floor(shift);
+  const double part = shift - whole;
+  // a raised cosine holds the sinc to its reach
+  VectorXd taps(2 * kSincReach);
+  for (Index i = 0; i < taps.size(); ++i) {
+    const double at = static_cast<double>(i - kSincReach + 1) - part;
+    const double angle = std::numbers::pi * at;
+    const double window = 0.5 + 0.5 * std::cos(angle / static_cast<double>(kSincReach + 1));
+    taps[i] = (at == 0 ? 1 : std::sin(angle) / angle) * window;
+  }
+  taps /= taps.sum();
+  const Index last = x.size() - 1;
+  VectorXd result(x.size());
+  for (Index k = 0; k < x.size(); ++k) {
+    const Index first = k + static_cast<Index>(whole) - kSincReach + 1;
+    if (first >= 0 && first + taps.size() - 1 <= last) {
+      result[k] = taps.dot(x.segment(first, taps.size()));
+      continue;
+    }
+    double sum = 0;
+    for (Index i = 0; i < taps.size(); ++i)
+      sum += taps[i] * x[std::clamp(first + i, Index{0}, last)];
+    result[k] = sum;
+  }
+  return result;
+}
+
+}  // namespace dyngen::runtime

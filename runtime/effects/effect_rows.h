@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/effects/effect_law.h"
+#include "runtime/effects/effect_recordings.h"
+#include "runtime/effects/effect_signals.h"
+#include "runtime/estimation/rows.h"
+
+namespace dyngen::runtime {
+
+/// A model with effects and all their numbers.
+struct EffectPoint {
+  Eigen::VectorXd beta;                 ///< (nb)
+  std::vector<EffectInstance> effects;  ///< parameters without NaN
+  /// States before the first sample: initial[run][effect], (states) each.
+  std::vector<std::vector<Eigen::VectorXd>> initial;
+};
+
+/// All states 0 at the beginning of every run.
+EffectPoint at_rest(const EffectRecordings& data, Eigen::VectorXd beta,
+                    std::vector<EffectInstance> effects);
+
+/// Which numbers of a point are looked for, and where they stand in one vector x: beta first, then
+/// parameters of effects, then initial states. A logarithmic shape stands there as its logarithm.
+struct EffectUnknowns {
+  int base = 0;                              ///< nb
+  std::vector<std::vector<int>> parameters;  ///< [effect][parameter]: place in x; -1: held
+  std::vector<std::vector<int>> initial;     ///< [run][effect]: place of the first state; -1: held
+  int size = 0;
+};
+
+/// beta alone.
+EffectUnknowns base_unknowns(const EffectPoint& point);
+
+/// Whether a parameter stands in x as its logarithm.
+bool by_logarithm(const EffectParameter& parameter);
+
+Eigen::VectorXd values_of(const EffectPoint& point, const EffectUnknowns& unknowns);
+EffectPoint with_values(EffectPoint point, const EffectUnknowns& unknowns,
+                        const Eigen::VectorXd& x);
+
+/// How late the recorded torque of each joint is.
+struct Alignment {
+  Eigen::VectorXd delay;  ///< (n) s
+  Eigen::VectorXd lag;    ///< (n) s
+};
+Alignment alignment_of(const std::vector<EffectInstance>& effects, int joints);
+
+/// Joints on which an effect acts, ascending; of a pair `joint` and then `other`.
+std::vector<int> joints_of(const EffectInstance& effect, int joints);
+
+/// Equations tau = J x around a point: exactly those of the model with effects at the point, and
+/// their tangent elsewhere.
+struct EffectEquations {
+  std::vector<RowBlock> blocks;           ///< one a run; Y is J, (N x n * size)
+  std::vector<std::vector<int>> columns;  ///< as LinearModel::columns, of J
+  int size = 0;                           ///< of x
+
+  [[nodiscard]] RowSource source() const;
+};
+
+/// J = [Y + d e/d beta, d e/d p, d e/d eta, d e/d z0], behind the parallel filter.
+///
+/// Effects with lateness act on the whole model. A delay is undone on the measured torque, by
+/// interpolation; samples at the ends of a run that it does not reach have no equation. A lag is
+/// applied to the model, 1 + T d/dt, since undoing it would take noise away.
+/// @param signals  of the same recordings; its beta becomes the point's
+EffectEquations linearised(const EffectRecordings& data, EffectSignals& signals,
+                           const EffectPoint& point, const EffectUnknowns& unknowns);
+
+/// Torque of one effect with its derivatives by parameters, behind the filter.
+struct EffectSignature {
+  std::vector<int> joints;  ///< on which it acts
+  /// Of each of these joints, (equations x 1 + np): torque, then its derivatives.
+  std::vector<Eigen::MatrixXd> columns;
+};
+/// @param run  its states begin at 0
+EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signals, std::size_t run,
+                             const EffectInstance& effect);
+
+/// x(t + shift) of a band-limited signal: interpolation by a windowed sinc of 32 samples, which
+/// needs 16 of them on both sides; beyond its ends the signal is continued as constant.
+/// @param shift  in samples
+Eigen::VectorXd shifted(const Eigen::VectorXd& x, double shift);
+
+}  // namespace dyngen::runtime

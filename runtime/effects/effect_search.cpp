@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/effects/effect_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/estimation/inequalities.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kRounding = 1e-12;  // of the cost: two that differ by less are alike
+
+/// Solution over some of the unknowns, the others held.
+ConstrainedSolution solve_over(const std::vector<int>& chosen, const std::vector<int>& held,
+                               const MatrixXd& W, const VectorXd& tau,
+                               const Inequalities& inequalities, const VectorXd& x) {
+  const VectorXd fixed = x(held);
+  Inequalities of_chosen;
+  if (inequalities.h.size() > 0) {
+    // rows that no chosen unknown can change say nothing here
+    const MatrixXd G = inequalities.G(Eigen::all, chosen);
+    const VectorXd h = inequalities.h - inequalities.G(Eigen::all, held) * fixed;
+    std::vector<Index> kept;
+    for (Index i = 0; i < G.rows(); ++i) {
+      if (!G.row(i).isZero(0)) kept.push_back(i);
+    }
+    of_chosen = {G(kept, Eigen::all), h(kept)};
+  }
+  const VectorXd rest = tau - W(Eigen::all, held) * fixed;
+  return constrained_least_squares(W(Eigen::all, chosen), rest, of_chosen, x(chosen));
+}
+
+}  // namespace
+
+std::vector<VectorXd> reach_of_states(const EffectRecordings& data, EffectSignals& signals,
+                                      const EffectPoint& point) {
+  constexpr Index kLooks = 50;  // times in a run at which states are looked at
+  std::vector<VectorXd> reach;
+  signals.set_beta(point.beta);
+  for (std::size_t k = 0; k < point.effects.size(); ++k) {
+    const EffectInstance& effect = point.effects[k];
+    reach.push_back(VectorXd::Zero(static_cast<Index>(effect.law.states.size())));
+    if (effect.law.states.empty()) continue;
+    for (std::size_t run = 0; run < data.runs.size(); ++run) {
+      const MatrixXd variables = signals.variables(run, effect, effect.joint);
+      VectorXd state = point.initial[run][k];
+      const Index piece = std::max<Index>(1, variables.rows() / kLooks);
+      for (Index start = 0; start < variables.rows(); start += piece) {
+        effect.law.evaluate(variables.middleRows(start, std::min(piece, variables.rows() - start)),
+                            effect.parameters, data.runs[run].motion.sample_time, state, {});
+        if (state.allFinite()) reach.back() = reach.back().cwiseMax(state.cwiseAbs());
+      }
+    }
+  }
+  return reach;
+}
+
+EffectConstraints EffectSearch::constraints(const EffectPoint& point) const {
+  std::vector<VectorXd> reach;
+  const bool any = std::any_of(unknowns_.initial.begin(), unknowns_.initial.end(), [](auto& run) {
+    return std::any_of(run.begin(), run.end(), [](int place) { return place >= 0; });
+  });
+  if (any) {
+    reach = reach_of_states(data_, signals_, point);
+  } else {
+    reach.resize(point.effects.size());
+  }
+  return constraints_at(scales_, point, unknowns_, reach);
+}
+
+std::vector<int> EffectSearch::places(const EffectPoint& point, bool linear) const {
+  std::vector<bool> is_linear(static_cast<std::size_t>(unknowns_.size), false);
+  std::fill_n(is_linear.begin(), unknowns_.base, true);
+  for (std::size_t k = 0; k < point.effects.size(); ++k) {
+    for (std::size_t p = 0; p < unknowns_.parameters[k].size(); ++p) {
+      const int place = unknowns_.parameters[k][p];
+      if (place < 0) continue;
+      is_linear[static_cast<std::size_t>(place)] =
+          point.effects[k].law.kind != EffectKind::kAlignment &&
+          point.effects[k].law.parameters[p].role == EffectRole::kLinear;
+    }
+  }
+  std::vector<int> result;
+  for (int i = 0; i < unknowns_.size; ++i) {
+    if (is_linear[static_cast<std::size_t>(i)] == linear) result.push_back(i);
+  }
+  return result;
+}
+
+SearchState EffectSearch::evaluated(EffectPoint point) const {
+  SearchState state;
+  const EffectEquations equations = equations_at(point);
+  state.factor = factor_of(equations.source(), equations.columns, unknowns_.size);
+  state.cost =
+      residual_squares(state.factor, values_of(point, unknowns_)).dot(weights_.cwiseAbs2());
+  if (!std::isfinite(state.cost)) state.cost = std::numeric_limits<double>::infinity();
+  state.point = std::move(point);
+  return state;
+}
+
+SearchState EffectSearch::with_linear_solved(EffectPoint point) const {
+  constexpr int kPasses = 5;
+  const std::vector<int> linear = places(point, true), held = places(point, false);
+  SearchState best = evaluated(std::move(point));
+  bool first = true;
+  for (int pass = 0; pass < kPasses && std::isfinite(best.cost); ++pass) {
+    const StackedRows rows = stacked(best.factor, weights_);
+    VectorXd x = values_of(best.point, unknowns_);
+    x(linear) =
+        solve_over(linear, held, rows.W, rows.tau, constraints(best.point).inequalities, x).x;
+    SearchState next = evaluated(with_values(best.point, unknowns_, x));
+    const double promised = (rows.W * x - rows.tau).squaredNorm();
+    const bool as_promised = std::abs(next.cost - promised) <= 1e-10 * promised + 1e-300;
+    // the first solution also brings an infeasible start within its constraints: it may cost more
+    if (!first && next.cost > best.cost) break;
+    const double gain = best.cost - next.cost;
+    best = std::move(next);
+    if (as_promised || (!first && gain <= 1e-10 * best.cost)) break;
+    first = false;
+  }
+  return best;
+}
+
+SearchState EffectSearch::run(EffectPoint start, const SearchOptions& options) const {
+  constexpr double kMostDamping = 1e8;
+  SearchState state = with_linear_solved(within_bounds(scales_, std::move(start), unknowns_));
+  const std::vector<int> shapes = places(state.point, false);
+  if (shapes.empty()) return state;
+  std::vector<int> everything(static_cast<std::size_t>(unknowns_.size));
+  for (std::size_t i = 0; i < everything.size(); ++i) everything[i] = static_cast<int>(i);
+  double damping = 1e-3;
+  state.converged = false;
+  int steps = 0;
+  while (steps < options.most_steps) {
+    const VectorXd x = values_of(state.point, unknowns_);
+    const StackedRows rows = stacked(state.factor, weights_);
+    const Inequalities inequalities = constraints(state.point).inequalities;
+    bool better = false;
+    for (; !better && damping < kMostDamping && steps < options.most_steps; ++steps) {
+      const Index count = static_cast<Index>(shapes.size());
+      MatrixXd A(rows.W.rows() + count, unknowns_.size);
+      A << rows.W, MatrixXd::Zero(count, unknowns_.size);
+      VectorXd b(A.rows());
+      b << rows.tau, VectorXd::Zero(count);
+      for (Index i = 0; i < count; ++i) {
+        const int place = shapes[static_cast<std::size_t>(i)];
+        const double size = std::sqrt(damping) * rows.W.col(place).norm();
+        A(rows.W.rows() + i, place) = size;
+        b[rows.W.rows() + i] = size * x[place];
+      }
+      const VectorXd step = solve_over(everything, {}, A, b, inequalities, x).x - x;
+      SearchState next = with_linear_solved(
+          within_bounds(scales_, with_values(state.point, unknowns_, x + step), unknowns_));
+      const double gain = state.cost - next.cost;
+      if (gain > -kRounding * state.cost) {
+        better = true;
+        damping = std::max(1e-9, damping / 6);
+        state.converged = gain <= options.tolerance * state.cost;
+        if (gain > 0) {
+          const bool converged = state.converged;
+          state = std::move(next);
+          state.converged = converged;
+        }
+      } else {
+        damping *= 4;
+      }
+    }
+    // no step of any length is better: it is the minimum, as far as rounding tells
+    if (!better && damping >= kMostDamping) state.converged = true;
+    if (!better || state.converged) break;
+  }
+  state.steps = steps;
+  return state;
+}
+
+EffectSearch::Held EffectSearch::held_at(const SearchState& state) const {
+  constexpr double kAt = 1e-7;     // relative: an inequality that the point stands at
+  constexpr double kHolds = 1e-6;  // of the gradient: what is less is rounding
+  Held held;
+  held.constraints = constraints(state.point);
+  const Inequalities& inequalities = held.constraints.inequalities;
+  const StackedRows rows = stacked(state.factor, weights_);
+  const VectorXd x = values_of(state.point, unknowns_);
+  held.stands = std::vector<bool>(held.constraints.names.size(), false);
+  held.multipliers = VectorXd::Zero(inequalities.h.size());
+  std::vector<Index> active;
+  for (Index i = 0; i < inequalities.h.size(); ++i) {
+    const double slack = inequalities.G.row(i).dot(x) - inequalities.h[i];
+    const double size =
+        inequalities.G.row(i).cwiseAbs().dot(x.cwiseAbs()) + std::abs(inequalities.h[i]);
+    if (slack > kAt * size + 1e-12) continue;
+    active.push_back(i);
+    held.stands[static_cast<std::size_t>(i)] = true;
+  }
+  if (active.empty()) return held;
+  // half the gradient of the cost is a sum of the inequalities' normals, in scaled unknowns
+  VectorXd scale = rows.W.colwise().norm();
+  for (double& s : scale) s = s > 0 ? 1 / s : 1;
+  const VectorXd gradient = scale.cwiseProduct(rows.W.transpose() * (rows.W * x - rows.tau));
+  MatrixXd normals = (inequalities.G(active, Eigen::all) * scale.asDiagonal()).transpose();
+  const VectorXd lengths = normals.colwise().norm().cwiseMax(1e-300);
+  normals = normals * lengths.cwiseInverse().asDiagonal();
+  const VectorXd forces = nonnegative_least_squares(normals, gradient).x;
+  const double least = kHolds * (1e-6 * std::sqrt(state.cost) + gradient.norm());
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const double force = forces[static_cast<Index>(i)];
+    if (force > least) held.multipliers[active[i]] = force / lengths[static_cast<Index>(i)];
+  }
+  return held;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "runtime/effects/effect_law.h"
+#include "runtime/effects/effect_recordings.h"
+
+namespace dyngen::runtime {
+
+/// A derivative by some of the model's parameters.
+struct ModelDerivative {
+  std::vector<int> columns;  ///< places in beta, ascending
+  Eigen::MatrixXd values;    ///< (N x columns)
+};
+
+/// The signals that variables of effects stand for, over the runs of recordings and for given
+/// parameters of the model.
+///
+///     q qd qdd tau_load sign_qd        of the effect's joint; q_other .. tau_load_other of its
+///                                      partner. tau_load = Y beta over the inertial parameters
+///     Fc Fv Ia                         friction and rotor of the joint in beta, 0 if not there
+///     t temp                           s from the recording's first sample; as recorded
+///     torque torque_rate torque_acc    Y beta, and its central differences
+///     tau_load_rate tau_load_acc
+///     d_* payload_* contact_* wrench_* of EffectRobot::tangent
+///
+/// sign_qd turns only when the joint has come back by 2.5 steps of its encoder from where it was
+/// farthest: the noise of a velocity near 0 has no part in it. Where no step is known it is the
+/// plain sign.
+///
+/// Keeps what it computed until beta changes.
+class EffectSignals {
+ public:
+  /// @param data  must outlive it
+  explicit EffectSignals(const EffectRecordings& data) : data_(data) {}
+
+  /// @param beta  (nb)
+  void set_beta(const Eigen::VectorXd& beta);
+  /// Where derivatives of the rigid model are taken. They multiply an effect that is small, so that
+  /// an older beta is good enough while an estimate converges.
+  void set_tangent_beta(const Eigen::VectorXd& beta);
+
+  /// What EffectLaw::evaluate reads.
+  /// @param target  the joint whose torque is asked for, where the effect acts on all; else unused
+  /// @return        (N x nv)
+  /// @throws std::invalid_argument  if the recording or the robot does not have a signal
+  Eigen::MatrixXd variables(std::size_t run, const EffectInstance& effect, int target);
+
+  /// d e / d beta through the variables; that of the rigid model's derivatives is left out.
+  /// @param by_variable  (N x nv): d e / d variable
+  ModelDerivative by_model(std::size_t run, const EffectInstance& effect, int target,
+                           const Eigen::MatrixXd& by_variable);
+
+  /// Y beta. @return (N x n)
+  const Eigen::MatrixXd& torque(std::size_t run);
+  /// Rows of the regressor at all samples. @return (N x model.columns[joint].size())
+  const Eigen::MatrixXd& regressor_rows(std::size_t run, int joint);
+  /// Their rates behind the parallel filter. @return (equations x model.columns[joint].size())
+  const Eigen::MatrixXd& filtered_rates(std::size_t run, int joint);
+
+ private:
+  struct RigidTorque {
+    Eigen::MatrixXd torque, load;  ///< (N x n)
+  };
+
+  const RigidTorque& rigid(std::size_t run);
+  const Eigen::MatrixXd& tangent(std::size_t run, const std::string& name, int link);
+  Eigen::VectorXd signal(std::size_t run, const std::string& name, const EffectInstance& effect,
+                         int target);
+
+  const EffectRecordings& data_;
+  Eigen::VectorXd beta_, tangent_beta_;
+  std::map<std::size_t, RigidTorque> rigid_;
+  std::map<std::tuple<std::size_t, std::string, int>, Eigen::MatrixXd> tangents_;
+  std::size_t rows_run_ = 0;  // of regressor_rows_: one run, since they are large
+  std::map<int, Eigen::MatrixXd> regressor_rows_;
+  std::map<std::pair<std::size_t, int>, Eigen::MatrixXd> filtered_rates_;
+};
+
+/// The sign of a joint's velocity with a dead band of travel.
+/// @param band  rad or m; 0: the plain sign of dq
+Eigen::VectorXd travelled_sign(const Eigen::VectorXd& q, const Eigen::VectorXd& dq, double band);
+
+/// Whether a variable changes with the model's parameters (those of EffectRobot::tangent apart).
+bool depends_on_model(const std::string& variable);
+
+}  // namespace dyngen::runtime

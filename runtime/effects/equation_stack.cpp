@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/effects/equation_stack.h"
+
+#include "runtime/estimation/decompositions.h"
+
+namespace dyngen::runtime {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Whitening Whitening::by_weights(const VectorXd& weights) {
+  Whitening whitening;
+  for (const double weight : weights) {
+    AutoregressiveNoise noise;
+    noise.innovation = noise.deviation = 1 / weight;
+    whitening.joints.push_back(noise);
+  }
+  return whitening;
+}
+
+EquationStack::EquationStack(const EffectRecordings& data, Whitening whitening)
+    : data_(data), whitening_(std::move(whitening)) {
+  for (const EffectRun& run : data.runs) {
+    run_starts_.push_back(of_joint_);
+    of_joint_ += run.rows.Y.rows();
+  }
+  rows_ = of_joint_ * data.joints();
+}
+
+void EquationStack::whiten(Eigen::Ref<MatrixXd> columns, std::size_t run, int joint) const {
+  const AutoregressiveNoise& noise = whitening_.joints[static_cast<std::size_t>(joint)];
+  const auto counted = data_.runs[run].rows.counted.col(joint);
+  const Index order = noise.coefficients.size();
+  for (Index c = 0; c < columns.cols(); ++c) {
+    if (columns.col(c).isZero(0)) continue;
+    columns.col(c) = columns.col(c).cwiseProduct(counted) / noise.innovation;
+    // from the last sample on, so that each still finds those before it
+    for (Index t = columns.rows() - 1; t >= 0; --t) {
+      for (Index k = 0; k < std::min(order, t); ++k) {
+        columns(t, c) -= noise.coefficients[k] * columns(t - 1 - k, c);
+      }
+    }
+  }
+}
+
+MatrixXd EquationStack::stacked(const EffectEquations& equations) const {
+  MatrixXd all = MatrixXd::Zero(rows_, equations.size + 1);
+  for (std::size_t run = 0; run < equations.blocks.size(); ++run) {
+    const RowBlock& block = equations.blocks[run];
+    for (int j = 0; j < data_.joints(); ++j) {
+      auto part = all.middleRows(first(j) + run_starts_[run], block.tau.rows());
+      for (const int c : equations.columns[static_cast<std::size_t>(j)]) {
+        part.col(c) = block.Y.col(Index{j} * equations.size + c);
+      }
+      part.rightCols(1) = block.tau.col(j);
+      whiten(part, run, j);
+    }
+  }
+  return all;
+}
+
+MatrixXd EquationStack::plain(EffectSignals& signals, const EffectInstance& effect) const {
+  MatrixXd all = MatrixXd::Zero(rows_, 1 + effect.law.size());
+  for (std::size_t run = 0; run < data_.runs.size(); ++run) {
+    const EffectSignature signature = signature_of(data_, signals, run, effect);
+    for (std::size_t i = 0; i < signature.joints.size(); ++i) {
+      const int j = signature.joints[i];
+      const auto counted = data_.runs[run].rows.counted.col(j);
+      all.middleRows(first(j) + run_starts_[run], signature.columns[i].rows()) =
+          counted.asDiagonal() * signature.columns[i];
+    }
+  }
+  return all;
+}
+
+MatrixXd EquationStack::whitened(MatrixXd columns) const {
+  for (std::size_t run = 0; run < data_.runs.size(); ++run) {
+    for (int j = 0; j < data_.joints(); ++j) {
+      whiten(columns.middleRows(first(j) + run_starts_[run], data_.runs[run].rows.tau.rows()), run,
+             j);
+    }
+  }
+  return columns;
+}
+
+Projection::Projection(const MatrixXd& W, double tolerance) {
+  VectorXd scale = W.colwise().norm();
+  for (double& s : scale) s = s > 0 ? 1 / s : 1;
+  const SingularValues svd = decomposed(triangle_of(W) * scale.asDiagonal());
+  const Index rank = (svd.values.array() > tolerance * svd.values[0]).count();
+  basis_ = W * (scale.asDiagonal() * svd.V.leftCols(rank) *
+                svd.values.head(rank).cwiseInverse().asDiagonal());
+  // once more: what the division by small singular values left of right angles
+  const MatrixXd R = triangle_of(basis_);
+  R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(basis_);
+}
+
+MatrixXd Projection::rest(const MatrixXd& columns) const {
+  MatrixXd left = columns - basis_ * (basis_.transpose() * columns);
+  left -= basis_ * (basis_.transpose() * left);
+  return left;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/tools/dynid/fit_with_effects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "runtime/tools/dynid/effect_laws.h"
+#include "runtime/tools/dynid/robot_tangents.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::VectorXd;
+
+RowSource shared_rows(std::vector<RowBlock> blocks) {
+  return [kept = std::make_shared<const std::vector<RowBlock>>(std::move(blocks))](
+             const std::function<void(const RowBlock&)>& visit) {
+    for (const RowBlock& block : *kept) visit(block);
+  };
+}
+
+/// rms of the model alone, on equations of recordings with effects.
+VectorXd rms_without(const EffectRecordings& data, const EffectPoint& with, const VectorXd& beta) {
+  // the same equations count: lateness leaves some out
+  EffectPoint plain = with;
+  plain.beta = beta;
+  plain.initial.clear();
+  std::erase_if(plain.effects, [](const EffectInstance& effect) {
+    return effect.law.kind != EffectKind::kAlignment;
+  });
+  for (EffectInstance& effect : plain.effects) effect.parameters.setZero();
+  return residual_with_effects(data, plain);
+}
+
+FitMethod method_of(const ToolOptions& options) {
+  return options.fit.methods.empty() ? FitMethod::kWls : options.fit.methods.front();
+}
+
+}  // namespace
+
+EffectTask EffectTask::of(const DescribedRobot& robot, const ToolOptions& options) {
+  EffectTask task{effect_catalogue(options.effects), {}};
+  task.effects = effect_instances(robot.model, task.catalogue);
+  return task;
+}
+
+ToolOptions EffectTask::reading(ToolOptions options) const {
+  if (effects.empty()) return options;
+  options.motion.stream_above = std::numeric_limits<std::size_t>::max();
+  for (const EffectInstance& effect : effects) {
+    for (const std::string& variable : effect.law.variables) {
+      if (variable == "t" || variable == "temp") options.motion.average_periods = false;
+    }
+  }
+  return options;
+}
+
+void refuse_with_effects(const ToolOptions& options, bool file_by_file, bool summaries) {
+  if (summaries) {
+    throw std::invalid_argument(
+        "the robot file has rows 'effect', and effects are fitted to samples: .qr files are sums "
+        "of them; give the recordings");
+  }
+  if (file_by_file) {
+    throw std::invalid_argument(
+        "the robot file has rows 'effect', and effects are fitted to all samples at once: give the "
+        "recordings directly, not by --list and not to several processes");
+  }
+  const bool other =
+      options.every_method ||
+      std::any_of(options.fit.methods.begin(), options.fit.methods.end(), [](FitMethod method) {
+        return method != FitMethod::kWls && method != FitMethod::kLs;
+      });
+  if (other || options.fit.methods.size() > 1) {
+    throw std::invalid_argument(
+        "the robot file has rows 'effect': expected one of --method wls and --method ls, the "
+        "methods that know constraints");
+  }
+}
+
+void fit_with_effects(const EffectTask& task, const ToolOptions& options,
+                      const std::vector<MotionSource>& train,
+                      const std::vector<MotionSource>& heldout, ProgressLine& progress,
+                      FitReport& report) {
+  const LinearModel& model = report.robot.linear;
+  const EffectRobot robot{robot_tangents(report.robot)};
+  const EffectRecordings data = effect_recordings(model, robot, train, options.rows);
+  const FitMethod method = method_of(options);
+  EffectFitOptions settings;
+  settings.weighted = method == FitMethod::kWls;
+  EffectReport effects;
+  effects.fit =
+      fit_effects(data, task.effects, settings, [&](const std::string& what, double done) {
+        progress.show(what, static_cast<std::size_t>(100 * done), 100);
+      });
+  effects.units = effect_units(task.effects, task.catalogue, model);
+  const EffectPoint& point = effects.fit.point;
+
+  // what the effects leave for the model, as everything else in the report sees it
+  RecordingSummary summary = empty_summary(model.columns, model.size());
+  for (const MotionSource& source : train) {
+    merge(summary, summarise_without_noise(model, source, options.rows));
+  }
+  report.data.rows = shared_rows(without_effects(data, point));
+  summary.equations = factor_of(report.data.rows, model.columns, model.size());
+  summary.noise = noise_at(effects.fit.base, summary.equations, report.data.rows);
+  report.data.summary = std::move(summary);
+
+  MethodFit fit;
+  fit.method = method;
+  fit.estimate = effects.fit.base;
+  fit.textbook = effects.fit.textbook;
+  fit.interval = effects.fit.interval;
+  fit.percent = residual_of(report.data.summary.equations, point.beta).percent;
+  if (!heldout.empty()) {
+    const EffectRecordings left = effect_recordings(model, robot, heldout, options.rows);
+    EffectPoint begun = point;
+    begun.initial.clear();
+    effects.heldout_rms_without = rms_without(left, begun, effects.fit.beta_without);
+    report.data.heldout =
+        factor_of(shared_rows(without_effects(left, begun)), model.columns, model.size());
+    const Residual residual = residual_of(*report.data.heldout, point.beta);
+    effects.heldout_rms = fit.heldout_rms = residual.rms;
+    fit.heldout_percent = residual.percent;
+  }
+  if (!effects.fit.converged) {
+    fit.messages.push_back("the search for the effects' parameters did not come to its end");
+  }
+  if (options.rows.still_speed < 0) {
+    report.notes.push_back(
+        "effects: joints that stand still keep their equations (--still SPEED leaves them out)");
+  }
+  if (options.motion.average_periods && !task.reading(options).motion.average_periods) {
+    report.notes.push_back("effects: periods are not averaged, since an effect reads the time");
+  }
+  report.fits = {std::move(fit)};
+  report.effects = std::move(effects);
+}
+
+}  // namespace dyngen::runtime

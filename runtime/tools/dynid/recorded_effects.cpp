@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/tools/dynid/recorded_effects.h"
+
+#include <utility>
+
+#include "runtime/effects/effect_recordings.h"
+#include "runtime/effects/effect_signals.h"
+#include "runtime/recordings/spline.h"
+#include "runtime/tools/dynid/robot_tangents.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The motion as effects see it; equations are not asked for.
+EffectRecordings recordings_of(const DescribedRobot& robot, const Recording& motion) {
+  EffectRun run;
+  run.motion.sample_time = (motion.time[motion.samples() - 1] - motion.time[0]) /
+                           static_cast<double>(std::max<Index>(1, motion.samples() - 1));
+  run.motion.time = motion.time;
+  run.motion.q = motion.q;
+  run.motion.dq = motion.dq;
+  run.motion.ddq = motion.ddq;
+  run.motion.tau = motion.tau;
+  run.motion.temperature = motion.temperature;
+  run.time = motion.time.array() - motion.time[0];
+  run.position_step = VectorXd::Zero(motion.joints());
+  EffectRecordings recordings;
+  recordings.model = robot.linear;
+  recordings.robot.tangent = robot_tangents(robot);
+  recordings.runs.push_back(std::move(run));
+  return recordings;
+}
+
+std::vector<int> joints_of(const EffectInstance& effect, int joints) {
+  if (!effect.law.acts_on_all) return {effect.joint};
+  std::vector<int> all;
+  for (int j = 0; j < joints; ++j) all.push_back(j);
+  return all;
+}
+
+MatrixXd aligned(const EffectInstance& effect, const VectorXd& time, MatrixXd torque) {
+  const double T = effect.parameters[effect.law.alignment_parameter];
+  for (const int joint : joints_of(effect, static_cast<int>(torque.cols()))) {
+    const VectorXd own = torque.col(joint);
+    if (effect.law.alignment == AlignmentOperator::kDelay) {
+      const VectorXd before = (time.array() - T).max(time[0]).min(time[time.size() - 1]);
+      torque.col(joint) = interpolate_linear(time, own, before);
+    } else {
+      torque.col(joint) = own + T * differentiate_spline(time, own);
+    }
+  }
+  return torque;
+}
+
+}  // namespace
+
+MatrixXd recorded_torque(const DescribedRobot& robot, const std::vector<EffectInstance>& effects,
+                         const Recording& motion) {
+  const EffectRecordings recordings = recordings_of(robot, motion);
+  EffectSignals signals(recordings);
+  signals.set_beta(robot.grouping * robot.standard);
+  MatrixXd torque = motion.tau;
+  const double sample_time = recordings.runs.front().motion.sample_time;
+  for (const EffectInstance& effect : effects) {
+    if (effect.law.alignment != AlignmentOperator::kNone) continue;
+    for (const int joint : joints_of(effect, motion.joints())) {
+      VectorXd state = VectorXd::Zero(static_cast<Index>(effect.law.states.size()));
+      const MatrixXd variables = signals.variables(0, effect, joint);
+      torque.col(joint) +=
+          effect.law.evaluate(variables, effect.parameters, sample_time, state, {}).torque.col(0);
+    }
+  }
+  // what arrives late arrives with all the rest
+  for (const EffectInstance& effect : effects) {
+    if (effect.law.alignment != AlignmentOperator::kNone) {
+      torque = aligned(effect, motion.time, std::move(torque));
+    }
+  }
+  return torque;
+}
+
+}  // namespace dyngen::runtime
