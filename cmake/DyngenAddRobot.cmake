@@ -9,6 +9,7 @@ dyngen_add_robot(<target> ROBOT file
   [GRAVITY file|runtime]          # default: file
   [WRENCH] [PAYLOAD]              # arguments of the functions: a wrench, a body on the last link
   [NO_REGROUP]                    # keep the standard parameters
+  [EFFECTS dir ...]               # folders of more effects, files NAME.effect
   [FOLD]                          # with PARAMETERS runtime: functions read what <prefix>_fold makes of chi
   [CPP_WRAPPER]                   # <target>.hpp too: the functions over Eigen's types, C++20
   [OUTPUT_DIR dir]                # in the build tree; default: dyngen/<target>
@@ -16,8 +17,8 @@ dyngen_add_robot(<target> ROBOT file
   [CHECKED_IN dir])               # in the source tree: committed copies of <target>.c, <target>.h
 
 Makes the static library <target> from <target>.c and <target>.h, which dyngen writes from the robot
-file during the build, again whenever the file or the generator changes. Whoever links <target> finds
-<target>.h, and with CPP_WRAPPER <target>.hpp and Eigen. ROBOT, GENERATOR and CHECKED_IN are relative to the current source directory, OUTPUT_DIR to
+file during the build, again whenever the file, one of its effect files or the generator changes. Whoever links <target> finds
+<target>.h, and with CPP_WRAPPER <target>.hpp and Eigen. ROBOT, EFFECTS, GENERATOR and CHECKED_IN are relative to the current source directory, OUTPUT_DIR to
 the current binary directory.
 
 The generator is GENERATOR, else the variable DYNGEN_EXECUTABLE, else the target dyngen::dyngen, which
@@ -34,7 +35,7 @@ cmake_policy(VERSION 3.20...3.25)
 function(dyngen_add_robot target)
   set(flags WRENCH PAYLOAD NO_REGROUP FOLD CPP_WRAPPER)
   set(one_value ROBOT PREFIX PARAMETERS SCALAR TRIG GRAVITY OUTPUT_DIR GENERATOR CHECKED_IN)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "${flags}" "${one_value}" "FUNCTIONS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "${flags}" "${one_value}" "FUNCTIONS;EFFECTS")
   set(where "dyngen_add_robot(${target})")
 
   # What was asked for.
@@ -47,7 +48,7 @@ function(dyngen_add_robot target)
     list(JOIN one_value ", " expected)
     list(JOIN flags ", " expected_flags)
     message(FATAL_ERROR
-      "${where}: unknown argument '${word}'; expected ${expected}, ${expected_flags}, FUNCTIONS")
+      "${where}: unknown argument '${word}'; expected ${expected}, ${expected_flags}, FUNCTIONS, EFFECTS")
   endif()
   if(TARGET ${target})
     message(FATAL_ERROR "${where}: a target of this name exists already")
@@ -63,7 +64,7 @@ function(dyngen_add_robot target)
   set(functions ${arg_FUNCTIONS})
   list(TRANSFORM functions REPLACE "_batch$" "")
   list(TRANSFORM functions REPLACE "^(fk|jacobian)_[1-9][0-9]*$" "\\1")
-  _dyngen_check_choice(FUNCTIONS functions all id id_rigid gravity coriolis friction mass_matrix fd
+  _dyngen_check_choice(FUNCTIONS functions all id id_rigid gravity coriolis friction effects mass_matrix fd
     regressor base_regressor base_regressor_gradient gravity_regressor energy_regressor power
     id_dq_pos id_dq id_ddq id_derivatives fk jacobian)
   _dyngen_check_choice(PARAMETERS arg_PARAMETERS baked runtime)
@@ -80,6 +81,15 @@ function(dyngen_add_robot target)
   elseif(NOT DEFINED arg_PREFIX)
     set(arg_PREFIX ${target})
   endif()
+
+  set(effects "")
+  foreach(folder IN LISTS arg_EFFECTS)
+    get_filename_component(folder "${folder}" ABSOLUTE)
+    if(NOT IS_DIRECTORY "${folder}")
+      message(FATAL_ERROR "${where}: EFFECTS: there is no folder '${folder}'")
+    endif()
+    list(APPEND effects "${folder}")
+  endforeach()
 
   # Where the files are.
   if(NOT DEFINED arg_OUTPUT_DIR)
@@ -141,6 +151,9 @@ function(dyngen_add_robot target)
         string(REPLACE "_" "-" option ${option})
         list(APPEND options --${option})
       endif()
+    endforeach()
+    foreach(folder IN LISTS effects)
+      list(APPEND options --effects "${folder}")
     endforeach()
     file(MAKE_DIRECTORY "${output}")
     get_filename_component(robot_name "${robot}" NAME)

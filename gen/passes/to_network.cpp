@@ -30,12 +30,13 @@ class Reading {
       if (opaque_.contains(node.name)) {
         node.kind = Node::Kind::kOpaque;
         node.leaf = assignment.value;
-      } else if (!call_name(assignment.value).empty()) {
-        const Form form = canonical_form(assignment.value, trace_.symbols());
-        named_[assignment.target.get_name()] = call(form.parts[0], std::move(node));
-        continue;
       } else {
-        node.terms = sum(canonical_form(assignment.value, trace_.symbols()));
+        const Form form = canonical_form(assignment.value, trace_.symbols());
+        if (is_call(form)) {
+          named_[assignment.target.get_name()] = call(form.parts[0], std::move(node));
+          continue;
+        }
+        node.terms = sum(form);
         if (const int inverse = lone_inverse(node.terms); inverse >= 0) {
           node.kind = Node::Kind::kInverse;
           node.of = network_.node(inverse).of;
@@ -173,9 +174,18 @@ class Reading {
     return id;
   }
 
+  /// A call and nothing else, which is more than the sign of an input.
+  [[nodiscard]] bool is_call(const Form& sum) const {
+    if (sum.parts.size() != 1 || sum.negative[0]) return false;
+    return sum.parts[0].kind == Form::Kind::kCall && !is_sign_of_inputs(sum.parts[0]);
+  }
+
+  [[nodiscard]] bool is_sign_of_inputs(const Form& form) const {
+    return form.call == "sign" && reads_inputs_alone(form);
+  }
+
   int nested_call(const Form& form) {
-    if (form.call == "sign" && reads_inputs_alone(form)) return sign_of_inputs(form);
-    return call(form, {});
+    return is_sign_of_inputs(form) ? sign_of_inputs(form) : call(form, {});
   }
 
   [[nodiscard]] bool reads_inputs_alone(const Form& form) const {

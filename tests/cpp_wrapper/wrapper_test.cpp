@@ -324,6 +324,36 @@ TEST(CppWrapperText, ResultsTooLargeForTheStackAreOnTheHeap) {
   EXPECT_TRUE(declares(129, Scalar::kFloat, "Matrix<NQ, NBETA>", " noexcept {"));
 }
 
+TEST(CppWrapperText, StatesOfEffectsAreTakenByReference) {
+  GeneratorOptions options;
+  options.functions = {"id"};
+  options.cpp_wrapper = true;
+  options.prefix = "arm";
+  const CText text =
+      generate(read_model("tests/robots/effects/stateful_arm.robot"), with_short_search(options));
+  // the same calls through both: bit by bit
+  const std::string shim =
+      "#include \"arm.hpp\"\n"
+      "extern \"C\" int same() {\n"
+      "  arm::State s = arm::new_state(0.001);\n"
+      "  arm_state own;\n"
+      "  arm_reset(&own, 0.001);\n"
+      "  for (int k = 0; k < 50; ++k) {\n"
+      "    const arm::Vector q(0.1, 0.2), dq(0.3 - 0.01 * k, 0.02 * k), ddq(0.0, 1.0);\n"
+      "    arm::Vector tau;\n"
+      "    arm_id(&own, q.data(), dq.data(), ddq.data(), tau.data());\n"
+      "    if (tau != arm::id(s, q, dq, ddq)) return 0;\n"
+      "  }\n"
+      "  return s.z[0] == own.z[0] && s.z[0] != 0.0;\n"
+      "}\n";
+  const SharedObject library({{"arm.h", text.header},
+                              {"arm.hpp", text.wrapper},
+                              {"arm.c", text.source},
+                              {"shim.cpp", shim}},
+                             "-O1 -isystem " DYNGEN_EIGEN_INCLUDE, "c++ -x c++ -std=c++20");
+  EXPECT_EQ(reinterpret_cast<int (*)()>(library.symbol("same"))(), 1);
+}
+
 TEST(CppWrapperText, NamesThatNoNamespaceMayHaveAreRefused) {
   GeneratorOptions options;
   options.cpp_wrapper = true;

@@ -104,6 +104,30 @@ file(WRITE ${WORK}/weightless.robot "number_link 2\nd 0 1\nZZ 1 0\ngy 9.81\nstop
 refuse(1 "nothing moved" ARGUMENTS weightless.robot -o out/x.c --functions id,fd
   SAYS "weightless.robot: error: --functions: 'fd': joint 2" "neither mass nor rotor")
 
+# Effects: those of the program and of a folder, which the depfile names; what cannot run is left out.
+file(READ ${SOURCE_DIR}/robots/planar2r.robot text)
+string(REPLACE "\nstop" "\neffect stribeck joint=2 Fs=3 vs=0.05\neffect base_tilt gx=0.1\neffect bump joint=1 a=2\nstop"
+  text "${text}")
+file(WRITE ${WORK}/effects.robot "${text}")
+refuse(1 "an effect without its file" ARGUMENTS effects.robot -o out/x.c
+  SAYS "effects.robot:40:8: error: unknown effect 'bump'")
+file(MAKE_DIRECTORY ${WORK}/more)
+file(WRITE ${WORK}/more/bump.effect "effect bump\nfamily torque_ripple\ntitle A bump\nkind algebraic\n"
+  "scope joint\njoints revolute\nsource made up\nparameter a linear unit=torque start=1 typical=1 : its size\n"
+  "torque a*sin(3*q)\nhidden nothing\nseparate nothing\nplot q\n")
+run(text 0 ${DYNGEN} effects.robot -o effects.c --effects more --depfile effects.d
+  --functions id,effects)
+expect_text("an effect of the rigid model" "${text}"
+  "effects.robot:39:8: warning: effect 'base_tilt' cannot run in a controller: it is made of derivatives of the rigid model; it is left out of the emitted functions")
+file(READ ${WORK}/effects.h header)
+expect_text(--effects "${header}" "Effects: stribeck of joint 2, bump of joint 1." "void planar2r_effects(")
+file(READ ${WORK}/effects.d rule)
+expect_text("--depfile with effects" "${rule}" "/effects.robot " "/more/bump.effect")
+refuse(1 "no folder of effects" ARGUMENTS effects.robot -o out/x.c --effects nowhere
+  SAYS "nowhere: error: the folder of effects cannot be read")
+run(text 0 ${DYNGEN} effects.robot --effects more --count)
+expect_text("--count with effects" "${text}" "div calls")
+
 # Wrong usage: exit 2.
 file(WRITE ${WORK}/robot.c "number_link 1\nZZ 1\ngy 9.81\nstop\n")
 refuse(2 "the robot file as output" ARGUMENTS robot.c -o robot.c SAYS "same file")

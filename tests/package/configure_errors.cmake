@@ -28,6 +28,8 @@ refuse("SCALAR" "dyngen_add_robot(arm ${good} SCALAR half)"
   "SCALAR: unknown value 'half'; expected double, float")
 refuse("TRIG" "dyngen_add_robot(arm ${good} TRIG table)"
   "TRIG: unknown value 'table'; expected inline, libm")
+refuse("no folder of effects" "dyngen_add_robot(arm ${good} EFFECTS nowhere)"
+  "EFFECTS: there is no folder" "project/nowhere'")
 refuse("PREFIX" "dyngen_add_robot(arm ${good} PREFIX 2arm)"
   "PREFIX: '2arm' is not a C identifier")
 refuse("target is no prefix" "dyngen_add_robot(my-arm ${good})"
