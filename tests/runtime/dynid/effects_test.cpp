@@ -158,7 +158,7 @@ TEST_F(Effects, OfAUsersFolderAreFitted) {
   fs::create_directories(folder_ / "mine");
   std::ofstream(path("mine/my_spring.effect"))
       << "effect my_spring\nfamily gravity_spring\ntitle A spring of mine\nkind algebraic\n"
-         "scope joint\nparameter k linear unit=torque/position start=0 typical=5 : stiffness\n"
+         "scope joint\nparameter k linear unit=torque/position^3 start=0 typical=5 : stiffness\n"
          "torque k*q^3\nalias cable : the same curve\nhidden Little.\nseparate Slow motion.\n"
          "plot q\n";
   const std::string file = robot("e.robot", "effect my_spring joint=1\n");
