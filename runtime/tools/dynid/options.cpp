@@ -242,7 +242,9 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                                                    {"atlas", Command::kAtlas},
                                                    {"effects", Command::kEffects}};
   parsed.options.command = commands.at(name);
-  if (parsed.options.command == Command::kSimulate) return parsed;
+  if (parsed.options.command == Command::kSimulate || parsed.options.command == Command::kEffects) {
+    return parsed;
+  }
   const std::string message = parsed.options.command == Command::kExcite
                                   ? parsed.options.excite.usage_error()
                                   : understand(words, parsed.options);
