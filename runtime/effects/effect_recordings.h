@@ -24,6 +24,9 @@ struct EffectRobot {
   std::function<Eigen::MatrixXd(const std::string& name, int link, const JointMotion& motion,
                                 const Eigen::VectorXd& beta)>
       tangent;
+  /// (n) kg m^2 or kg: rotor inertias that the model has joined with the links', so that they are
+  /// taken off the load. May be empty: none are known.
+  Eigen::VectorXd joined_rotors{};
 };
 
 /// A run of a recording as effects see it: all samples, and the equations of the model alone.

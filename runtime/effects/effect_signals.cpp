@@ -136,6 +136,8 @@ const EffectSignals::RigidTorque& EffectSignals::rigid(std::size_t run) {
       }
     }
   }
+  const VectorXd& rotors = data_.robot.joined_rotors;
+  for (Index j = 0; j < rotors.size(); ++j) rigid.load.col(j) -= rotors[j] * motion.ddq.col(j);
   return rigid;
 }
 

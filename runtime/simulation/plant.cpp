@@ -161,11 +161,10 @@ double Plant::State::least_margin(const TorqueSource& torque, double at, const V
   }
   if (regime.stuck.any()) {
     torque(at, q, dq, tau.data());
-    const VectorXd held = regime.held(state(at, values), tau.data());
-    const VectorXd level = regime.dry_friction(state(at, values));
-    for (Index j = 0; j < held.size(); ++j) {
+    const Regime::Held held = regime.held(state(at, values), tau.data());
+    for (Index j = 0; j < held.torque.size(); ++j) {
       if (!regime.stuck[j]) continue;
-      margin = std::min(margin, level[j] * (1 + kStictionMargin) - std::abs(held[j]));
+      margin = std::min(margin, held.most[j] * (1 + kStictionMargin) - std::abs(held.torque[j]));
     }
   }
   return margin;

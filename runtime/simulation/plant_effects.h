@@ -13,7 +13,7 @@ namespace dyngen::runtime {
 /// What a moving robot's effects read besides its motion, (n) each.
 struct EffectSurroundings {
   Eigen::VectorXd coulomb, viscous;  ///< Fc, Fv
-  Eigen::VectorXd rotor;             ///< Ia: what stands apart from the inertia of the links
+  Eigen::VectorXd rotor;             ///< Ia: part of the mass matrix, not of the load
   double temperature = 25;           ///< temp at the start, in the unit of the recording
   double warming = 0;                ///< its rate, per second
 };

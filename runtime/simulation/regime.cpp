@@ -36,12 +36,12 @@ Regime::Regime(PlantModel plant)
 
 void Regime::find_dry_joints(const RobotState& state) {
   if (model.effects.empty()) return;
-  dry_ = dry_friction(state).array() > 0;
+  dry_ = dry_friction(state, zero_).array() > 0;
 }
 
-VectorXd Regime::dry_friction(const RobotState& state) {
+VectorXd Regime::dry_friction(const RobotState& state, const VectorXd& ddq) {
   if (model.effects.empty()) return model.coulomb;
-  const EffectMotion standing = motion(state, zero_.data());
+  const EffectMotion standing = motion(state, ddq.data());
   VectorXd level = model.coulomb;
   for (Index j = 0; j < level.size(); ++j) {
     const double own = model.effects.dry_friction(standing, state.z, j);
@@ -147,13 +147,14 @@ RestingJoints Regime::rest(const RobotState& state, const double* tau) {
   for (Index j = 0; j < push_.size(); ++j) {
     if (at_rest[j]) direction[j] = 0;
   }
-  const VectorXd level = dry_friction(state);
+  VectorXd level = dry_friction(state, zero_);
   model.mass_matrix(state.q, M_.data());
   act(state, zero_.data());
   RestingJoints joints = resting_joints(M_, pushing(state, tau), level, at_rest);
   // what effects need while others accelerate: of the solution before
   constexpr int kPasses = 5;
   for (int k = 0; k < kPasses && model.effects.reads_acceleration(); ++k) {
+    level = dry_friction(state, joints.ddq);
     act(state, joints.ddq.data());
     joints = resting_joints(M_, pushing(state, tau), level, at_rest);
   }
@@ -172,12 +173,12 @@ RestingJoints Regime::rest(const RobotState& state, const double* tau) {
   return joints;
 }
 
-VectorXd Regime::held(const RobotState& state, const double* tau) {
+Regime::Held Regime::held(const RobotState& state, const double* tau) {
   VectorXd ddq(push_.size());
   accelerate(state, tau, ddq.data(), rates_.data());
   const VectorXd torque = pushing(state, tau);
   model.mass_matrix(state.q, M_.data());
-  return torque - M_ * ddq;
+  return {torque - M_ * ddq, dry_friction(state, ddq)};
 }
 
 }  // namespace dyngen::runtime

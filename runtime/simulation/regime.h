@@ -33,9 +33,9 @@ class Regime {
   /// Which joints have dry friction at a state: what is_dry() says from then on.
   void find_dry_joints(const RobotState& state);
   [[nodiscard]] bool is_dry(Eigen::Index j) const { return dry_[j]; }
-  /// What a joint at rest can resist: Fs and what effects add to it, under the load that the joint
-  /// has while it stands. (n) N m or N, not negative
-  Eigen::VectorXd dry_friction(const RobotState& state);
+  /// What a joint at rest can resist: Fs and what effects add to it, under the load that it has
+  /// while the others accelerate by ddq. (n) N m or N, not negative
+  Eigen::VectorXd dry_friction(const RobotState& state, const Eigen::VectorXd& ddq);
 
   /// ddq at a state near the regime's, and the rates of the effects' states: a velocity that
   /// overshoots zero within a step keeps its friction, so that what is integrated is smooth.
@@ -44,8 +44,11 @@ class Regime {
   /// How joints at rest go on under a torque: of all with dry friction and no velocity.
   RestingJoints rest(const RobotState& state, const double* tau);
 
-  /// What friction holds at the joints that are stuck. (n)
-  Eigen::VectorXd held(const RobotState& state, const double* tau);
+  /// What friction holds at the joints that are stuck, and could hold. (n) each
+  struct Held {
+    Eigen::VectorXd torque, most;
+  };
+  Held held(const RobotState& state, const double* tau);
 
  private:
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -101,7 +101,7 @@ Motions of_trajectory(const ToolOptions& options, AtlasReport& report) {
     rows.decimation =
         std::max<Index>(1, static_cast<Index>(1 / (kTrajectoryRate * source.sample_time)));
   }
-  motions.data = effect_recordings(model, {robot_tangents(report.robot)}, {source}, rows);
+  motions.data = effect_recordings(model, effect_robot(report.robot), {source}, rows);
   report.motion = fmt::format("trajectory {}, {:.1f} s", options.atlas.trajectory,
                               trajectory.time[trajectory.samples() - 1] - trajectory.time[0]);
   return motions;
@@ -115,8 +115,7 @@ Motions of_recordings(const ToolOptions& options, ProgressLine& progress, AtlasR
   reading.motion.average_periods = false;
   const LoadedRecordings loaded = load_recordings(options.recordings, reading, false, progress);
   Motions motions;
-  motions.data =
-      effect_recordings(model, {robot_tangents(report.robot)}, loaded.sources, options.rows);
+  motions.data = effect_recordings(model, effect_robot(report.robot), loaded.sources, options.rows);
   const RowSource rows = [&](const std::function<void(const RowBlock&)>& visit) {
     for (const EffectRun& run : motions.data.runs) visit(run.rows);
   };

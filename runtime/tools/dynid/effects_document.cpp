@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "gen/effect_file/effect_variables.h"
 #include "gen/effect_file/units.h"
 #include "runtime/tools/dynid/effect_laws.h"
 #include "runtime/tools/dynid/pendulum_signals.h"
@@ -115,7 +116,7 @@ std::string markdown_of(const EffectFile& effect) {
 std::string axis_label(const std::string& variable) {
   if (variable == "distance") return "rad since the last reversal";
   if (variable == "t") return "s";
-  const EffectVariable* known = find_effect_variable(variable);
+  const ::dyngen::EffectVariable* known = find_effect_variable(variable);
   const std::string unit = known == nullptr ? "" : unit_text(known->unit, JointUnits::kRevolute);
   return variable + (unit.empty() || unit == "1" ? "" : ", " + unit);
 }

@@ -87,7 +87,7 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
                       const std::vector<MotionSource>& heldout, ProgressLine& progress,
                       FitReport& report) {
   const LinearModel& model = report.robot.linear;
-  const EffectRobot robot{robot_tangents(report.robot)};
+  const EffectRobot robot = effect_robot(report.robot);
   const EffectRecordings data = effect_recordings(model, robot, train, options.rows);
   const FitMethod method = method_of(options);
   EffectFitOptions settings;

@@ -7,8 +7,8 @@
 #include "runtime/identification/fit.h"
 #include "runtime/identification/motion_rows.h"
 #include "runtime/identification/motion_source.h"
-#include "runtime/tools/dynid/excite_options.h"
 #include "runtime/tools/dynid/effects_command.h"
+#include "runtime/tools/dynid/excite_options.h"
 #include "runtime/tools/dynid/simulate_options.h"
 
 namespace dyngen::runtime {

@@ -49,8 +49,8 @@ VectorXd times() {
 /// J qdd + m l g sin q and its derivatives by time.
 VectorXd load(const Swing& motion, int differences) {
   const double gravity = kMoment * kGravity;
-  const auto s = motion.q.array().sin(), c = motion.q.array().cos();
-  const auto qd = motion.qd.array(), qdd = motion.qdd.array();
+  const Eigen::ArrayXd s = motion.q.array().sin(), c = motion.q.array().cos();
+  const Eigen::ArrayXd qd = motion.qd, qdd = motion.qdd;
   if (differences == 0) return kInertia * qdd + gravity * s;
   if (differences == 1) return kInertia * motion.jerk.array() + gravity * c * qd;
   return kInertia * motion.snap.array() + gravity * (c * qdd - s * qd * qd);

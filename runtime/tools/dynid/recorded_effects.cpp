@@ -30,7 +30,7 @@ EffectRecordings recordings_of(const DescribedRobot& robot, const Recording& mot
   run.position_step = VectorXd::Zero(motion.joints());
   EffectRecordings recordings;
   recordings.model = robot.linear;
-  recordings.robot.tangent = robot_tangents(robot);
+  recordings.robot = effect_robot(robot);
   recordings.runs.push_back(std::move(run));
   return recordings;
 }

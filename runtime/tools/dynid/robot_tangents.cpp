@@ -203,4 +203,17 @@ TangentFunction robot_tangents(const DescribedRobot& robot) {
                     const VectorXd& beta) { return (*tangents)(name, link, motion, beta); };
 }
 
+EffectRobot effect_robot(const DescribedRobot& robot) {
+  EffectRobot result;
+  result.tangent = robot_tangents(robot);
+  result.joined_rotors = VectorXd::Zero(robot.model.coordinate_count);
+  for (const JointModel& joint : robot.model.joints) {
+    const Quantity& IA = joint.chi[index(Chi::kIA)];
+    if (joint.coordinate < 0 || IA.unknown) continue;
+    if (parameter_of(robot.linear, joint.coordinate, ParameterKind::kRotorInertia) >= 0) continue;
+    result.joined_rotors[joint.coordinate] = to_double(IA.value);
+  }
+  return result;
+}
+
 }  // namespace dyngen::runtime

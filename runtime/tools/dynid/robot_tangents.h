@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "runtime/effects/effect_recordings.h"
 #include "runtime/model/linear_model.h"
 #include "runtime/tools/dynid/described_robot.h"
 
@@ -25,5 +26,9 @@ using TangentFunction = std::function<Eigen::MatrixXd(
 
 /// @throws std::invalid_argument  (the function) if there is no such name, or the link has no joint
 TangentFunction robot_tangents(const DescribedRobot& robot);
+
+/// What effects ask of a robot: its tangents, and rotor inertias of the file that base parameters
+/// have joined with the links'.
+EffectRobot effect_robot(const DescribedRobot& robot);
 
 }  // namespace dyngen::runtime

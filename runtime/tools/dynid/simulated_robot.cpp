@@ -96,23 +96,18 @@ class Programs {
   std::map<std::string, ProgramEvaluator> programs_;
 };
 
-/// The number that a parameter of a link is in the code.
-double number_of(const CodeModel& code, const GiNaC::ex& value) {
-  return to_double(GiNaC::is_a<GiNaC::symbol>(value) ? code.inputs.info(value).value : value);
-}
-
 /// What acts on the motion into the plant, the rest beside it.
 void add_effects(SimulatedRobot& robot, const std::vector<EffectInstance>& effects,
-                 const CodeModel& code, const SimulatedTemperature& temperature, RobotUse use) {
+                 const RobotModel& model, const SimulatedTemperature& temperature, RobotUse use) {
   EffectSurroundings surroundings;
   for (VectorXd* part : {&surroundings.coulomb, &surroundings.viscous, &surroundings.rotor}) {
     part->setZero(robot.joints());
   }
-  for (const CodeLink& link : code.links) {
-    if (link.coordinate < 0) continue;
-    surroundings.coulomb[link.coordinate] = number_of(code, link.chi[index(Chi::kFS)]);
-    surroundings.viscous[link.coordinate] = number_of(code, link.chi[index(Chi::kFV)]);
-    surroundings.rotor[link.coordinate] = number_of(code, link.chi[index(Chi::kIA)]);
+  for (const JointModel& joint : model.joints) {
+    if (joint.coordinate < 0) continue;
+    surroundings.coulomb[joint.coordinate] = to_double(joint.chi[index(Chi::kFS)].value);
+    surroundings.viscous[joint.coordinate] = to_double(joint.chi[index(Chi::kFV)].value);
+    surroundings.rotor[joint.coordinate] = to_double(joint.chi[index(Chi::kIA)].value);
   }
   surroundings.temperature = temperature.start;
   surroundings.warming = temperature.rate;
@@ -180,7 +175,7 @@ SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use,
     robot.plant.coulomb[joint.coordinate] = to_double(joint.chi[index(Chi::kFS)].value);
     if (taumax.present) robot.torque_limit[joint.coordinate] = to_double(taumax.values[i].value);
   }
-  add_effects(robot, effect_instances(whole, catalogue), code, temperature, use);
+  add_effects(robot, effect_instances(whole, catalogue), whole, temperature, use);
   return robot;
 }
 
