@@ -94,7 +94,8 @@ Index EffectRecordings::equations() const {
 
 EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
                                    const std::vector<MotionSource>& sources,
-                                   const RowOptions& options) {
+                                   const RowOptions& options,
+                                   const std::vector<bool>& remembering) {
   EffectRecordings data{std::move(model), std::move(robot), {}, 0};
   for (const MotionSource& source : sources) {
     if (source.joints() != data.joints()) {
@@ -102,7 +103,9 @@ EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
                                               source.joints(), data.model.name, data.joints()));
     }
     RowPlan plan = plan_rows(source, options);
-    if (options.still_speed < 0) plan.still_speed.setConstant(-1);
+    for (Index j = 0; j < plan.still_speed.size() && options.still_speed < 0; ++j) {
+      if (remembering.empty() || remembering[static_cast<std::size_t>(j)]) plan.still_speed[j] = -1;
+    }
     const Decimator decimator = design_decimator(plan.decimation);
     for (Motion& motion : runs_of(source)) {
       EffectRun run;

@@ -52,13 +52,16 @@ struct EffectRecordings {
 
 /// The equations of recordings, filtered and decimated as rows_of() does it.
 ///
-/// Joints that stand still keep their equations, since what remembers lives there; they are left
-/// out only if options.still_speed says at which speed (>= 0).
+/// At rest friction holds any torque up to its own, which says nothing of it: joints that stand
+/// still have no equations, as in rows_of(). Where effects remember, those samples are kept.
+/// @param remembering  (n) joints that keep all equations unless options.still_speed says at which
+///                     speed they are left out (>= 0); empty: all of them
 /// @throws std::invalid_argument  if a recording has another number of joints, or no run gives an
 /// equation
 EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
                                    const std::vector<MotionSource>& sources,
-                                   const RowOptions& options);
+                                   const RowOptions& options,
+                                   const std::vector<bool>& remembering = {});
 
 /// Place among the parameters of a joint's kViscous, kCoulomb, kRotorInertia; -1: the model has
 /// none.

@@ -82,13 +82,26 @@ void refuse_with_effects(const ToolOptions& options, bool file_by_file, bool sum
   }
 }
 
+/// Joints of effects with states.
+std::vector<bool> remembering_joints(const std::vector<EffectInstance>& effects, int joints) {
+  std::vector<bool> remembering(static_cast<std::size_t>(joints), false);
+  for (const EffectInstance& effect : effects) {
+    if (effect.law.states.empty()) continue;
+    for (const int joint : {effect.joint, effect.other}) {
+      if (joint >= 0) remembering[static_cast<std::size_t>(joint)] = true;
+    }
+  }
+  return remembering;
+}
+
 void fit_with_effects(const EffectTask& task, const ToolOptions& options,
                       const std::vector<MotionSource>& train,
                       const std::vector<MotionSource>& heldout, ProgressLine& progress,
                       FitReport& report) {
   const LinearModel& model = report.robot.linear;
   const EffectRobot robot = effect_robot(report.robot);
-  const EffectRecordings data = effect_recordings(model, robot, train, options.rows);
+  const std::vector<bool> remembering = remembering_joints(task.effects, model.joints());
+  const EffectRecordings data = effect_recordings(model, robot, train, options.rows, remembering);
   const FitMethod method = method_of(options);
   EffectFitOptions settings;
   settings.weighted = method == FitMethod::kWls;
@@ -117,7 +130,8 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
   fit.interval = effects.fit.interval;
   fit.percent = residual_of(report.data.summary.equations, point.beta).percent;
   if (!heldout.empty()) {
-    const EffectRecordings left = effect_recordings(model, robot, heldout, options.rows);
+    const EffectRecordings left =
+        effect_recordings(model, robot, heldout, options.rows, remembering);
     EffectPoint begun = point;
     begun.initial.clear();
     effects.heldout_rms_without = rms_without(left, begun, effects.fit.beta_without);
@@ -132,7 +146,9 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
   }
   if (options.rows.still_speed < 0) {
     report.notes.push_back(
-        "effects: joints that stand still keep their equations (--still SPEED leaves them out)");
+        "effects: joints with memory keep their equations where they stand still (--still SPEED "
+        "leaves "
+        "them out)");
   }
   if (options.motion.average_periods && !task.reading(options).motion.average_periods) {
     report.notes.push_back("effects: periods are not averaged, since an effect reads the time");
