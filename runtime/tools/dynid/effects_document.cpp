@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "gen/effect_file/effect_variables.h"
@@ -121,6 +122,42 @@ std::string axis_label(const std::string& variable) {
   return variable + (unit.empty() || unit == "1" ? "" : ", " + unit);
 }
 
+/// The typical value of a parameter; 0 if there is none of this name.
+double value_of(const EffectLaw& law, const VectorXd& typical, const std::string& name) {
+  for (int k = 0; k < law.size(); ++k) {
+    if (law.parameters[static_cast<std::size_t>(k)].name == name) return typical[k];
+  }
+  return 0;
+}
+
+/// Samples that are drawn, of the second half, where states have forgotten how they began: what
+/// follows one reversal, a few periods of a ripple, or the whole of a slow signature.
+std::vector<Index> shown_samples(const EffectLaw& law, const VectorXd& typical,
+                                 const std::string& over, const PendulumRun& run) {
+  const Index end = run.time.size();
+  Index first = end / 2, step = 30;
+  double longest = std::numeric_limits<double>::infinity();
+  VectorXd path = VectorXd::Zero(end);
+  if (over == "distance") {
+    while (first + 1 < end && run.distance[first] <= run.distance[first + 1]) ++first;
+    ++first;
+    step = 2;
+    path = run.distance;
+    longest = std::max(0.01, 10 * value_of(law, typical, "zs"));
+  } else if (value_of(law, typical, "n") > 2 || value_of(law, typical, "gear") > 0) {
+    step = 2;
+    const VectorXd q = pendulum_signal("q");
+    path = (q.array() - q[first]).abs();
+    longest = 0.2;
+  }
+  std::vector<Index> shown;
+  for (Index k = first; k < end && path[k] <= longest; k += step) {
+    if (over == "distance" && k > first && path[k] < path[k - step]) break;
+    shown.push_back(k);
+  }
+  return shown;
+}
+
 Series signature_of(const EffectFile& effect) {
   const EffectLaw law = effect_law(effect);
   const PendulumRun run = pendulum_run(law);
@@ -128,14 +165,13 @@ Series signature_of(const EffectFile& effect) {
   const EffectSizes sizes = law.sizes(pendulum_scales());
   const VectorXd torque =
       law.evaluate(run.variables, sizes.typical, run.sample_time, state, {}).torque.col(0);
-  // the second half, where states have forgotten how they began, and one sample of three
-  const Index first = run.time.size() / 2, count = (run.time.size() - first) / 3;
   const std::string over = effect.plot == "frequency" ? "t" : effect.plot;
   const VectorXd x = pendulum_signal(over);
+  const std::vector<Index> shown = shown_samples(law, sizes.typical, over, run);
   Series series;
   series.name = effect.name;
-  series.x = VectorXd::NullaryExpr(count, [&](Index k) { return x[first + 3 * k]; });
-  series.y = VectorXd::NullaryExpr(count, [&](Index k) { return torque[first + 3 * k]; });
+  series.x = x(shown);
+  series.y = torque(shown);
   return series;
 }
 

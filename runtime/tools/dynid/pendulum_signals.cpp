@@ -12,7 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kSampleTime = 0.005, kDuration = 10;
+constexpr double kSampleTime = 0.0005, kDuration = 10;
 constexpr double kMass = 10, kLength = 0.5, kGravity = 9.81, kRotor = 0.5;
 constexpr double kCoulomb = 4, kViscous = 3;
 constexpr double kInertia = kMass * kLength * kLength, kMoment = kMass * kLength;
