@@ -19,6 +19,12 @@ namespace {
 
 using GiNaC::ex;
 
+/// Where no start is written, the typical size is it: one mistake is said once.
+bool has_own_start(const EffectParameter& parameter) {
+  return parameter.start.position.line != parameter.typical.position.line ||
+         parameter.start.position.column != parameter.typical.position.column;
+}
+
 class Checks {
  public:
   Checks(EffectFile& effect, Diagnostics& diagnostics)
@@ -145,7 +151,7 @@ class Checks {
       if (entry.max) check(*entry.max, "max", own);
     }
     for (const EffectParameter& entry : effect_.parameters) {
-      check(entry.start, "start", scales);
+      if (has_own_start(entry)) check(entry.start, "start", scales);
       check(entry.typical, "typical", scales);
       if (entry.min) check(*entry.min, "min", scales);
       if (entry.max) check(*entry.max, "max", scales);
@@ -314,8 +320,8 @@ class Checks {
       const auto expect_size = [&](const EffectExpression& value, std::string_view what) {
         if (!is_plain_number(value)) expect(value, dimensions[entry.name], what);
       };
-      expect_size(entry.start, "start");
       expect_size(entry.typical, "typical");
+      if (has_own_start(entry)) expect_size(entry.start, "start");
       if (entry.min) expect_size(*entry.min, "min");
       if (entry.max) expect_size(*entry.max, "max");
     }

@@ -70,8 +70,10 @@ MatrixXd recorded_torque(const DescribedRobot& robot, const std::vector<EffectIn
     for (const int joint : joints_of(effect, motion.joints())) {
       VectorXd state = VectorXd::Zero(static_cast<Index>(effect.law.states.size()));
       const MatrixXd variables = signals.variables(0, effect, joint);
-      torque.col(joint) +=
-          effect.law.evaluate(variables, effect.parameters, sample_time, state, {}).torque.col(0);
+      const MatrixXd own =
+          effect.law.evaluate(variables, effect.parameters, sample_time, state, {}).torque;
+      torque.col(joint) += own.col(0);
+      if (effect.law.outputs == 2) torque.col(effect.other) += own.col(1);
     }
   }
   // what arrives late arrives with all the rest

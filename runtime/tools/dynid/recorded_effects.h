@@ -18,7 +18,7 @@ namespace dyngen::runtime {
 /// is recorded is the command tau + T dtau/dt.
 ///
 /// @param robot    with numbers for all parameters
-/// @param effects  those that do not act while the robot moves (acts_on_plant())
+/// @param effects  in `dynid simulate`, those that do not act while the robot moves
 /// @param motion   one run, with q, dq, ddq, tau, all without noise; and a temperature, if an
 ///                 effect reads it
 /// @return         (N x n) the recorded torque, without noise
