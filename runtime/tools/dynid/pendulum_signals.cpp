@@ -113,9 +113,11 @@ VectorXd pendulum_signal(const std::string& name) {
   if (stem == "d_alpha") return kMoment * kGravity * 0.1 * q.sin();
   if (stem == "d_d" || stem == "d_r") return kMass * kGravity * q.sin();
   if (stem == "payload_ZZ") return motion.qdd;
-  if (stem == "payload_MX") return kGravity * q.sin();
+  if (stem == "payload_MX") return 2 * kLength * motion.qdd.array() + kGravity * q.sin();
   if (stem == "payload_MY") return kGravity * q.cos();
-  if (stem == "payload_M") return VectorXd::Zero(t.size());
+  if (stem == "payload_M") {  // its frame is at the tip
+    return kLength * (kLength * motion.qdd.array() + kGravity * q.sin());
+  }
   if (stem == "contact_fx") return -kLength * q.sin();
   if (stem == "contact_fy") return kLength * q.cos();
   if (stem == "contact_nz") return VectorXd::Ones(t.size());
