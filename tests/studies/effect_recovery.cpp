@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/studies/effect_recovery.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -144,6 +146,11 @@ EffectRecovery recover(const runtime::DescribedRobot& robot, const EffectFile& e
       result.not_converged += fit.converged ? 0 : 1;
       for (Index k = 0; k < truth.size(); ++k) {
         const runtime::EffectParameterFit& found = fit.parameters[0][static_cast<std::size_t>(k)];
+        if (plan.each) {
+          fmt::print("seed {:<3}{:<8} truth {:<14.6g} found {:<14.6g} +- {:<12.4g}{}{}\n", seed,
+                     law.parameters[static_cast<std::size_t>(k)].name, truth[k], found.value,
+                     found.stddev, found.held ? "held" : "", found.at_bound ? "at its bound" : "");
+        }
         if (found.held || found.at_bound || found.stddev <= 0) continue;
         result.errors.push_back(std::abs(found.value - truth[k]) / found.stddev);
       }

@@ -29,6 +29,7 @@ struct EffectStudyPlan {
   int recordings = 10;
   unsigned first_seed = 1;
   double seconds = 20;
+  bool each = false;  ///< print every estimate
 };
 
 /// Recordings of a three-joint arm with one effect at its typical size, on motions of eight

@@ -15,7 +15,7 @@ namespace {
 using namespace dyngen::test;
 
 constexpr const char* kUsage =
-    "usage: effects_study [--recordings R (10)] [--first-seed S (1)] [effect ...]\n";
+    "usage: effects_study [--recordings R (10)] [--first-seed S (1)] [--each] [effect ...]\n";
 
 }  // namespace
 
@@ -37,6 +37,8 @@ int main(int argc, char** argv) {
       } else {
         plan.first_seed = static_cast<unsigned>(value);
       }
+    } else if (word == "--each") {
+      plan.each = true;
     } else if (word.starts_with("-")) {
       std::fputs(kUsage, stderr);
       return 2;
