@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "gen/effect_code/effect_programs.h"
 #include "gen/effect_file/units.h"
+#include "gen/effect_programs/effect_programs.h"
 #include "gen/program/evaluator.h"
 #include "gen/symbols/exact.h"
 

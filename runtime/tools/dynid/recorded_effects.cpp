@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "runtime/effects/effect_recordings.h"
+#include "runtime/effects/effect_rows.h"
 #include "runtime/effects/effect_signals.h"
 #include "runtime/recordings/spline.h"
 #include "runtime/tools/dynid/robot_tangents.h"
@@ -35,13 +36,6 @@ EffectRecordings recordings_of(const DescribedRobot& robot, const Recording& mot
   return recordings;
 }
 
-std::vector<int> joints_of(const EffectInstance& effect, int joints) {
-  if (!effect.law.acts_on_all) return {effect.joint};
-  std::vector<int> all;
-  for (int j = 0; j < joints; ++j) all.push_back(j);
-  return all;
-}
-
 MatrixXd aligned(const EffectInstance& effect, const VectorXd& time, MatrixXd torque) {
   const double T = effect.parameters[effect.law.alignment_parameter];
   for (const int joint : joints_of(effect, static_cast<int>(torque.cols()))) {
@@ -67,13 +61,16 @@ MatrixXd recorded_torque(const DescribedRobot& robot, const std::vector<EffectIn
   const double sample_time = recordings.runs.front().motion.sample_time;
   for (const EffectInstance& effect : effects) {
     if (effect.law.alignment != AlignmentOperator::kNone) continue;
-    for (const int joint : joints_of(effect, motion.joints())) {
+    const std::vector<int> joints = joints_of(effect, motion.joints());
+    const bool all = effect.law.acts_on_all;  // evaluated for each joint; else for all outputs
+    for (const int target : all ? joints : std::vector<int>{joints.front()}) {
       VectorXd state = VectorXd::Zero(static_cast<Index>(effect.law.states.size()));
-      const MatrixXd variables = signals.variables(0, effect, joint);
+      const MatrixXd variables = signals.variables(0, effect, target);
       const MatrixXd own =
           effect.law.evaluate(variables, effect.parameters, sample_time, state, {}).torque;
-      torque.col(joint) += own.col(0);
-      if (effect.law.outputs == 2) torque.col(effect.other) += own.col(1);
+      for (Index o = 0; o < own.cols(); ++o) {
+        torque.col(all ? target : joints[static_cast<std::size_t>(o)]) += own.col(o);
+      }
     }
   }
   // what arrives late arrives with all the rest

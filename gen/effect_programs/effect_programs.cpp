@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "gen/effect_code/effect_programs.h"
+#include "gen/effect_programs/effect_programs.h"
 
 #include <fmt/format.h>
 
