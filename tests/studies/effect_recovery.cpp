@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <limits>
+#include <random>
 
 #include "runtime/effects/effect_fit.h"
 #include "runtime/effects/effect_recordings.h"
@@ -84,6 +86,16 @@ EffectInstance instance_of(const runtime::EffectLaw& law, const runtime::Describ
   return instance;
 }
 
+/// Of the noise of one recording of an effect: neither the motion's nor another effect's.
+std::uint32_t noise_seed(const std::string& effect, unsigned seed) {
+  std::vector<std::uint32_t> words(effect.begin(), effect.end());
+  words.push_back(seed);
+  std::seed_seq sequence(words.begin(), words.end());
+  std::uint32_t result = 0;
+  sequence.generate(&result, &result + 1);
+  return result;
+}
+
 /// What the fit is told: numbers of what is given or scanned, nothing of the rest.
 VectorXd told(const runtime::EffectLaw& law, const VectorXd& truth) {
   VectorXd parameters = truth;
@@ -130,7 +142,8 @@ EffectRecovery recover(const runtime::DescribedRobot& robot, const EffectFile& e
     recording.tau = runtime::recorded_torque(robot, {instance}, recording);
     const VectorXd rms =
         recording.tau.colwise().norm() / std::sqrt(static_cast<double>(recording.samples()));
-    runtime::TorqueNoise noise({.deviation = 0.01 * rms}, robot.linear.joints(), seed);
+    runtime::TorqueNoise noise({.deviation = 0.01 * rms}, robot.linear.joints(),
+                               noise_seed(effect.name, seed));
     for (Index k = 0; k < recording.samples(); ++k) recording.tau.row(k) += noise.next();
 
     EffectInstance asked = instance;

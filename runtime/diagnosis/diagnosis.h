@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/diagnosis/findings.h"
+#include "runtime/effects/effect_recordings.h"
+#include "runtime/identification/motion_source.h"
+
+namespace dyngen::runtime {
+
+/// What a diagnosis looks at.
+struct DiagnosisInput {
+  LinearModel model;
+  EffectRobot robot;
+  std::vector<MotionSource> train;
+  std::vector<MotionSource> heldout;    ///< may be empty: then the last fifth of every run of train
+  std::vector<MotionSource> reference;  ///< of the same robot before a change; may be empty
+  /// Effects that compete, each on one joint, pair or the whole robot, with `link` set. Parameters
+  /// that have numbers are taken as given; others are NaN.
+  std::vector<EffectInstance> hypotheses;
+};
+
+struct DiagnosisOptions {
+  double false_alarm = 0.01;  ///< of the whole diagnosis, 0 .. 0.5
+  int most_findings = 4;
+  /// The regressor's parameters are not fitted: torque is what another simulator left unexplained.
+  bool residual_only = false;
+  Eigen::Index decimation = 0;  ///< as RowOptions
+  std::uint64_t seed = 20261121;
+
+  /// @throws std::invalid_argument  naming the option and its range
+  void validate() const;
+};
+
+/// Told the stage's name and how far it is, 0 .. 1.
+using DiagnosisProgress = std::function<void(const std::string& stage, double done)>;
+
+/// Locates the mismatch between a model and recordings, names the physics that was left out, fits
+/// it, and says what the data cannot decide. The same input gives the same answer.
+/// @throws std::invalid_argument  if recordings do not fit the model
+Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options = {},
+                   const DiagnosisProgress& progress = {});
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "runtime/effects/effect_fit.h"
+#include "runtime/effects/effect_law.h"
+
+namespace dyngen::runtime {
+
+enum class Verdict {
+  kClean,                 ///< nothing above the noise
+  kExplained,             ///< findings explain it
+  kUnexplainedStructure,  ///< something is left that no effect explains
+  kInsufficientData       ///< the recordings cannot carry a test
+};
+
+/// Where an effect shows: a range of a variable that holds most of what the model alone leaves.
+struct Whereabouts {
+  std::string variable;     ///< "qd2", "q3", "tau_load2", "t", "distance2"; joints from 1
+  double from = 0, to = 0;  ///< rad, rad/s, N m, s ...
+  /// s: the part of the recordings in which it acts; NaN: all of it
+  double t_from = std::numeric_limits<double>::quiet_NaN();
+  double t_to = std::numeric_limits<double>::quiet_NaN();
+  double share = 0;  ///< of the unexplained energy of its joint that lies in the range, 0 .. 1
+};
+
+/// How strongly the recordings speak for an effect.
+struct Evidence {
+  double lambda = 0;        ///< noncentrality of what a refit of the model does not absorb
+  double delta_bic = 0;     ///< of adding it; negative is better
+  double heldout_gain = 0;  ///< part by which it lowers the held-out rms of its joints
+};
+
+/// A test that a name must pass.
+struct FalsifierOutcome {
+  std::string test;  ///< "vs <= 0.25*v90", "slow_steady"
+  bool passed = true;
+  std::string text;  ///< a sentence
+};
+
+/// Physics that the model left out.
+struct Finding {
+  EffectInstance effect;  ///< with its estimate; family "unknown" never stands here
+  std::vector<EffectParameterFit> parameters;
+  std::vector<std::string> aliases;  ///< families that these data cannot tell apart, its own first
+  double probability = 0;            ///< that the family is right, 0 .. 1
+  double absorbed = 0;               ///< part of its squares that a refit of the model takes up
+  Whereabouts where;
+  Evidence evidence;
+  std::vector<FalsifierOutcome> tests;
+  std::string formula;  ///< of the effect's file; empty where the caller knows it
+  std::string why;      ///< one sentence
+};
+
+/// What no estimate from these data could decide.
+struct Undecidable {
+  std::vector<std::string> families;
+  int joint = -1;  ///< coordinate, from 0; -1: the whole robot
+  std::string why;
+};
+
+/// Structure without a name.
+struct Unexplained {
+  int joint = 0;                       ///< coordinate, from 0
+  std::vector<std::string> variables;  ///< "q4", "qd4", "t", ...; joints from 1
+  double rms = 0;                      ///< N m or N
+  std::string description;             ///< a sentence
+};
+
+/// The smallest size at which an effect that was not found would have been.
+struct CertificateLine {
+  EffectInstance effect;
+  int parameter = -1;
+  double smallest = 0;  ///< of the parameter; inf: never
+};
+
+/// What the findings changed about a parameter of the model.
+struct BaseShift {
+  std::string name;
+  double before = 0, after = 0;
+  double stddev = 0;  ///< of `after`
+};
+
+/// rms of the recorded torque less the model, of recordings that no parameter was fitted to.
+struct HeldoutResidual {
+  Eigen::VectorXd before, after, floor;  ///< (n) N m or N
+};
+
+/// How large the noise of the torque is, and how that is known.
+struct NoiseFloor {
+  Eigen::VectorXd deviation;         ///< (n) N m or N, of the raw torque
+  Eigen::VectorXd correlation_time;  ///< (n) samples that are worth one
+  Eigen::VectorXd worth;             ///< (n) independent samples of the equations
+  bool from_periods = false;         ///< else from what the last model left: a lower bound
+  std::string how;                   ///< a sentence
+};
+
+/// Strength of the test whether there is any structure.
+struct StructureTest {
+  int joint = 0;
+  double statistic = 0, threshold = 0;
+  std::string variable;  ///< in which it is strongest
+};
+
+/// What the recordings are like.
+struct ConditionLine {
+  std::string recording;
+  std::vector<std::string> sentences;
+};
+
+/// A trajectory that would tell the names of a finding apart.
+struct NextExperiment {
+  std::string purpose;    ///< "separate stribeck from presliding on joint 5"; empty: none is needed
+  std::string archetype;  ///< "slow both ways", ...
+  int joint = -1;
+  std::vector<std::string> families;
+};
+
+/// The answer.
+struct Diagnosis {
+  Verdict verdict = Verdict::kInsufficientData;
+  std::string sentence;  ///< the verdict in words
+  std::vector<ConditionLine> condition;
+  NoiseFloor noise;
+  std::vector<StructureTest> before, after;  ///< of every joint: of the model alone, with findings
+  std::vector<Finding> findings;
+  std::vector<Undecidable> undecidable;
+  std::vector<Unexplained> unexplained;
+  std::vector<CertificateLine> certificate;
+  std::vector<BaseShift> base_parameters;
+  HeldoutResidual heldout;
+  NextExperiment next;
+  EffectFit fit;  ///< of the model with the findings, to the training recordings
+};
+
+}  // namespace dyngen::runtime
