@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -199,8 +200,12 @@ class Tangents {
 
 TangentFunction robot_tangents(const DescribedRobot& robot) {
   auto tangents = std::make_shared<Tangents>(robot);
-  return [tangents](const std::string& name, int link, const JointMotion& motion,
-                    const VectorXd& beta) { return (*tangents)(name, link, motion, beta); };
+  auto guard = std::make_shared<std::mutex>();  // programs are written when they are needed
+  return [tangents, guard](const std::string& name, int link, const JointMotion& motion,
+                           const VectorXd& beta) {
+    const std::lock_guard lock(*guard);
+    return (*tangents)(name, link, motion, beta);
+  };
 }
 
 EffectRobot effect_robot(const DescribedRobot& robot) {
