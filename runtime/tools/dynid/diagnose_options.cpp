@@ -2,6 +2,7 @@
 #include "runtime/tools/dynid/diagnose_options.h"
 
 #include <CLI/CLI.hpp>
+#include <cctype>
 
 namespace dyngen::runtime {
 namespace {
@@ -33,7 +34,7 @@ void add_diagnose_options(CLI::App& command, DiagnoseOptions& options) {
   command
       .add_option("--false-alarm", options.diagnosis.false_alarm,
                   "how often a robot without fault may be accused, by the whole diagnosis")
-      ->check(CLI::Range(1e-4, 0.5))
+      ->check(CLI::Range(1e-4, 0.49))
       ->capture_default_str();
   command.add_option("--seed", options.diagnosis.seed, "of the random numbers")
       ->capture_default_str();

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ std::string geared_puma(const std::string& rows) {
 /// A recording of a robot and effects, and what a fit of both says: what a diagnosis ends with.
 struct Diagnosed {
   DescribedRobot robot;
+  MotionSource source;
   EffectRecordings data;
   DiagnosisReport report;
 };
@@ -67,9 +69,9 @@ Diagnosed diagnosed(const std::string& path, std::vector<EffectInstance> effects
   motion.state.method = StateMethod::kRecorded;
   motion.average_periods = false;
   recording.file_name = "made";
-  const MotionSource source = motion_of(std::move(recording), motion);
+  result.source = motion_of(std::move(recording), motion);
   result.data =
-      effect_recordings(result.robot.linear, effect_robot(result.robot), {source}, {}, {});
+      effect_recordings(result.robot.linear, effect_robot(result.robot), {result.source}, {}, {});
   Diagnosis diagnosis;
   diagnosis.sentence = "two effects explain it";
   diagnosis.fit = fit_effects(result.data, effects);
@@ -95,17 +97,10 @@ TEST(ImprovedFile, LeavesTheResidualThatTheDiagnosisSays) {
   const std::string path = written("improved.robot", improved_text(made.report, made.robot));
   const DescribedRobot improved = describe_robot(path, OpenParameters::kAsWritten);
   ASSERT_TRUE(improved.standard.allFinite());
-  EffectRecordings data = made.data;
-  data.model = improved.linear;
-  data.robot = effect_robot(improved);
-  for (EffectRun& run : data.runs) {
-    // the equations of the new file's own base parameters
-    MatrixXd Y;
-    data.model.regressor(run.motion.q, run.motion.dq, run.motion.ddq, Y);
-    run.rows.Y = run.decimator.apply(Y);
-  }
-  EffectPoint point = at_rest(data, improved.grouping * improved.standard,
-                              effect_instances(improved.model, catalogue()));
+  const EffectRecordings data =
+      effect_recordings(improved.linear, effect_robot(improved), {made.source}, {}, {});
+  const EffectPoint point = at_rest(data, improved.grouping * improved.standard,
+                                    effect_instances(improved.model, catalogue()));
   ASSERT_EQ(point.effects.size(), 3u);
   const VectorXd rms = residual_with_effects(data, point);
   for (Index j = 0; j < 3; ++j) EXPECT_NEAR(rms[j], fit.rms[j], 1e-9 * fit.rms[j]);
