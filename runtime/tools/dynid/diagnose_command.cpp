@@ -16,48 +16,47 @@
 namespace dyngen::runtime {
 namespace {
 
-/// Reads recordings as a diagnosis sees them, and notes what each is for.
-class RecordingDesk {
- public:
-  RecordingDesk(const ToolOptions& options, const KnownEffects& known, ProgressLine& progress)
-      : options_(options), known_(known), progress_(progress) {
-    options_.motion.stream_above = std::numeric_limits<std::size_t>::max();
-    // what drifts is seen between periods
-    options_.motion.average_periods = false;
-  }
-
-  std::vector<MotionSource> read(const std::vector<std::string>& paths, const std::string& use) {
-    LoadedRecordings loaded = options_.diagnose.diagnosis.residual_only
-                                  ? unexplained(paths)
-                                  : load_recordings(paths, options_, false, progress_);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      recordings_.push_back({paths[i], use, loaded.lines[i].seconds});
-      loaded.sources[i] = without_effects(loaded.sources[i], known_);
-    }
-    return std::move(loaded.sources);
-  }
-
-  [[nodiscard]] const std::vector<DiagnosedRecording>& recordings() const { return recordings_; }
-
- private:
-  LoadedRecordings unexplained(const std::vector<std::string>& paths) {
-    LoadedRecordings loaded;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      progress_.show("reading " + paths[i], i, paths.size());
-      loaded.sources.push_back(unexplained_motion(paths[i], options_.motion));
-      for (const Notice& notice : loaded.sources.back().condition.repairs) {
-        std::cerr << notice.text() << "\n";
-      }
-      loaded.lines.push_back(describe(loaded.sources.back(), options_, false));
-    }
-    return loaded;
-  }
-
-  ToolOptions options_;
-  const KnownEffects& known_;
-  ProgressLine& progress_;
-  std::vector<DiagnosedRecording> recordings_;
+/// Recordings as a diagnosis sees them, and what each is for.
+struct DiagnosedMotions {
+  std::vector<MotionSource> sources;
+  std::vector<DiagnosedRecording> recordings;
 };
+
+/// How they are read: whole, and without averages, since what drifts is seen between periods.
+ToolOptions reading(ToolOptions options) {
+  options.motion.stream_above = std::numeric_limits<std::size_t>::max();
+  options.motion.average_periods = false;
+  return options;
+}
+
+/// load_recordings() of what another simulator leaves.
+LoadedRecordings load_unexplained(const std::vector<std::string>& paths, const ToolOptions& options,
+                                  ProgressLine& progress) {
+  LoadedRecordings loaded;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    progress.show("reading " + paths[i], i, paths.size());
+    loaded.sources.push_back(unexplained_motion(paths[i], options.motion));
+    for (const Notice& notice : loaded.sources.back().condition.repairs) {
+      std::cerr << notice.text() << "\n";
+    }
+    loaded.lines.push_back(describe(loaded.sources.back(), options, false));
+  }
+  return loaded;
+}
+
+DiagnosedMotions read_motions(const std::vector<std::string>& paths, const std::string& use,
+                              const ToolOptions& options, const KnownEffects& known,
+                              ProgressLine& progress) {
+  const LoadedRecordings loaded = options.diagnose.diagnosis.residual_only
+                                      ? load_unexplained(paths, options, progress)
+                                      : load_recordings(paths, options, false, progress);
+  DiagnosedMotions motions;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    motions.sources.push_back(without_effects(loaded.sources[i], known));
+    motions.recordings.push_back({paths[i], use, loaded.lines[i].seconds});
+  }
+  return motions;
+}
 
 void write_outputs(const ToolOptions& options, const DescribedRobot& robot,
                    DiagnosisReport& report) {
@@ -87,16 +86,23 @@ int run_diagnose(const ToolOptions& options) {
   const EffectCatalogue catalogue = effect_catalogue(options.effects);
   const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAbsentRows);
   const KnownEffects known = known_effects(options.robot, catalogue);
-  RecordingDesk desk(options, known, progress);
+  const ToolOptions how = reading(options);
+  DiagnosedMotions train = read_motions(options.recordings, "fitted", how, known, progress);
+  DiagnosedMotions heldout = read_motions(options.heldout, "held out", how, known, progress);
+  DiagnosedMotions reference =
+      read_motions(options.diagnose.reference, "reference", how, known, progress);
+  std::vector<MotionSource> all = train.sources;
+  std::vector<DiagnosedRecording> recordings = train.recordings;
+  for (const DiagnosedMotions* motions : {&heldout, &reference}) {
+    all.insert(all.end(), motions->sources.begin(), motions->sources.end());
+    recordings.insert(recordings.end(), motions->recordings.begin(), motions->recordings.end());
+  }
   DiagnosisInput input;
   input.model = robot.linear;
   input.robot = effect_robot(robot);
-  input.train = desk.read(options.recordings, "fitted");
-  input.heldout = desk.read(options.heldout, "held out");
-  input.reference = desk.read(options.diagnose.reference, "reference");
-  std::vector<MotionSource> all = input.train;
-  all.insert(all.end(), input.heldout.begin(), input.heldout.end());
-  all.insert(all.end(), input.reference.begin(), input.reference.end());
+  input.train = std::move(train.sources);
+  input.heldout = std::move(heldout.sources);
+  input.reference = std::move(reference.sources);
   input.hypotheses = competing_effects(robot, catalogue, all);
 
   DiagnosisReport report =
@@ -105,7 +111,7 @@ int run_diagnose(const ToolOptions& options) {
                                   progress.show(stage, static_cast<std::size_t>(100 * done), 100);
                                 }),
                        robot, catalogue);
-  report.recordings = desk.recordings();
+  report.recordings = std::move(recordings);
   report.residual_only = settings.residual_only;
   report.false_alarm = settings.false_alarm;
   report.seed = settings.seed;

@@ -27,7 +27,7 @@ std::string where_text(const DiagnosisReport& report, const Whereabouts& where) 
         fmt::format("{}t {:.3g} .. {:.3g} s", text.empty() ? "" : ", ", where.t_from, where.t_to);
   }
   if (!text.empty() && where.share > 0) {
-    text += fmt::format(" ({:.0f} % of what the model leaves there)", 100 * where.share);
+    text += fmt::format(" ({:.0f} % of what the model leaves)", 100 * where.share);
   }
   return text;
 }

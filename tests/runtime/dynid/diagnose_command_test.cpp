@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// dynid diagnose as its users call it, on recordings of a simulated arm.
+// dynid diagnose as its users call it, on recordings whose truth is known.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
+#include <random>
 #include <string>
 
-#include "runtime/recordings/reader.h"
-#include "runtime/recordings/trajectory_file.h"
 #include "runtime/recordings/writer.h"
+#include "runtime/tools/dynid/effect_laws.h"
+#include "runtime/tools/dynid/recorded_effects.h"
 #include "tests/runtime/dynid/diagnosis_schema.h"
+#include "tests/runtime/dynid/multisine.h"
 #include "tests/runtime/dynid/run_dynid.h"
 
 namespace dyngen::runtime {
@@ -50,40 +50,25 @@ class Diagnose : public testing::Test {
     return path(name);
   }
 
-  /// A motion of all joints at five frequencies each.
-  std::string trajectory(double seconds, int seed) const {
-    const Index samples = 1 + std::lround(seconds / 0.01);
-    Trajectory motion;
-    motion.time = Eigen::VectorXd::LinSpaced(samples, 0, seconds);
-    for (auto* part : {&motion.q, &motion.dq, &motion.ddq}) {
-      *part = Eigen::MatrixXd::Zero(samples, 3);
-    }
-    for (Index k = 0; k < samples; ++k) {
-      for (Index j = 0; j < 3; ++j) {
-        for (int f = 1; f <= 5; ++f) {
-          const double w = 2 * std::numbers::pi * (0.1 * f + 0.013 * static_cast<double>(j));
-          const double phase = 1.7 * f * f + 0.9 * static_cast<double>(j) + 2.3 * seed;
-          const double x = w * motion.time[k] + phase, size = 0.45 / std::sqrt(f);
-          motion.q(k, j) += size * std::sin(x);
-          motion.dq(k, j) += size * w * std::cos(x);
-          motion.ddq(k, j) -= size * w * w * std::sin(x);
-        }
-      }
-    }
-    const std::string name = path("motion" + std::to_string(seed) + ".csv");
-    write_trajectory(motion, name);
-    return name;
+  /// A motion of all joints with the torque of a plant that has further rows, and noise.
+  Recording motion(const std::string& rows, std::uint64_t seed, double seconds) const {
+    const DescribedRobot plant =
+        describe_robot(robot("plant.robot", rows), OpenParameters::kAsWritten);
+    Recording recording = test::multisine(
+        plant.linear, plant.grouping * plant.standard,
+        {.seconds = seconds, .sample_time = 0.005, .period = seconds, .size = 1.5, .seed = seed});
+    recording.tau =
+        recorded_torque(plant, effect_instances(plant.model, EffectCatalogue()), recording);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> noise(0, 0.3);
+    for (Index k = 0; k < recording.tau.size(); ++k) recording.tau.data()[k] += noise(random);
+    recording.dq.resize(0, 0);
+    recording.ddq.resize(0, 0);
+    return recording;
   }
-
-  /// A recording of a plant with further rows, under control by the file's model.
-  std::string record(const std::string& name, const std::string& rows, int seed,
-                     double seconds = 24) const {
-    const Outcome run =
-        dynid("simulate " + std::string(kRobot) + " --plant " + robot("plant.robot", rows) +
-              " --trajectory " + trajectory(seconds, seed) + " --controller ct --encoder 1e-5 " +
-              "--torque-noise 0.6,0.6,0.3 --rate 500 --seed " + std::to_string(seed) + " -o " +
-              path(name));
-    EXPECT_EQ(run.exit_code, 0) << run.out;
+  std::string record(const std::string& name, const std::string& rows, std::uint64_t seed,
+                     double seconds = 20) const {
+    write_recording(motion(rows, seed, seconds), path(name));
     return path(name);
   }
 
@@ -107,7 +92,7 @@ TEST_F(Diagnose, NamesFrictionThatTheModelLeavesOut) {
   const Json finding = json()["findings"][0];
   EXPECT_EQ(finding["family"], "load_friction") << run.out;
   EXPECT_EQ(finding["joint"], 3) << run.out;
-  const Json& heldout = json()["heldout"];
+  const Json heldout = json()["heldout"];
   EXPECT_LT(heldout["rms_after"][2].get<double>(), 0.95 * heldout["rms_before"][2].get<double>());
   EXPECT_EQ(test::markup_fault(content(path("d.html"))), "");
   EXPECT_NE(run.out.find("of joint 3, probability"), std::string::npos) << run.out;
@@ -149,24 +134,19 @@ TEST_F(Diagnose, SaysTheSameTwice) {
 }
 
 TEST_F(Diagnose, ExplainsWhatAnotherSimulatorLeaves) {
-  Recording recording = read_recording(record("a.csv", "", 5));
+  Recording recording = motion("", 5, 20);
   const std::string call = path("sim.csv") + " --residual-only";
   write_recording(recording, path("sim.csv"));
   const Outcome without = diagnose(call);
   EXPECT_EQ(without.exit_code, 1);
   EXPECT_NE(without.out.find("there are no columns tausim1 .. tausim3"), std::string::npos)
       << without.out;
-  // a simulator that knows all but the viscous friction's bend
+  // a simulator that knows all but a cable on joint 1
   recording.tau_sim = recording.tau;
-  std::uint32_t state = 1;
-  for (Index k = 0; k < recording.samples(); ++k) {
-    for (Index j = 0; j < 3; ++j) {
-      state = state * 1664525u + 1013904223u;
-      recording.tau_sim(k, j) += 0.2 * (static_cast<double>(state >> 8) / 8388608.0 - 1);
-    }
-    const double q = recording.q(k, 0);
-    recording.tau_sim(k, 0) -= 1.5 * q * q * q;
-  }
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> noise(0, 0.3);
+  for (Index k = 0; k < recording.tau.size(); ++k) recording.tau_sim.data()[k] += noise(random);
+  recording.tau_sim.col(0).array() -= 1.5 * recording.q.col(0).array().cube();
   write_recording(recording, path("sim.csv"));
   const Outcome run = diagnose(call);
   ASSERT_EQ(run.exit_code, 0) << run.out;
@@ -195,7 +175,7 @@ TEST_F(Diagnose, SaysWhatIsWrong) {
 }
 
 TEST_F(Diagnose, RefusesToAnswerFromTooLittle) {
-  const Outcome run = diagnose(record("a.csv", "", 7, 1.5));
+  const Outcome run = diagnose(record("a.csv", "", 7, 5) + " --decimate 40");
   EXPECT_EQ(run.exit_code, 3) << run.out;
   EXPECT_NE(run.out.find("too few"), std::string::npos) << run.out;
   EXPECT_EQ(json()["verdict"], "insufficient_data");
