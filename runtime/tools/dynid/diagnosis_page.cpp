@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -26,11 +27,19 @@ std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() || unit == "1" ? text : text + " " + unit;
 }
 
+/// With a capital and a full stop.
+std::string sentence(std::string text) {
+  if (text.empty()) return text;
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  if (text.back() != '.') text += '.';
+  return text;
+}
+
 std::string verdict_section(const DiagnosisReport& report) {
   std::string text =
       fmt::format("<h1>{}</h1>\n<p class=\"quiet\">{}</p>\n", html_text(report.robot),
                   "Model and recordings compared by dynid diagnose");
-  text += "<p class=\"verdict\">" + html_text(report.diagnosis.sentence) + "</p>\n";
+  text += "<p class=\"verdict\">" + html_text(sentence(report.diagnosis.sentence)) + "</p>\n";
   return text;
 }
 
@@ -111,7 +120,7 @@ std::string finding_section(const DiagnosisReport& report, std::size_t place) {
   std::string text = fmt::format("<div class=\"finding\">\n<h2>{}. {} of {}</h2>\n", place + 1,
                                  html_text(law.name), html_text(answer_place(finding.effect)));
   text += html_paragraph(words.title + " (family " + law.family + ").");
-  text += html_paragraph(finding.why);
+  text += html_paragraph(sentence(finding.why));
   text += small_heading("Where") + html_paragraph(where_sentence(report, finding));
   text += small_heading("How much") + "<pre>";
   for (const std::string& line : words.equations) text += html_text(line) + "\n";
@@ -136,10 +145,10 @@ std::string finding_section(const DiagnosisReport& report, std::size_t place) {
   text += html_table({"", "value", "95 % interval", "unit", ""}, rows);
   text += small_heading("How sure");
   text += html_paragraph(fmt::format(
-      "Probability of the name: {:.2f}. What these recordings cannot "
-      "tell apart: {}.",
-      finding.probability,
-      finding.aliases.empty() ? law.family : fmt::format("{}", fmt::join(finding.aliases, ", "))));
+      "Probability of the name: {:.2f}. {}", finding.probability,
+      finding.aliases.size() < 2 ? "These recordings tell it from every other family."
+                                 : fmt::format("These recordings cannot tell these apart: {}.",
+                                               fmt::join(finding.aliases, ", "))));
   text += html_table(
       {"evidence", "", ""},
       {{word("lambda"), HtmlCell::of(finding.evidence.lambda),
@@ -242,7 +251,7 @@ std::string certificate_section(const DiagnosisReport& report) {
 std::string noise_section(const DiagnosisReport& report) {
   const NoiseFloor& noise = report.diagnosis.noise;
   std::string text = heading("Noise");
-  text += html_paragraph(noise.how);
+  text += html_paragraph(sentence(noise.how));
   std::vector<Row> rows;
   for (int j = 0; j < report.joints() && j < noise.deviation.size(); ++j) {
     rows.push_back({word(fmt::format("joint {}", j + 1)), HtmlCell::of(noise.deviation[j]),

@@ -134,7 +134,9 @@ TEST(DiagnosisPage, EscapesWhatItIsTold) {
 
 TEST(DiagnosisPage, HasEveryPartOfTheAnswer) {
   const std::string page = diagnosis_page(made_report());
-  for (const char* part : {"two effects explain most",
+  for (const char* part : {"Two effects explain most",
+                           "cannot tell these apart: stribeck, presliding.",
+                           "tell it from every",
                            "1. stribeck of joint 2",
                            "2. viscous_coupling of joint 3 with "
                            "joint 2",

@@ -175,7 +175,8 @@ TEST_F(Diagnose, SaysWhatIsWrong) {
 }
 
 TEST_F(Diagnose, RefusesToAnswerFromTooLittle) {
-  const Outcome run = diagnose(record("a.csv", "", 7, 5) + " --decimate 40");
+  const Outcome run = diagnose(record("a.csv", "", 7, 8) + " --holdout " +
+                               record("b.csv", "", 8, 8) + " --decimate 30");
   EXPECT_EQ(run.exit_code, 3) << run.out;
   EXPECT_NE(run.out.find("too few"), std::string::npos) << run.out;
   EXPECT_EQ(json()["verdict"], "insufficient_data");
