@@ -84,16 +84,17 @@ MatrixXd EquationStack::whitened(MatrixXd columns) const {
   return columns;
 }
 
-Projection::Projection(const MatrixXd& W, double tolerance) {
+MatrixXd orthonormal(const MatrixXd& W, double tolerance) {
   VectorXd scale = W.colwise().norm();
   for (double& s : scale) s = s > 0 ? 1 / s : 1;
   const SingularValues svd = decomposed(triangle_of(W) * scale.asDiagonal());
   const Index rank = (svd.values.array() > tolerance * svd.values[0]).count();
-  basis_ = W * (scale.asDiagonal() * svd.V.leftCols(rank) *
-                svd.values.head(rank).cwiseInverse().asDiagonal());
+  MatrixXd basis = W * (scale.asDiagonal() * svd.V.leftCols(rank) *
+                     svd.values.head(rank).cwiseInverse().asDiagonal());
   // once more: what the division by small singular values left of right angles
-  const MatrixXd R = triangle_of(basis_);
-  R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(basis_);
+  const MatrixXd R = triangle_of(basis);
+  R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(basis);
+  return basis;
 }
 
 MatrixXd Projection::rest(const MatrixXd& columns) const {

@@ -44,12 +44,17 @@ class EquationStack {
   Eigen::Index of_joint_ = 0, rows_ = 0;
 };
 
+/// Orthonormal columns of the same span.
+/// @param W  (m x k); directions below `tolerance` of the largest singular value, columns of unit
+///           norm, are not counted
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& W, double tolerance = 1e-9);
+
 /// Takes out of columns what others explain.
 class Projection {
  public:
-  /// @param W  (m x k); directions below `tolerance` of the largest singular value, columns of unit
-  ///           norm, are not counted
-  explicit Projection(const Eigen::MatrixXd& W, double tolerance = 1e-9);
+  /// As orthonormal().
+  explicit Projection(const Eigen::MatrixXd& W, double tolerance = 1e-9)
+      : basis_(orthonormal(W, tolerance)) {}
 
   /// What is left of columns at right angles to W. @param columns  (m x any)
   [[nodiscard]] Eigen::MatrixXd rest(const Eigen::MatrixXd& columns) const;

@@ -7,6 +7,7 @@
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/tool/output_files.h"
 #include "runtime/tools/dynid/commands.h"
+#include "runtime/tools/dynid/fit_with_effects.h"
 #include "runtime/tools/dynid/loading.h"
 
 namespace dyngen::runtime {
@@ -41,14 +42,18 @@ int run_check(const ToolOptions& options) {
   ProgressLine progress("dynid");
   const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAsWritten);
   const VectorXd beta = values_of(robot);
-  const LoadedRecordings loaded = load_recordings(options.recordings, options, false, progress);
+  const EffectTask task = EffectTask::of(robot, options);
+  const LoadedRecordings loaded =
+      load_recordings(options.recordings, task.reading(options), false, progress);
   std::string text = fmt::format("{}: {} joints, {} base parameters, numbers of the file\n",
                                  robot.linear.name, robot.linear.joints(), robot.linear.size());
   Json files = Json::array();
   for (std::size_t i = 0; i < loaded.sources.size(); ++i) {
     progress.show("equations of " + loaded.sources[i].name, i, loaded.sources.size());
-    const TorqueFactor equations = factor_of(rows_of(robot.linear, loaded.sources[i], options.rows),
-                                             robot.linear.columns, robot.linear.size());
+    const RowSource rows = task.effects.empty()
+                               ? rows_of(robot.linear, loaded.sources[i], options.rows)
+                               : rows_beside_effects(task, robot, options, loaded.sources[i], beta);
+    const TorqueFactor equations = factor_of(rows, robot.linear.columns, robot.linear.size());
     const Residual residual = residual_of(equations, beta);
     const RecordingLine& line = loaded.lines[i];
     text += fmt::format(

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 
+#include "gen/diagnostic/diagnostic.h"
+#include "runtime/effects/effect_start.h"
 #include "runtime/tools/dynid/effect_laws.h"
 #include "runtime/tools/dynid/robot_tangents.h"
 
@@ -38,6 +41,18 @@ VectorXd rms_without(const EffectRecordings& data, const EffectPoint& with, cons
 
 FitMethod method_of(const ToolOptions& options) {
   return options.fit.methods.empty() ? FitMethod::kWls : options.fit.methods.front();
+}
+
+/// Joints of effects with states.
+std::vector<bool> remembering_joints(const std::vector<EffectInstance>& effects, int joints) {
+  std::vector<bool> remembering(static_cast<std::size_t>(joints), false);
+  for (const EffectInstance& effect : effects) {
+    if (effect.law.states.empty()) continue;
+    for (const int joint : {effect.joint, effect.other}) {
+      if (joint >= 0) remembering[static_cast<std::size_t>(joint)] = true;
+    }
+  }
+  return remembering;
 }
 
 }  // namespace
@@ -80,18 +95,6 @@ void refuse_with_effects(const ToolOptions& options, bool file_by_file, bool sum
         "the robot file has rows 'effect': expected one of --method wls and --method ls, the "
         "methods that know constraints");
   }
-}
-
-/// Joints of effects with states.
-std::vector<bool> remembering_joints(const std::vector<EffectInstance>& effects, int joints) {
-  std::vector<bool> remembering(static_cast<std::size_t>(joints), false);
-  for (const EffectInstance& effect : effects) {
-    if (effect.law.states.empty()) continue;
-    for (const int joint : {effect.joint, effect.other}) {
-      if (joint >= 0) remembering[static_cast<std::size_t>(joint)] = true;
-    }
-  }
-  return remembering;
 }
 
 void fit_with_effects(const EffectTask& task, const ToolOptions& options,
@@ -144,17 +147,37 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
   if (!effects.fit.converged) {
     fit.messages.push_back("the search for the effects' parameters did not come to its end");
   }
-  if (options.rows.still_speed < 0) {
+  const bool remembers =
+      std::find(remembering.begin(), remembering.end(), true) != remembering.end();
+  if (options.rows.still_speed < 0 && remembers) {
     report.notes.push_back(
         "effects: joints with memory keep their equations where they stand still (--still SPEED "
-        "leaves "
-        "them out)");
+        "leaves them out)");
   }
   if (options.motion.average_periods && !task.reading(options).motion.average_periods) {
     report.notes.push_back("effects: periods are not averaged, since an effect reads the time");
   }
   report.fits = {std::move(fit)};
   report.effects = std::move(effects);
+}
+
+RowSource rows_beside_effects(const EffectTask& task, const DescribedRobot& robot,
+                              const ToolOptions& options, const MotionSource& source,
+                              const VectorXd& beta) {
+  for (const EffectInstance& effect : task.effects) {
+    for (int p = 0; p < effect.law.size(); ++p) {
+      const EffectParameter& parameter = effect.law.parameters[static_cast<std::size_t>(p)];
+      if (parameter.role == EffectRole::kGiven || !std::isnan(effect.parameters[p])) continue;
+      throw ModelError(
+          fmt::format("{}: error: '{}' of effect {} has no number; 'dynid fit' finds it\n",
+                      robot.file.file_name, parameter.name, effect.law.name));
+    }
+  }
+  const EffectRecordings data =
+      effect_recordings(robot.linear, effect_robot(robot), {source}, options.rows,
+                        remembering_joints(task.effects, robot.linear.joints()));
+  const std::vector<EffectInstance> effects = with_starts(ScaleTable(data), beta, task.effects);
+  return shared_rows(without_effects(data, at_rest(data, beta, effects)));
 }
 
 }  // namespace dyngen::runtime

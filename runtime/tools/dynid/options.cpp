@@ -143,6 +143,7 @@ void add_atlas(CLI::App& tool, ToolOptions& options, Words& words) {
 void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* check = tool.add_subcommand("check", "residuals of a robot file, without a fit");
   check->add_option("robot", options.robot, "robot file with numbers")->required();
+  add_effects(*check, options);
   add_recordings(*check, options, "recordings");
   check->add_option("--json", options.json, "all results for programs");
   add_motion_options(*check, options, words);

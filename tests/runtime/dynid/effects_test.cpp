@@ -45,11 +45,24 @@ class Effects : public testing::Test {
     return (folder_ / name).string();
   }
 
-  /// The torque of the robot and of two effects, written down here apart from their files.
-  std::string record(const std::string& name, std::uint64_t seed) {
+  /// A motion and the robot's torque, with velocities and accelerations.
+  Recording without_effects(std::uint64_t seed) const {
     test::MultisineOptions options{
         .seconds = 20, .period = 20, .torque_noise = 0.2, .size = 1.5, .seed = seed};
-    Recording recording = test::multisine(robot_.linear, beta_, options);
+    return test::multisine(robot_.linear, beta_, options);
+  }
+
+  /// Writes positions and torque.
+  std::string written(Recording recording, const std::string& name) const {
+    recording.dq.resize(0, 0);
+    recording.ddq.resize(0, 0);
+    write_recording(recording, path(name));
+    return path(name);
+  }
+
+  /// The torque of the robot and of two effects, written down here apart from their files.
+  std::string record(const std::string& name, std::uint64_t seed) {
+    Recording recording = without_effects(seed);
     Eigen::VectorXd load_beta = beta_;
     for (Index c = 0; c < beta_.size(); ++c) {
       const auto kind = robot_.linear.parameters[static_cast<std::size_t>(c)].kind;
@@ -62,10 +75,7 @@ class Effects : public testing::Test {
       recording.tau(k, 1) += (kFs - coulomb(2)) * std::exp(-x * x) * (v > 0 ? 1 : -1);
       recording.tau(k, 2) += kMu * std::abs(load(k, 2)) * (recording.dq(k, 2) > 0 ? 1 : -1);
     }
-    recording.dq.resize(0, 0);
-    recording.ddq.resize(0, 0);
-    write_recording(recording, path(name));
-    return path(name);
+    return written(std::move(recording), name);
   }
 
   [[nodiscard]] double coulomb(int link) const {
@@ -118,6 +128,13 @@ TEST_F(Effects, OfARobotFileAreFittedTogetherWithItsParameters) {
   EXPECT_NE(identified.find("\neffect stribeck joint=2 Fs="), std::string::npos);
   EXPECT_NE(identified.find("\neffect load_friction joint=3 mu=0.0"), std::string::npos);
   EXPECT_EQ(identified.find("Fs=*"), std::string::npos);
+  const Outcome check = dynid("check " + path("id.robot") + " " + path("b.csv") +
+                              " --period off --json " + path("check.json"));
+  ASSERT_EQ(check.exit_code, 0) << check.out;
+  EXPECT_NEAR(Json::parse(content(path("check.json")))["recordings"][0]["rms"][1].get<double>(),
+              heldout[1].get<double>(), 1e-6);
+  const Outcome open = dynid("check " + file + " " + path("b.csv"));
+  EXPECT_EQ(open.exit_code, 1);
   const Outcome again = dynid("fit " + path("id.robot") + " " + path("a.csv") +
                               " --period off --json " + path("again.json"));
   EXPECT_EQ(again.exit_code, 0) << again.out;
@@ -125,6 +142,48 @@ TEST_F(Effects, OfARobotFileAreFittedTogetherWithItsParameters) {
   EXPECT_NEAR(second["effects"]["list"][0]["parameters"][1]["value"].get<double>(),
               effects[0]["parameters"][1]["value"].get<double>(), 1e-4);
 }
+
+// Friction that falls over the whole range of speeds, to nothing: no Stribeck effect.
+TEST_F(Effects, OfStaticFrictionNeedCoulombFrictionToRiseAbove) {
+  Recording recording = without_effects(4);
+  for (Index k = 0; k < recording.samples(); ++k) {
+    const double v = recording.dq(k, 1), x = v / 2;
+    recording.tau(k, 1) += (10 * std::exp(-x * x) - coulomb(2)) * (v > 0 ? 1 : -1);
+  }
+  const Outcome fit =
+      dynid("fit " + robot("e.robot", "effect stribeck joint=2\n") + " " +
+            written(std::move(recording), "a.csv") + " --period off --json " + path("fit.json"));
+  ASSERT_EQ(fit.exit_code, 0) << fit.out;
+  EXPECT_NE(fit.out.find("held at Fs <= 5*Fc"), std::string::npos) << fit.out;
+  const Json json = Json::parse(content(path("fit.json")));
+  const double Fs = json["effects"]["list"][0]["parameters"][0]["value"].get<double>();
+  double Fc = 0;
+  for (const Json& parameter : json["parameters"]) {
+    if (parameter["name"] == "FS2") Fc = parameter["value"].get<double>();
+  }
+  EXPECT_GT(Fc, 0.5);
+  EXPECT_NEAR(Fs, 5 * Fc, 1e-6 * Fs);
+}
+
+#ifdef DYNGEN_WITH_CERES
+TEST_F(Effects, LeaveTheRestToBodiesThatCanExist) {
+  const std::string file =
+      robot("e.robot", "effect stribeck joint=2\neffect load_friction joint=3\n");
+  const std::string call = "fit " + file + " " + record("a.csv", 1) + " --period off";
+  const Outcome free = dynid(call + " --json " + path("free.json"));
+  const Outcome fit =
+      dynid(call + " --consistent -o " + path("id.robot") + " --json " + path("fit.json"));
+  ASSERT_EQ(free.exit_code, 0) << free.out;
+  ASSERT_EQ(fit.exit_code, 0) << fit.out;
+  const Json json = Json::parse(content(path("fit.json")));
+  const Json freely = Json::parse(content(path("free.json")));
+  // effects are those of the free fit; the bodies explain what is left nearly as well
+  EXPECT_EQ(json["effects"]["list"], freely["effects"]["list"]);
+  ASSERT_FALSE(json["consistent"].is_null());
+  const DescribedRobot identified = describe_robot(path("id.robot"), OpenParameters::kAsWritten);
+  EXPECT_EQ(identified.model.effects.size(), 2u);
+}
+#endif
 
 TEST_F(Effects, ThatCannotBeSeenEndInCode3) {
   const std::string file = robot("e.robot", "effect coulomb_asymmetry joint=1\n");

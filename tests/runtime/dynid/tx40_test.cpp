@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 // The Staubli TX40's recording, against figures that others published or a hand fit reached.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "runtime/identification/fit.h"
 #include "runtime/identification/motion_rows.h"
 #include "runtime/tools/dynid/described_robot.h"
+#include "tests/runtime/dynid/run_dynid.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/temporary_path.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -70,6 +76,29 @@ TEST(Tx40, FindsThePublishedFrictionAndRotors) {
   }
   EXPECT_NEAR(tx40.value(fit, "IA3") / 0.0988, 1, 0.25);
   EXPECT_NEAR(tx40.value(fit, "IA4") / 0.0313, 1, 0.25);
+}
+
+// The recording bends viscous friction, it shows no Stribeck effect: its rows must neither pretend
+// one nor spoil what was not fitted.
+TEST(Tx40, RowsOfStaticFrictionAreFalsifiedAndDoNotHarmTheHeldOutPart) {
+  const auto path = test::shared_data(kFile);
+  if (!path) GTEST_SKIP() << test::skip_sentence(kFile);
+  std::string text = test::content(DYNGEN_SOURCE_DIR "/robots/tx40.robot");
+  text.resize(text.rfind("stop"));
+  for (const int joint : {1, 2, 3}) text += fmt::format("effect stribeck joint={}\n", joint);
+  const std::string robot = test::temporary_path("tx40_stribeck.robot");
+  const std::string json_path = test::temporary_path("tx40_stribeck.json");
+  std::ofstream(robot) << text << "stop\n";
+  const test::Outcome fit =
+      test::dynid(fmt::format("fit {} {} --holdout-part 0.4 --json {}", robot, *path, json_path));
+  ASSERT_EQ(fit.exit_code, 0) << fit.out;
+  EXPECT_NE(fit.out.find("vs <= 0.25*v90 does not hold"), std::string::npos) << fit.out;
+  const auto effects = nlohmann::json::parse(test::content(json_path))["effects"];
+  for (std::size_t j = 0; j < 6; ++j) {
+    EXPECT_LT(effects["heldout_rms"][j].get<double>(),
+              1.02 * effects["heldout_rms_without"][j].get<double>())
+        << "joint " << j + 1;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/competition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "runtime/diagnosis/heldout.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t kRefined = 12;   // candidates whose shapes are refined in a round
+constexpr double kLeastExplained = 0.5;  // part of a joint's structure that a name must explain
+constexpr double kHeldoutGain = 2;     // by which held-out squares must fall
+
+/// One competition's data and what was found so far.
+class Competition {
+ public:
+  Competition(const EffectRecordings& train, const EffectRecordings& heldout,
+              const std::vector<Hypothesis>& hypotheses, const CompetitionOptions& options,
+              const CompetitionProgress& progress)
+      : train_(train),
+        heldout_(heldout),
+        hypotheses_(hypotheses),
+        structures_(generic_structures(train.joints())),
+        options_(options),
+        progress_(progress),
+        scales_(train),
+        signals_(train),
+        repeats_(repeats_of(train)) {}
+
+  CompetitionResult run() {
+    tell("the model alone", 0);
+    result_.base = result_.fit = fit({});
+    for (int round = 0;; ++round) {
+      measure_noise();
+      const EvidenceSystem system = model_system();
+      const std::string stage = round == 0 ? "structure beside the model"
+                                           : "structure beside the model and what was found";
+      Screening screening =
+          screen(train_, signals_, system, scales_, result_.fit.point.beta, hypotheses_,
+                 structures_, [&](double done) { tell(stage, done); });
+      if (round == 0) result_.first = screening;
+      result_.last = screening;
+      if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
+      if (!next_winner(system, screening) && !next_nameless(system, screening)) break;
+    }
+    drop_superfluous();
+    return std::move(result_);
+  }
+
+ private:
+  void tell(const std::string& stage, double done) const {
+    if (progress_) progress_(stage, done);
+  }
+
+  EffectFit fit(const std::vector<EffectInstance>& effects) {
+    EffectFitOptions settings;
+    settings.most_rounds = 2;
+    settings.most_steps = 15;
+    settings.tolerance = 1e-6;
+    return fit_effects(train_, effects, settings);
+  }
+
+  /// Effects of all winners, with their latest estimates.
+  [[nodiscard]] std::vector<EffectInstance> effects() const { return result_.fit.point.effects; }
+
+  void measure_noise() {
+    const RunResiduals residuals = residuals_of(train_, result_.fit.point);
+    VectorXd fitted(train_.joints());
+    for (int j = 0; j < train_.joints(); ++j) {
+      fitted[j] = static_cast<double>(train_.model.columns[static_cast<std::size_t>(j)].size());
+    }
+    if (!options_.with_regressor) fitted.setZero();
+    result_.noise = torque_noise_model(train_, residuals, repeats_, fitted);
+  }
+
+  [[nodiscard]] EvidenceSystem::Options system_options() const {
+    EvidenceSystem::Options options;
+    options.seed = options_.seed;
+    options.with_regressor = options_.with_regressor;
+    return options;
+  }
+
+  EvidenceSystem model_system() {
+    std::vector<Hypothesis> beside;
+    for (const Winner& winner : result_.winners) beside.push_back(hypotheses_[winner.hypothesis]);
+    EvidenceSystem system = system_at(train_, signals_, result_.fit.point, beside, result_.noise,
+                                      system_options());
+    for (const Nameless& nameless : result_.nameless) {
+      system.add(system.whitened(generic_columns(train_, signals_, nameless.structure)));
+    }
+    return system;
+  }
+
+  [[nodiscard]] double net(const NamedResult& result) const {
+    return result.best.score.squares -
+           price_of(hypotheses_[result.hypothesis], result.best.score.degrees, result_.noise);
+  }
+
+  /// Joints on which the columns of a hypothesis act.
+  [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const {
+    return joints_of(hypotheses_[place].effect, train_.joints());
+  }
+
+  /// What generic structure there is on a joint: squares less their expectation under noise.
+  [[nodiscard]] double structure_of(const Screening& screening, int joint) const {
+    double most = 0;
+    for (const GenericResult& generic : screening.generic) {
+      if (structures_[generic.structure].joint != joint) continue;
+      most = std::max(most, generic.score.squares - generic.score.degrees);
+    }
+    return most;
+  }
+
+  bool next_winner(const EvidenceSystem& system, Screening& screening) {
+    std::vector<std::size_t> order;
+    for (const NamedResult& named : screening.named) {
+      if (named.seen && named.best.admissible && !already(named.hypothesis)) {
+        order.push_back(named.hypothesis);
+      }
+    }
+    const auto best_first = [&](std::size_t a, std::size_t b) {
+      return net(screening.named[a]) > net(screening.named[b]);
+    };
+    std::stable_sort(order.begin(), order.end(), best_first);
+    if (order.size() > kRefined) order.resize(kRefined);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      tell("shapes of the strongest effects", static_cast<double>(i) / kRefined);
+      NamedResult& named = screening.named[order[i]];
+      if (screening.family_wise(named.surprise) > 0.5) continue;
+      const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
+      named.best = refined(train_, signals_, system, hypothesis, named.best,
+                           scales_.of(result_.fit.point.beta, hypothesis.effect));
+      named.surprise = surprise_of(named.best.score.squares, named.best.score.degrees);
+    }
+    std::stable_sort(order.begin(), order.end(), best_first);
+    for (const std::size_t place : order) {
+      const NamedResult& named = screening.named[place];
+      if (screening.family_wise(named.surprise) > options_.false_alarm || net(named) <= 0) continue;
+      double structure = 0;
+      for (const int joint : joints_of_hypothesis(place)) {
+        structure = std::max(structure, structure_of(screening, joint));
+      }
+      if (named.best.score.squares < kLeastExplained * structure) continue;
+      if (accept(named, screening)) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool already(std::size_t hypothesis) const {
+    return std::any_of(result_.winners.begin(), result_.winners.end(), [&](const Winner& winner) {
+      return winner.hypothesis == hypothesis;
+    });
+  }
+
+  /// Fits the model with one more effect, and keeps it if held-out recordings agree.
+  bool accept(const NamedResult& named, const Screening& screening) {
+    tell("the model with " + hypothesis_name(named.best.effect), 0);
+    std::vector<EffectInstance> all = effects();
+    all.push_back(named.best.effect);
+    EffectFit next = fit(all);
+    const auto squares = [&](const EffectFit& fitted) {
+      EffectPoint point = fitted.point;
+      point.initial.clear();
+      return whitened_squares(heldout_, residuals_of(heldout_, point), result_.noise);
+    };
+    const double before = squares(result_.fit).sum(), after = squares(next).sum();
+    if (before - after < kHeldoutGain) return false;
+    Winner winner;
+    winner.hypothesis = named.hypothesis;
+    winner.trial = named.best;
+    winner.surprise = named.surprise;
+    winner.heldout_before = before;
+    winner.heldout_after = after;
+    winner.others = screening.named;
+    result_.winners.push_back(std::move(winner));
+    result_.fit = std::move(next);
+    signals_.set_beta(result_.fit.point.beta);
+    signals_.set_tangent_beta(result_.fit.point.beta);
+    return true;
+  }
+
+  /// The strongest structure that nothing explains becomes part of the model, without a name.
+  bool next_nameless(const EvidenceSystem& system, const Screening& screening) {
+    const GenericResult* strongest = nullptr;
+    for (const GenericResult& generic : screening.generic) {
+      if (!strongest || generic.surprise > strongest->surprise) strongest = &generic;
+    }
+    if (!strongest || screening.family_wise(strongest->surprise) > options_.false_alarm) {
+      return false;
+    }
+    const GenericStructure& structure = structures_[strongest->structure];
+    for (const Nameless& before : result_.nameless) {
+      if (before.structure.joint == structure.joint) return false;  // said already
+    }
+    Nameless nameless;
+    nameless.structure = structure;
+    nameless.score = strongest->score;
+    nameless.surprise = strongest->surprise;
+    const JointColumns plain = generic_columns(train_, signals_, structure);
+    const JointColumns white = system.whitened(plain);
+    const VectorXd explained = system.left_of(white, structure.joint) * nameless.score.coefficients;
+    // whitened squares are squares over the innovation's variance
+    const AutoregressiveNoise& noise =
+        result_.noise.joints[static_cast<std::size_t>(structure.joint)];
+    nameless.rms = noise.deviation * std::sqrt(explained.squaredNorm() /
+                                               static_cast<double>(explained.size()));
+    result_.nameless.push_back(std::move(nameless));
+    return true;
+  }
+
+  /// A winner that the others made superfluous leaves.
+  void drop_superfluous() {
+    for (std::size_t i = 0; i < result_.winners.size() && result_.winners.size() > 1;) {
+      EffectPoint rest = result_.fit.point;
+      std::vector<Hypothesis> beside;
+      for (std::size_t k = 0; k < result_.winners.size(); ++k) {
+        if (k != i) beside.push_back(hypotheses_[result_.winners[k].hypothesis]);
+      }
+      rest.effects.erase(rest.effects.begin() + static_cast<std::ptrdiff_t>(i));
+      for (auto& run : rest.initial) run.erase(run.begin() + static_cast<std::ptrdiff_t>(i));
+      const EvidenceSystem system =
+          system_at(train_, signals_, rest, beside, result_.noise, system_options());
+      const Hypothesis& hypothesis = hypotheses_[result_.winners[i].hypothesis];
+      const TrialScore again = try_hypothesis(
+          train_, signals_, system, hypothesis, result_.fit.point.effects[i],
+          scales_.of(result_.fit.point.beta, hypothesis.effect), false);
+      const double surprise = surprise_of(again.score.squares, again.score.degrees);
+      if (result_.last.family_wise(surprise) <= options_.false_alarm) {
+        ++i;
+        continue;
+      }
+      result_.winners.erase(result_.winners.begin() + static_cast<std::ptrdiff_t>(i));
+      result_.fit = fit(rest.effects);
+      signals_.set_beta(result_.fit.point.beta);
+      signals_.set_tangent_beta(result_.fit.point.beta);
+      i = 0;
+    }
+  }
+
+  const EffectRecordings& train_;
+  const EffectRecordings& heldout_;
+  const std::vector<Hypothesis>& hypotheses_;
+  std::vector<GenericStructure> structures_;
+  CompetitionOptions options_;
+  const CompetitionProgress& progress_;
+  ScaleTable scales_;
+  EffectSignals signals_;
+  std::vector<double> repeats_;
+  CompetitionResult result_;
+};
+
+}  // namespace
+
+double price_of(const Hypothesis& hypothesis, int degrees, const TorqueNoiseModel& noise) {
+  const double parameters = degrees + static_cast<double>(hypothesis.shapes.size());
+  return parameters * std::log(std::max(noise.worth.sum(), 2.0));
+}
+
+EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
+                         const EffectPoint& point, const std::vector<Hypothesis>& beside,
+                         const TorqueNoiseModel& noise, const EvidenceSystem::Options& options) {
+  signals.set_beta(point.beta);
+  signals.set_tangent_beta(point.beta);
+  EvidenceSystem system(data, residuals_of(data, point), noise, options);
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    std::vector<int> wanted;
+    for (const int p : beside[i].linear) wanted.push_back(1 + p);
+    for (const int p : beside[i].shapes) {
+      if (!beside[i].windowed) wanted.push_back(1 + p);
+    }
+    system.add(system.whitened(effect_columns(data, signals, point.effects[i], wanted)));
+  }
+  return system;
+}
+
+CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& heldout,
+                          const std::vector<Hypothesis>& hypotheses,
+                          const CompetitionOptions& options,
+                          const CompetitionProgress& progress) {
+  return Competition(train, heldout, hypotheses, options, progress).run();
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "runtime/diagnosis/heldout.h"
+#include "runtime/diagnosis/naming.h"
+#include "runtime/diagnosis/raw_residual.h"
+#include "runtime/diagnosis/undecidable.h"
+#include "runtime/diagnosis/whereabouts.h"
+#include "runtime/effects/absorption.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kHeldPart = 0.2;        // of every recording, where none is held out
+constexpr double kLeastWorth = 30;       // independent samples of a joint beyond its parameters
+constexpr double kUnexplainedPart = 0.2; // of a joint's structure: above it a verdict is open
+
+struct Divided {
+  std::vector<MotionSource> train, heldout;
+};
+
+Divided divided(const DiagnosisInput& input) {
+  if (!input.heldout.empty()) return {input.train, input.heldout};
+  Divided parts;
+  for (const MotionSource& source : input.train) {
+    parts.train.push_back(part_of(source, 0, 1 - kHeldPart));
+    parts.heldout.push_back(part_of(source, 1 - kHeldPart, 1));
+  }
+  return parts;
+}
+
+EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
+                              const DiagnosisOptions& options) {
+  RowOptions rows;
+  rows.decimation = options.decimation;
+  const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
+  return effect_recordings(input.model, input.robot, sources, rows, all);
+}
+
+std::string where_it_acts(const EffectInstance& effect) {
+  if (effect.joint < 0) return "the whole robot";
+  if (effect.other >= 0) {
+    return fmt::format("joints {} and {}", effect.joint + 1, effect.other + 1);
+  }
+  return fmt::format("joint {}", effect.joint + 1);
+}
+
+/// One diagnosis while it is made.
+class Diagnostician {
+ public:
+  Diagnostician(const DiagnosisInput& input, const DiagnosisOptions& options,
+                const DiagnosisProgress& progress)
+      : input_(input),
+        options_(options),
+        progress_(progress),
+        parts_(divided(input)),
+        train_(equations_of(input, parts_.train, options)),
+        heldout_(equations_of(input, parts_.heldout, options)) {}
+
+  Diagnosis run() {
+    describe_condition();
+    if (!enough()) return std::move(answer_);
+    CompetitionOptions settings;
+    settings.false_alarm = options_.false_alarm;
+    settings.most_winners = options_.most_findings;
+    settings.seed = options_.seed;
+    settings.with_regressor = !options_.residual_only;
+    const ScaleTable scales(train_);
+    const VectorXd nothing = VectorXd::Zero(input_.model.size());
+    for (const EffectInstance& effect : input_.hypotheses) {
+      hypotheses_.push_back(hypothesis_of(effect, scales.of(nothing, effect)));
+    }
+    result_ = compete(train_, heldout_, hypotheses_, settings, progress_);
+    describe_noise();
+    describe_tests();
+    describe_findings();
+    describe_unexplained();
+    answer_.undecidable = undecidable_effects(hypotheses_, result_.first, input_.model);
+    describe_certificate();
+    describe_base();
+    describe_heldout();
+    conclude();
+    return std::move(answer_);
+  }
+
+ private:
+  void tell(const std::string& stage, double done) const {
+    if (progress_) progress_(stage, done);
+  }
+
+  void describe_condition() {
+    for (const MotionSource& source : input_.train) {
+      answer_.condition.push_back({source.name, source.condition.messages});
+    }
+  }
+
+  /// Whether there are samples enough to test anything.
+  bool enough() {
+    for (int j = 0; j < input_.model.joints(); ++j) {
+      double rows = 0;
+      for (const EffectRun& run : train_.runs) rows += run.rows.counted.col(j).sum();
+      const auto parameters =
+          static_cast<double>(input_.model.columns[static_cast<std::size_t>(j)].size());
+      if (rows >= kLeastWorth + 2 * parameters) continue;
+      answer_.verdict = Verdict::kInsufficientData;
+      answer_.sentence = fmt::format(
+          "The recordings hold {:.0f} equations of joint {} for {:.0f} parameters: too few to test "
+          "what the model leaves.",
+          rows, j + 1, parameters);
+      return false;
+    }
+    return true;
+  }
+
+  void describe_noise() {
+    const TorqueNoiseModel& noise = result_.noise;
+    answer_.noise.correlation_time.resize(train_.joints());
+    for (int j = 0; j < train_.joints(); ++j) {
+      answer_.noise.correlation_time[j] =
+          noise.joints[static_cast<std::size_t>(j)].correlation_time;
+    }
+    answer_.noise.worth = noise.worth;
+    answer_.noise.from_periods = noise.from_periods;
+    answer_.noise.how = noise.from_periods
+                            ? "from what differs between periods of the same motion"
+                            : "from what the last model leaves: a lower bound of what is missing, "
+                              "since no motion repeats";
+  }
+
+  void describe_tests() {
+    answer_.before = tests_of(result_.first);
+    answer_.after = tests_of(result_.last);
+  }
+
+  std::vector<StructureTest> tests_of(const Screening& screening) const {
+    const std::vector<GenericStructure> structures = generic_structures(train_.joints());
+    std::vector<StructureTest> tests;
+    const double threshold =
+        -std::log(-std::expm1(std::log1p(-options_.false_alarm) / screening.tests));
+    for (int j = 0; j < train_.joints(); ++j) {
+      StructureTest test{j, 0, threshold, ""};
+      for (const GenericResult& generic : screening.generic) {
+        const GenericStructure& structure = structures[generic.structure];
+        if (structure.joint != j || generic.surprise <= test.statistic) continue;
+        test.statistic = generic.surprise;
+        test.variable = fmt::format("{}", fmt::join(structure.names(), ", "));
+      }
+      tests.push_back(test);
+    }
+    return tests;
+  }
+
+  void describe_findings() {
+    answer_.fit = result_.fit;
+    if (result_.winners.empty()) return;
+    tell("the final fit", 0);
+    std::vector<EffectInstance> effects = result_.fit.point.effects;
+    answer_.fit = fit_effects(train_, effects);
+    result_.fit = answer_.fit;
+    EffectSignals signals(train_);
+    EvidenceSystem::Options system;
+    system.seed = options_.seed;
+    system.surrogates = 0;
+    system.with_regressor = !options_.residual_only;
+    for (std::size_t i = 0; i < result_.winners.size(); ++i) {
+      tell("names", static_cast<double>(i) / static_cast<double>(result_.winners.size()));
+      answer_.findings.push_back(finding(i, signals, system));
+    }
+  }
+
+  Finding finding(std::size_t place, EffectSignals& signals, EvidenceSystem::Options& options) {
+    const Winner& winner = result_.winners[place];
+    const Hypothesis& hypothesis = hypotheses_[winner.hypothesis];
+    Finding finding;
+    finding.effect = answer_.fit.point.effects[place];
+    finding.parameters = answer_.fit.parameters[place];
+    const Naming naming = name_winner(train_, signals, hypotheses_, result_, place, options);
+    finding.aliases = naming.families;
+    finding.probability = naming.probability;
+    finding.absorbed = 1 - naming.part_left;
+    finding.evidence = {naming.lambda, naming.delta_bic, 0};
+    EffectPoint without = result_.fit.point;
+    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(place));
+    for (auto& run : without.initial) run.erase(run.begin() + static_cast<std::ptrdiff_t>(place));
+    std::vector<Hypothesis> beside;
+    for (std::size_t k = 0; k < result_.winners.size(); ++k) {
+      if (k != place) beside.push_back(hypotheses_[result_.winners[k].hypothesis]);
+    }
+    const EvidenceSystem system =
+        system_at(train_, signals, without, beside, result_.noise, options);
+    finding.where = whereabouts_of(train_, signals, system, hypothesis, finding.effect);
+    finding.evidence.heldout_gain =
+        1 - std::sqrt(winner.heldout_after / std::max(winner.heldout_before, 1e-300));
+    for (const EffectRemark& remark : answer_.fit.remarks) {
+      if (remark.effect != static_cast<int>(place)) continue;
+      finding.tests.push_back({remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound",
+                               false, remark.text});
+    }
+    finding.why = why(finding, naming);
+    return finding;
+  }
+
+  std::string why(const Finding& finding, const Naming& naming) const {
+    std::string text = fmt::format(
+        "{} on {} explains {:.0f} squares of noise that the model cannot",
+        finding.effect.law.family, where_it_acts(finding.effect), finding.evidence.lambda);
+    if (naming.runner_up.empty()) return text + "; nothing else comes near";
+    if (finding.aliases.size() > 1) {
+      return text + fmt::format("; these data do not tell it from {}", naming.runner_up);
+    }
+    return text + fmt::format("; the next name, {}, is {:.0f} squares worse", naming.runner_up,
+                              naming.distance);
+  }
+
+  void describe_unexplained() {
+    for (const Nameless& nameless : result_.nameless) {
+      Unexplained unexplained;
+      unexplained.joint = nameless.structure.joint;
+      unexplained.variables = nameless.structure.names();
+      unexplained.rms = nameless.rms;
+      unexplained.description = fmt::format(
+          "torque of joint {} that goes with {}, rms {:.3g}, in a shape that no effect of the "
+          "catalogue has",
+          unexplained.joint + 1, fmt::join(unexplained.variables, " and "), unexplained.rms);
+      answer_.unexplained.push_back(std::move(unexplained));
+    }
+  }
+
+  void describe_certificate() {
+    std::set<std::size_t> found;
+    for (const Winner& winner : result_.winners) found.insert(winner.hypothesis);
+    for (const NamedResult& named : result_.last.named) {
+      if (found.contains(named.hypothesis) || named.typical.size() == 0) continue;
+      const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
+      Index main = 0;
+      named.typical.cwiseAbs().maxCoeff(&main);
+      CertificateLine line;
+      line.effect = hypothesis.effect;
+      line.parameter = hypothesis.linear[static_cast<std::size_t>(main)];
+      line.smallest = named.typical_lambda > 0 && named.part_left > 1e-6
+                          ? std::abs(named.typical[main]) *
+                                std::sqrt(kDetectableLambda / named.typical_lambda)
+                          : std::numeric_limits<double>::infinity();
+      answer_.certificate.push_back(std::move(line));
+    }
+  }
+
+  void describe_base() {
+    const VectorXd& before = result_.base.point.beta;
+    const VectorXd deviation =
+        answer_.fit.base.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    for (Index i = 0; i < before.size(); ++i) {
+      answer_.base_parameters.push_back({input_.model.parameters[static_cast<std::size_t>(i)].name,
+                                         before[i], answer_.fit.point.beta[i], deviation[i]});
+    }
+  }
+
+  void describe_heldout() {
+    tell("held-out recordings", 0);
+    EffectPoint before = result_.base.point, after = answer_.fit.point;
+    before.initial.clear();
+    after.initial.clear();
+    answer_.heldout.before = raw_rms(heldout_, raw_residuals(heldout_, before));
+    answer_.heldout.after = raw_rms(heldout_, raw_residuals(heldout_, after));
+    EffectPoint fitted = answer_.fit.point;
+    fitted.initial.clear();
+    answer_.noise.deviation = raw_floor(train_, raw_residuals(train_, fitted), repeats_of(train_));
+    answer_.heldout.floor = answer_.noise.deviation;
+  }
+
+  /// Part of a joint's structure that has no name.
+  [[nodiscard]] double nameless_part(const Nameless& nameless) const {
+    double named = 0;
+    for (std::size_t i = 0; i < result_.winners.size(); ++i) {
+      const std::vector<int> joints =
+          joints_of(hypotheses_[result_.winners[i].hypothesis].effect, train_.joints());
+      if (std::find(joints.begin(), joints.end(), nameless.structure.joint) == joints.end()) {
+        continue;
+      }
+      named += answer_.findings[i].evidence.lambda;
+    }
+    const double left = std::max(0.0, nameless.score.squares - nameless.score.degrees);
+    return left / std::max(left + named, 1e-300);
+  }
+
+  void conclude() {
+    const bool open = std::any_of(result_.nameless.begin(), result_.nameless.end(),
+                                  [&](const Nameless& nameless) {
+                                    return nameless_part(nameless) > kUnexplainedPart;
+                                  });
+    if (open) {
+      answer_.verdict = Verdict::kUnexplainedStructure;
+      answer_.sentence = answer_.findings.empty()
+                             ? "There is structure that no effect of the catalogue explains."
+                             : "Effects were found, and there is structure beside them that none "
+                               "explains.";
+    } else if (!answer_.findings.empty()) {
+      answer_.verdict = Verdict::kExplained;
+      answer_.sentence = fmt::format("{} left-out effect{} explain{} what the model leaves.",
+                                     answer_.findings.size(),
+                                     answer_.findings.size() == 1 ? "" : "s",
+                                     answer_.findings.size() == 1 ? "s" : "");
+    } else {
+      answer_.verdict = Verdict::kClean;
+      answer_.sentence = "Nothing above the noise: the model explains these recordings.";
+    }
+  }
+
+  const DiagnosisInput& input_;
+  const DiagnosisOptions& options_;
+  const DiagnosisProgress& progress_;
+  Divided parts_;
+  EffectRecordings train_, heldout_;
+  std::vector<Hypothesis> hypotheses_;
+  CompetitionResult result_;
+  Diagnosis answer_;
+};
+
+}  // namespace
+
+void DiagnosisOptions::validate() const {
+  if (!(false_alarm > 0 && false_alarm < 0.5)) {
+    throw std::invalid_argument(fmt::format(
+        "DiagnosisOptions: false_alarm is {}, expected a number in (0, 0.5)", false_alarm));
+  }
+  if (most_findings < 0) {
+    throw std::invalid_argument(
+        fmt::format("DiagnosisOptions: most_findings is {}, expected 0 or more", most_findings));
+  }
+}
+
+Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,
+                   const DiagnosisProgress& progress) {
+  options.validate();
+  return Diagnostician(input, options, progress).run();
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/generic_structure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Kind = StructureVariable::Kind;
+
+constexpr int kAlone = 9, kInPairs = 5;  // knots of one variable, and of each of two
+
+EffectInstance of_joint(int joint) {
+  EffectInstance effect;
+  effect.joint = joint;
+  return effect;
+}
+
+/// Quantiles of a variable over all runs, from the smallest to the largest; without repeats.
+std::vector<double> knots_of(const std::vector<VectorXd>& runs, int count) {
+  std::vector<double> all;
+  for (const VectorXd& run : runs) {
+    const Index step = std::max<Index>(1, run.size() / 2000);
+    for (Index k = 0; k < run.size(); k += step) all.push_back(run[k]);
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<double> knots;
+  for (int i = 0; i < count; ++i) {
+    const double place = static_cast<double>(i) / (count - 1) * static_cast<double>(all.size() - 1);
+    const double value = all[static_cast<std::size_t>(place)];
+    if (knots.empty() || value > knots.back()) knots.push_back(value);
+  }
+  return knots;
+}
+
+/// Hat functions between knots, each 1 at its knot; constant beyond the ends. @return (N x knots)
+MatrixXd hats(const VectorXd& x, const std::vector<double>& knots) {
+  const auto count = static_cast<Index>(knots.size());
+  MatrixXd values = MatrixXd::Zero(x.size(), count);
+  if (count == 1) return MatrixXd::Ones(x.size(), 1);
+  for (Index k = 0; k < x.size(); ++k) {
+    const double at = std::clamp(x[k], knots.front(), knots.back());
+    const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, at);
+    const auto high = static_cast<Index>(above - knots.begin());
+    const double low_knot = knots[static_cast<std::size_t>(high - 1)];
+    const double part = (at - low_knot) / (*above - low_knot);
+    values(k, high - 1) = 1 - part;
+    values(k, high) = part;
+  }
+  return values;
+}
+
+/// Travel since the last reversal of a joint, of all samples.
+VectorXd distance_since_reversal(const VectorXd& q, const VectorXd& sign) {
+  VectorXd distance(q.size());
+  double turned = q.size() > 0 ? q[0] : 0;
+  for (Index k = 0; k < q.size(); ++k) {
+    if (k > 0 && sign[k] * sign[k - 1] < 0) turned = q[k];
+    distance[k] = std::abs(q[k] - turned);
+  }
+  return distance;
+}
+
+VectorXd sign_of(const EffectRecordings& data, std::size_t run, int joint) {
+  const EffectRun& here = data.runs[run];
+  return travelled_sign(here.motion.q.col(joint), here.motion.dq.col(joint),
+                        2.5 * here.position_step[joint]);
+}
+
+}  // namespace
+
+std::string variable_name(const StructureVariable& variable) {
+  const int joint = variable.joint + 1;
+  switch (variable.kind) {
+    case Kind::kPosition:
+      return fmt::format("q{}", joint);
+    case Kind::kVelocity:
+      return fmt::format("qd{}", joint);
+    case Kind::kAcceleration:
+      return fmt::format("qdd{}", joint);
+    case Kind::kLoad:
+      return fmt::format("tau_load{}", joint);
+    case Kind::kDistance:
+      return fmt::format("distance{}", joint);
+    case Kind::kTime:
+      break;
+  }
+  return "t";
+}
+
+std::vector<std::string> GenericStructure::names() const {
+  std::vector<std::string> names;
+  for (const StructureVariable& variable : variables) names.push_back(variable_name(variable));
+  const std::string speed = variable_name({Kind::kVelocity, joint});
+  if (times_sign && std::find(names.begin(), names.end(), speed) == names.end()) {
+    names.push_back(speed);
+  }
+  return names;
+}
+
+std::vector<GenericStructure> generic_structures(int joints) {
+  std::vector<GenericStructure> structures;
+  for (int j = 0; j < joints; ++j) {
+    for (const Kind kind : {Kind::kPosition, Kind::kVelocity, Kind::kAcceleration, Kind::kLoad}) {
+      structures.push_back({j, {{kind, j}}, false});
+    }
+    structures.push_back({j, {{Kind::kTime, -1}}, false});
+    for (const Kind kind : {Kind::kPosition, Kind::kAcceleration, Kind::kLoad, Kind::kDistance}) {
+      structures.push_back({j, {{kind, j}}, true});
+    }
+    structures.push_back({j, {{Kind::kTime, -1}}, true});
+    for (int k = 0; k < joints; ++k) {
+      if (k == j) continue;
+      for (const Kind kind : {Kind::kPosition, Kind::kVelocity, Kind::kAcceleration}) {
+        structures.push_back({j, {{kind, k}}, false});
+      }
+      structures.push_back({j, {{Kind::kPosition, k}}, true});
+    }
+    for (int k = 0; k < joints; ++k) {
+      structures.push_back({j, {{Kind::kVelocity, j}, {Kind::kPosition, k}}, false});
+      for (int m = k + 1; m < joints; ++m) {
+        structures.push_back({j, {{Kind::kPosition, k}, {Kind::kPosition, m}}, false});
+      }
+    }
+  }
+  return structures;
+}
+
+VectorXd variable_values(const EffectRecordings& data, EffectSignals& signals, std::size_t run,
+                         const StructureVariable& variable) {
+  const EffectRun& here = data.runs[run];
+  const Motion& motion = here.motion;
+  switch (variable.kind) {
+    case Kind::kPosition:
+      return motion.q.col(variable.joint);
+    case Kind::kVelocity:
+      return motion.dq.col(variable.joint);
+    case Kind::kAcceleration:
+      return motion.ddq.col(variable.joint);
+    case Kind::kDistance:
+      return distance_since_reversal(motion.q.col(variable.joint),
+                                     sign_of(data, run, variable.joint));
+    case Kind::kLoad: {
+      EffectInstance effect = of_joint(variable.joint);
+      effect.law.variables = {"tau_load"};
+      return signals.variables(run, effect, variable.joint).col(0);
+    }
+    case Kind::kTime:
+      break;
+  }
+  return here.time;
+}
+
+JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
+                             const GenericStructure& structure) {
+  const int knots = structure.variables.size() > 1 ? kInPairs : kAlone;
+  std::vector<std::vector<VectorXd>> values;
+  std::vector<std::vector<double>> places;
+  for (const StructureVariable& variable : structure.variables) {
+    values.emplace_back();
+    for (std::size_t run = 0; run < data.runs.size(); ++run) {
+      values.back().push_back(variable_values(data, signals, run, variable));
+    }
+    places.push_back(knots_of(values.back(), knots));
+  }
+  JointColumns columns{{structure.joint}, {}};
+  MatrixXd part;
+  Index start = 0;
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    MatrixXd shape = hats(values[0][run], places[0]);
+    if (structure.variables.size() > 1) {
+      const MatrixXd second = hats(values[1][run], places[1]);
+      MatrixXd both(shape.rows(), shape.cols() * second.cols());
+      for (Index i = 0; i < shape.cols(); ++i) {
+        both.middleCols(i * second.cols(), second.cols()) =
+            shape.col(i).asDiagonal() * second;
+      }
+      shape = std::move(both);
+    }
+    if (structure.times_sign) shape = sign_of(data, run, structure.joint).asDiagonal() * shape;
+    const RowBlock& rows = data.runs[run].rows;
+    if (part.size() == 0) part = MatrixXd::Zero(data.equations(), shape.cols());
+    part.middleRows(start, rows.Y.rows()) =
+        rows.counted.col(structure.joint).asDiagonal() * decimate(data.runs[run].decimator, shape);
+    start += rows.Y.rows();
+  }
+  columns.parts.push_back(std::move(part));
+  return columns;
+}
+
+}  // namespace dyngen::runtime

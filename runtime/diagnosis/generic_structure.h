@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "runtime/evidence/joint_columns.h"
+
+namespace dyngen::runtime {
+
+/// A quantity that torque may depend on, of a joint or of the recording.
+struct StructureVariable {
+  enum class Kind {
+    kPosition,
+    kVelocity,
+    kAcceleration,
+    kLoad,     ///< inertial torque of the model
+    kTime,     ///< s from the recording's first sample
+    kDistance  ///< travelled since the joint's last reversal, rad or m
+  };
+  Kind kind = Kind::kPosition;
+  int joint = -1;  ///< coordinate, from 0; -1 of the time
+
+  bool operator==(const StructureVariable&) const = default;
+};
+
+/// "q2", "qd2", "qdd2", "tau_load2", "distance2", "t"; joints from 1.
+std::string variable_name(const StructureVariable& variable);
+
+/// Torque of a joint as any smooth function of one or two variables: piecewise linear between
+/// quantiles of the recordings, for two variables the products of coarser ones.
+struct GenericStructure {
+  int joint = 0;  ///< coordinate, from 0
+  std::vector<StructureVariable> variables;
+  bool times_sign = false;  ///< times the sign of the joint's velocity
+
+  [[nodiscard]] std::vector<std::string> names() const;
+};
+
+/// Those that are looked at for every joint: its own position, velocity, acceleration, load, time
+/// and distance since reversal, position, velocity and acceleration of the others, friction that
+/// depends on these, and pairs of positions and of a velocity with a position.
+std::vector<GenericStructure> generic_structures(int joints);
+
+/// A variable at all samples of a run. @return (N)
+Eigen::VectorXd variable_values(const EffectRecordings& data, EffectSignals& signals,
+                                std::size_t run, const StructureVariable& variable);
+
+/// Its columns, behind the parallel filter.
+JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
+                             const GenericStructure& structure);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "runtime/effects/effect_fit.h"
+#include "runtime/evidence/torque_noise_model.h"
+
+namespace dyngen::runtime {
+
+/// What a point leaves of the equations, run by run; where they do not count it is 0.
+RunResiduals residuals_of(const EffectRecordings& data, const EffectPoint& point);
+
+/// (n) sums of whitened squares of residuals: in units of the noise's variance.
+Eigen::VectorXd whitened_squares(const EffectRecordings& data, const RunResiduals& residuals,
+                                 const TorqueNoiseModel& noise);
+
+/// (n) rms over the equations that count.
+Eigen::VectorXd rms_of(const EffectRecordings& data, const RunResiduals& residuals);
+
+}  // namespace dyngen::runtime

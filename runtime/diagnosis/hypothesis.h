@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "runtime/effects/effect_constraints.h"
+#include "runtime/evidence/evidence_system.h"
+
+namespace dyngen::runtime {
+
+/// An effect that competes: its torque is linear in some parameters once the others stand.
+struct Hypothesis {
+  EffectInstance effect;    ///< shapes at a trial value; linear parameters at their typical size
+  std::vector<int> linear;  ///< places of the linear parameters (of an effect that has none: of its
+                            ///< shapes, made linear at the typical values)
+  std::vector<int> shapes;  ///< places of what is tried: shapes and scanned parameters
+  bool windowed = false;    ///< what is scanned is when it begins and ends
+  bool ordered = false;     ///< what is scanned is how often it repeats in a turn of the joint
+};
+
+/// "stribeck 2", "motor_coupling 6<-5", "base_tilt"; joints from 1.
+std::string hypothesis_name(const EffectInstance& effect);
+
+/// @param scales  at the model's present estimate
+Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scales);
+
+/// Trial values of the shapes: a grid between the bounds, around the typical values. The shapes of
+/// each entry, in the order of Hypothesis::shapes.
+std::vector<Eigen::VectorXd> shape_grid(const Hypothesis& hypothesis, const EffectScales& scales,
+                                        int values);
+
+/// With other shapes. @param shapes  in the order of Hypothesis::shapes
+EffectInstance with_shapes(const Hypothesis& hypothesis, const Eigen::VectorXd& shapes);
+
+/// A hypothesis at given shapes, beside the model.
+struct TrialScore {
+  Score score;
+  EffectInstance effect;      ///< with the parameters that fit best
+  bool admissible = true;     ///< bounds, requirements and falsifiers hold
+  std::string objection;      ///< which does not
+  Eigen::VectorXd typical;    ///< (linear) sizes less those at which there is no effect
+  double typical_lambda = 0;  ///< noncentrality of the typical size
+};
+
+/// Whitened columns of the linear parameters at given shapes.
+JointColumns hypothesis_columns(const EffectRecordings& data, EffectSignals& signals,
+                                const EvidenceSystem& system, const Hypothesis& hypothesis,
+                                const EffectInstance& trial);
+
+/// @param surrogates  whether the score has those
+/// @throws std::invalid_argument  if a recording lacks what the effect reads
+TrialScore try_hypothesis(const EffectRecordings& data, EffectSignals& signals,
+                          const EvidenceSystem& system, const Hypothesis& hypothesis,
+                          const EffectInstance& trial, const EffectScales& scales,
+                          bool surrogates);
+
+TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score score,
+                     const Products& products, const Eigen::VectorXd& nothing,
+                     const EffectScales& scales);
+
+}  // namespace dyngen::runtime

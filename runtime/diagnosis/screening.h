@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "runtime/diagnosis/generic_structure.h"
+#include "runtime/diagnosis/hypothesis.h"
+
+namespace dyngen::runtime {
+
+/// A named hypothesis beside the model, at the best of its trial shapes.
+struct NamedResult {
+  std::size_t hypothesis = 0;  ///< its place
+  TrialScore best;             ///< of those that are admissible; of all where none is
+  double surprise = 0;         ///< -ln p of the chi-square distribution, at the best shape
+  double typical_lambda = 0;   ///< noncentrality of the typical size, at the typical shapes
+  double part_left = 0;        ///< of the typical size's squares, after the refit of the model
+  Eigen::VectorXd typical;     ///< (linear) typical sizes
+  bool seen = true;            ///< false: the motion does not excite it, or a signal is missing
+};
+
+struct GenericResult {
+  std::size_t structure = 0;  ///< its place
+  Score score;
+  double surprise = 0;
+};
+
+/// Every hypothesis beside one model.
+struct Screening {
+  std::vector<NamedResult> named;      ///< all hypotheses, in their order
+  std::vector<GenericResult> generic;  ///< all structures, in their order
+  /// How many independent tests all of them together are worth, from noise surrogates.
+  double tests = 1;
+
+  /// P that noise alone gives a surprise as large, somewhere among all tests.
+  [[nodiscard]] double family_wise(double surprise) const;
+};
+
+using ScreeningProgress = std::function<void(double done)>;
+
+/// Scores of everything; shapes on a grid.
+Screening screen(const EffectRecordings& data, EffectSignals& signals, const EvidenceSystem& system,
+                 const ScaleTable& scales, const Eigen::VectorXd& beta,
+                 const std::vector<Hypothesis>& hypotheses,
+                 const std::vector<GenericStructure>& structures,
+                 const ScreeningProgress& progress = {});
+
+/// Shapes between the grid's, by a search that halves its steps.
+TrialScore refined(const EffectRecordings& data, EffectSignals& signals,
+                   const EvidenceSystem& system, const Hypothesis& hypothesis, TrialScore best,
+                   const EffectScales& scales);
+
+/// -ln P(X > squares), X of the chi-square distribution; also where P is too small for a double.
+double surprise_of(double squares, int degrees);
+
+}  // namespace dyngen::runtime

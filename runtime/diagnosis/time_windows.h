@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/diagnosis/hypothesis.h"
+
+namespace dyngen::runtime {
+
+/// Scores of a windowed hypothesis (a payload taken up, a contact) over all windows that begin and
+/// end on a grid of times; of one that only begins, those that last to the end of each recording.
+struct WindowScan {
+  double begin = 0, end = 0;   ///< s, of the best window
+  Score score;                 ///< of the best window; surrogates: the largest over all windows
+  bool found = false;
+};
+
+/// Columns are whitened before a window is cut out of them: exact but for the samples at its ends.
+/// @param hypothesis  scanned parameters: when it begins, and when it ends if there are two
+WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
+                        const EvidenceSystem& system, const Hypothesis& hypothesis);
+
+}  // namespace dyngen::runtime

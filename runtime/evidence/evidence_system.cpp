@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/evidence/evidence_system.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "runtime/effects/equation_stack.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Below this part of a column's squares what is left of it is rounding, or as good as nothing.
+constexpr double kAbsorbed = 1e-7;
+
+}  // namespace
+
+Score score_of(const Products& products, bool surrogates) {
+  Score score;
+  const Index k = products.rest.size();
+  score.coefficients = VectorXd::Zero(k);
+  if (surrogates) score.surrogates = VectorXd::Zero(products.noise.cols());
+  const double before = products.whole.trace();
+  if (k == 0 || !(before > 0)) return score;
+  score.part_left = std::clamp(products.left.trace() / before, 0.0, 1.0);
+  // columns of unit length before projection
+  VectorXd scale = products.whole.diagonal().cwiseSqrt();
+  for (double& s : scale) s = s > 0 ? 1 / s : 0;
+  const MatrixXd A = scale.asDiagonal() * products.left * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
+  for (Index i = 0; i < k; ++i) {
+    const double value = eigen.eigenvalues()[i];
+    if (!(value > kAbsorbed)) continue;
+    const VectorXd direction = scale.cwiseProduct(eigen.eigenvectors().col(i));
+    const double along = direction.dot(products.rest);
+    score.squares += along * along / value;
+    score.coefficients += direction * (along / value);
+    ++score.degrees;
+    if (surrogates) {
+      score.surrogates +=
+          (products.noise.transpose() * direction).cwiseAbs2() / value;
+    }
+  }
+  return score;
+}
+
+EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals& residuals,
+                               const TorqueNoiseModel& noise, const Options& options)
+    : data_(data), model_(noise), rows_(data.equations()) {
+  const int n = data.joints();
+  const Index size = data.model.size();
+  rest_.resize(n * rows_);
+  MatrixXd W = MatrixXd::Zero(options.with_regressor ? n * rows_ : 0, size);
+  for (int j = 0; j < n; ++j) {
+    Index start = j * rows_;
+    for (std::size_t run = 0; run < data.runs.size(); ++run) {
+      const RowBlock& block = data.runs[run].rows;
+      const Index count = block.Y.rows();
+      rest_.segment(start, count) = residuals[run].col(j).cwiseProduct(block.counted.col(j));
+      if (options.with_regressor) {
+        for (const int c : data.model.columns[static_cast<std::size_t>(j)]) {
+          W.col(c).segment(start, count) =
+              block.Y.col(j * size + c).cwiseProduct(block.counted.col(j));
+        }
+      }
+      start += count;
+    }
+    MatrixXd own = rest_.segment(j * rows_, rows_);
+    whiten(own, j);
+    rest_.segment(j * rows_, rows_) = own;
+    if (options.with_regressor) whiten(W.middleRows(j * rows_, rows_), j);
+  }
+  std::mt19937_64 random(options.seed);
+  std::normal_distribution<double> normal;
+  noise_.resize(n * rows_, options.surrogates);
+  for (Index i = 0; i < noise_.size(); ++i) noise_.data()[i] = normal(random);
+  basis_.resize(n * rows_, 0);
+  if (options.with_regressor) project(orthonormal(W));
+}
+
+void EvidenceSystem::whiten(Eigen::Ref<MatrixXd> rows, int joint) const {
+  const AutoregressiveNoise& noise = model_.joints[static_cast<std::size_t>(joint)];
+  const Index order = noise.coefficients.size();
+  for (Index c = 0; c < rows.cols(); ++c) {
+    double* x = rows.col(c).data();
+    Index end = rows.rows();
+    // from the last sample on, so that each still finds those before it
+    for (std::size_t run = data_.runs.size(); run-- > 0;) {
+      const Index start = end - data_.runs[run].rows.Y.rows();
+      for (Index t = end - 1; t >= start; --t) {
+        double sum = x[t];
+        const Index inside = std::min(order, t - start);
+        for (Index k = 0; k < inside; ++k) sum -= noise.coefficients[k] * x[t - 1 - k];
+        x[t] = sum / noise.innovation;
+      }
+      end = start;
+    }
+  }
+}
+
+JointColumns EvidenceSystem::whitened(JointColumns columns) const {
+  for (std::size_t i = 0; i < columns.joints.size(); ++i) {
+    whiten(columns.parts[i], columns.joints[i]);
+  }
+  return columns;
+}
+
+void EvidenceSystem::project(const MatrixXd& columns) {
+  rest_ -= columns * (columns.transpose() * rest_);
+  noise_ -= columns * (columns.transpose() * noise_);
+  const Index before = basis_.cols();
+  basis_.conservativeResize(Eigen::NoChange, before + columns.cols());
+  basis_.rightCols(columns.cols()) = columns;
+}
+
+void EvidenceSystem::add(const JointColumns& whitened) {
+  MatrixXd columns = MatrixXd::Zero(basis_.rows(), whitened.columns());
+  for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
+    columns.middleRows(whitened.joints[i] * rows_, rows_) = whitened.parts[i];
+  }
+  const VectorXd before = columns.colwise().norm();
+  for (int pass = 0; pass < 2; ++pass) columns -= basis_ * (basis_.transpose() * columns);
+  for (Index c = 0; c < columns.cols(); ++c) {
+    for (int pass = 0; pass < 2; ++pass) {
+      columns.col(c) -=
+          columns.leftCols(c) * (columns.leftCols(c).transpose() * columns.col(c));
+    }
+    const double left = columns.col(c).norm();
+    if (left > std::sqrt(kAbsorbed) * before[c]) {
+      columns.col(c) /= left;
+    } else {
+      columns.col(c).setZero();
+    }
+  }
+  project(columns);
+}
+
+Products EvidenceSystem::products(const JointColumns& whitened, bool surrogates) const {
+  return products(whitened, 0, rows_, surrogates);
+}
+
+MatrixXd EvidenceSystem::absorbed(const JointColumns& whitened, Index from, Index to) const {
+  MatrixXd inner = MatrixXd::Zero(basis_.cols(), whitened.columns());
+  for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
+    inner += basis_.middleRows(whitened.joints[i] * rows_ + from, to - from).transpose() *
+             whitened.parts[i].middleRows(from, to - from);
+  }
+  return inner;
+}
+
+Products EvidenceSystem::products(const JointColumns& whitened, Index from, Index to,
+                                  bool surrogates) const {
+  const Index k = whitened.columns(), count = to - from;
+  Products products;
+  products.whole = MatrixXd::Zero(k, k);
+  products.rest = VectorXd::Zero(k);
+  products.noise = MatrixXd::Zero(k, surrogates ? noise_.cols() : 0);
+  for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
+    const auto C = whitened.parts[i].middleRows(from, count);
+    const Index first = whitened.joints[i] * rows_ + from;
+    products.whole += C.transpose() * C;
+    products.rest += C.transpose() * rest_.segment(first, count);
+    if (surrogates) products.noise += C.transpose() * noise_.middleRows(first, count);
+  }
+  const MatrixXd inner = absorbed(whitened, from, to);
+  products.left = products.whole - inner.transpose() * inner;
+  return products;
+}
+
+MatrixXd EvidenceSystem::left_of(const JointColumns& whitened, int joint) const {
+  MatrixXd left = -basis_.middleRows(joint * rows_, rows_) * absorbed(whitened, 0, rows_);
+  for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
+    if (whitened.joints[i] == joint) left += whitened.parts[i];
+  }
+  return left;
+}
+
+VectorXd EvidenceSystem::taken() const {
+  VectorXd degrees(data_.joints());
+  for (int j = 0; j < data_.joints(); ++j) {
+    degrees[j] = basis_.middleRows(j * rows_, rows_).squaredNorm();
+  }
+  return degrees;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "runtime/evidence/joint_columns.h"
+#include "runtime/evidence/torque_noise_model.h"
+
+namespace dyngen::runtime {
+
+/// Products of whitened columns with one another and with what the model leaves, after projection.
+struct Products {
+  Eigen::MatrixXd whole;  ///< (k x k) C'C, before projection
+  Eigen::MatrixXd left;   ///< (k x k) C'MC, M takes out what the model can absorb
+  Eigen::VectorXd rest;   ///< (k) C'Mr
+  Eigen::MatrixXd noise;  ///< (k x m) C'M of each noise surrogate
+};
+
+/// What columns explain beside the model.
+struct Score {
+  double squares = 0;           ///< r'P r: how far the whitened squares would fall
+  int degrees = 0;              ///< independent columns that the model does not absorb
+  double part_left = 0;         ///< of the columns' squares, before and after projection
+  Eigen::VectorXd coefficients; ///< (k) of the columns; 0 of those that are absorbed
+  Eigen::VectorXd surrogates;   ///< (m) squares of the noise surrogates
+};
+/// @param surrogates  false: those are left out
+Score score_of(const Products& products, bool surrogates = true);
+
+/// The equations of a model, whitened: regressor, columns of effects that belong to it by now, what
+/// they leave of the torque, and noise of the same kind, projected alike.
+///
+/// After whitening noise is white and of unit variance, so that a surrogate of the recordings under
+/// "nothing is left out" is a vector of standard normal numbers.
+class EvidenceSystem {
+ public:
+  struct Options {
+    int surrogates = 64;
+    std::uint64_t seed = 1;
+    bool with_regressor = true;  ///< false: no parameter of the model is fitted
+  };
+
+  /// @param residuals  of the torque to explain: at the model, or all of it; what the regressor
+  ///                   spans is taken out
+  EvidenceSystem(const EffectRecordings& data, const RunResiduals& residuals,
+                 const TorqueNoiseModel& noise, const Options& options);
+
+  [[nodiscard]] JointColumns whitened(JointColumns columns) const;
+  /// Whitened columns become part of the model.
+  void add(const JointColumns& whitened);
+
+  [[nodiscard]] Products products(const JointColumns& whitened, bool surrogates = true) const;
+  /// The same over a range of rows of every joint alone. @param from, to  as fractions of no run:
+  /// rows of a joint, [from, to)
+  [[nodiscard]] Products products(const JointColumns& whitened, Eigen::Index from,
+                                  Eigen::Index to, bool surrogates) const;
+
+  /// What the model leaves of a joint, whitened. @return (equations)
+  [[nodiscard]] auto rest(int joint) const { return rest_.segment(joint * rows_, rows_); }
+  /// Whitened columns less what the model absorbs, of one joint. @return (equations x k)
+  [[nodiscard]] Eigen::MatrixXd left_of(const JointColumns& whitened, int joint) const;
+  [[nodiscard]] Eigen::Index rows() const { return rows_; }
+  [[nodiscard]] Eigen::Index rank() const { return basis_.cols(); }
+  /// (n) degrees of freedom that the model takes from each joint.
+  [[nodiscard]] Eigen::VectorXd taken() const;
+  /// Inner products of the basis with whitened columns. @return (rank x k)
+  [[nodiscard]] Eigen::MatrixXd absorbed(const JointColumns& whitened, Eigen::Index from,
+                                         Eigen::Index to) const;
+  [[nodiscard]] int surrogates() const { return static_cast<int>(noise_.cols()); }
+
+ private:
+  void whiten(Eigen::Ref<Eigen::MatrixXd> rows, int joint) const;
+  void project(const Eigen::MatrixXd& columns);
+
+  const EffectRecordings& data_;
+  TorqueNoiseModel model_;
+  Eigen::Index rows_ = 0;  // of one joint
+  Eigen::MatrixXd basis_;  // (n rows x rank) orthonormal
+  Eigen::VectorXd rest_;   // (n rows)
+  Eigen::MatrixXd noise_;  // (n rows x m)
+};
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/effects/effect_recordings.h"
+#include "runtime/effects/effect_signals.h"
+
+namespace dyngen::runtime {
+
+/// Columns of the equations of some joints; those of all other joints are zero.
+struct JointColumns {
+  std::vector<int> joints;             ///< ascending
+  std::vector<Eigen::MatrixXd> parts;  ///< of each joint: (equations over all runs x columns)
+
+  [[nodiscard]] Eigen::Index columns() const { return parts.empty() ? 0 : parts.front().cols(); }
+};
+
+/// Torque of an effect and its derivatives by parameters, behind the parallel filter; equations
+/// that do not count are 0. Columns: 1 + np, or only those of `wanted` (0: the torque, 1 + k: by
+/// parameter k).
+/// @throws std::invalid_argument  if a recording lacks what the effect reads
+JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals,
+                            const EffectInstance& effect, const std::vector<int>& wanted);
+
+/// Some of the columns. @param places  of columns
+JointColumns selected(const JointColumns& all, const std::vector<int>& places);
+
+/// All columns of `first`, then those of `second`.
+JointColumns joined(const JointColumns& first, const JointColumns& second);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/effects/effect_recordings.h"
+#include "runtime/estimation/noise_model.h"
+
+namespace dyngen::runtime {
+
+/// Noise of the equations of every joint, and how it is known.
+struct TorqueNoiseModel {
+  std::vector<AutoregressiveNoise> joints;
+  Eigen::VectorXd worth;      ///< (n) independent samples that the equations are worth
+  bool from_periods = false;  ///< from differences between periods: free of what repeats
+};
+
+/// How far apart in equations a motion repeats, of every run; 0: it does not.
+std::vector<double> repeats_of(const EffectRecordings& data);
+
+/// Residuals of a model, run by run: (equations of the run x n).
+using RunResiduals = std::vector<Eigen::MatrixXd>;
+
+/// An autoregressive process for each joint.
+///
+/// Where the motion repeats: of (e_t - e_(t - P)) / sqrt(2), P the period, in which all that the
+/// motion determines cancels, whether a model knows it or not. Elsewhere of the residual itself,
+/// which still holds what the model left out: an upper bound of the noise where there is structure,
+/// and made larger by what the fit took away.
+/// @param repeats   of repeats_of()
+/// @param fitted    (n) how many degrees of freedom the fit took from the equations of each joint
+/// @throws std::invalid_argument  if the residual of a joint is 0
+TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResiduals& residuals,
+                                    const std::vector<double>& repeats,
+                                    const Eigen::VectorXd& fitted);
+
+}  // namespace dyngen::runtime
