@@ -32,6 +32,7 @@ class Competition {
         progress_(progress),
         scales_(train),
         signals_(train),
+        coarse_(train),
         repeats_(repeats_of(train)) {}
 
   CompetitionResult run() {
@@ -40,10 +41,12 @@ class Competition {
     for (int round = 0;; ++round) {
       measure_noise();
       const EvidenceSystem system = model_system();
+      coarse_.signals().set_beta(result_.fit.point.beta);
+      coarse_.signals().set_tangent_beta(result_.fit.point.beta);
       const std::string stage = round == 0 ? "structure beside the model"
                                            : "structure beside the model and what was found";
       Screening screening =
-          screen(train_, signals_, system, scales_, result_.fit.point.beta, hypotheses_,
+          screen(train_, signals_, coarse_, system, scales_, result_.fit.point.beta, hypotheses_,
                  structures_, [&](double done) { tell(stage, done); });
       if (round == 0) result_.first = screening;
       result_.last = screening;
@@ -181,8 +184,6 @@ class Competition {
     winner.others = screening.named;
     result_.winners.push_back(std::move(winner));
     result_.fit = std::move(next);
-    signals_.set_beta(result_.fit.point.beta);
-    signals_.set_tangent_beta(result_.fit.point.beta);
     return true;
   }
 
@@ -238,8 +239,6 @@ class Competition {
       }
       result_.winners.erase(result_.winners.begin() + static_cast<std::ptrdiff_t>(i));
       result_.fit = fit(rest.effects);
-      signals_.set_beta(result_.fit.point.beta);
-      signals_.set_tangent_beta(result_.fit.point.beta);
       i = 0;
     }
   }
@@ -252,6 +251,7 @@ class Competition {
   const CompetitionProgress& progress_;
   ScaleTable scales_;
   EffectSignals signals_;
+  CoarseLook coarse_;
   std::vector<double> repeats_;
   CompetitionResult result_;
 };

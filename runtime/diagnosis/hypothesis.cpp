@@ -73,6 +73,7 @@ Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scale
       times = times && parameter.role == EffectRole::kScanned && parameter.unit == "s";
     }
   }
+  hypothesis.held = !hypothesis.linear.empty();
   if (hypothesis.linear.empty()) std::swap(hypothesis.linear, hypothesis.shapes);
   hypothesis.windowed = times && !hypothesis.shapes.empty();
   return hypothesis;
@@ -96,7 +97,7 @@ std::vector<VectorXd> shape_grid(const Hypothesis& hypothesis, const EffectScale
     const double typical = sizes.typical[p];
     double low = sizes.min[p], high = sizes.max[p];
     const bool logarithmic = parameter.logarithmic && typical > 0;
-    int count = values;
+    int count = hypothesis.shapes.size() > 2 ? 2 : hypothesis.shapes.size() > 1 ? 3 : values;
     if (parameter.role == EffectRole::kScanned) {
       count = std::max(values, std::min(parameter.grid, 40));
     } else {
@@ -126,7 +127,7 @@ JointColumns hypothesis_columns(const EffectRecordings& data, EffectSignals& sig
                                 const EffectInstance& trial) {
   std::vector<int> wanted;
   for (const int p : hypothesis.linear) wanted.push_back(1 + p);
-  return system.whitened(effect_columns(data, signals, trial, wanted));
+  return system.whitened(effect_columns(data, signals, trial, wanted, hypothesis.held));
 }
 
 TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score score,
@@ -170,7 +171,7 @@ TrialScore try_hypothesis(const EffectRecordings& data, EffectSignals& signals,
                           bool surrogates) {
   std::vector<int> wanted = {0};
   for (const int p : hypothesis.linear) wanted.push_back(1 + p);
-  JointColumns plain = effect_columns(data, signals, trial, wanted);
+  JointColumns plain = effect_columns(data, signals, trial, wanted, hypothesis.held);
   const VectorXd nothing = null_values(plain, hypothesis, trial.parameters);
   for (MatrixXd& part : plain.parts) part = part.rightCols(part.cols() - 1).eval();
   const Products products = system.products(system.whitened(std::move(plain)), surrogates);

@@ -16,6 +16,7 @@ struct Hypothesis {
   std::vector<int> linear;  ///< places of the linear parameters (of an effect that has none: of its
                             ///< shapes, made linear at the typical values)
   std::vector<int> shapes;  ///< places of what is tried: shapes and scanned parameters
+  bool held = true;         ///< no state depends on the linear parameters
   bool windowed = false;    ///< what is scanned is when it begins and ends
   bool ordered = false;     ///< what is scanned is how often it repeats in a turn of the joint
 };

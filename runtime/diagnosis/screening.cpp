@@ -82,8 +82,8 @@ double Screening::family_wise(double surprise) const {
   return -std::expm1(tests * std::log1p(-std::exp(-surprise)));
 }
 
-Screening screen(const EffectRecordings& data, EffectSignals& signals, const EvidenceSystem& system,
-                 const ScaleTable& scales, const VectorXd& beta,
+Screening screen(const EffectRecordings& data, EffectSignals& signals, CoarseLook& coarse,
+                 const EvidenceSystem& system, const ScaleTable& scales, const VectorXd& beta,
                  const std::vector<Hypothesis>& hypotheses,
                  const std::vector<GenericStructure>& structures,
                  const ScreeningProgress& progress) {
@@ -100,16 +100,19 @@ Screening screen(const EffectRecordings& data, EffectSignals& signals, const Evi
     NamedResult result;
     result.hypothesis = h;
     const EffectScales here = scales.of(beta, hypothesis.effect);
+    const bool fine = !hypothesis.effect.law.states.empty() || hypothesis.ordered;
+    const EffectRecordings& looked_at = fine ? data : coarse.data();
+    EffectSignals& read = fine ? signals : coarse.signals();
     try {
       TrialScore typical =
-          try_hypothesis(data, signals, system, hypothesis, hypothesis.effect, here, false);
+          try_hypothesis(looked_at, read, system, hypothesis, hypothesis.effect, here, false);
       remember_typical(typical, result);
       if (hypothesis.windowed) {
-        const WindowScan scan = scan_windows(data, signals, system, hypothesis);
+        const WindowScan scan = scan_windows(looked_at, read, system, hypothesis);
         VectorXd window(static_cast<Index>(hypothesis.shapes.size()));
         window[0] = scan.begin;
         if (window.size() > 1) window[1] = scan.end;
-        result.best = try_hypothesis(data, signals, system, hypothesis,
+        result.best = try_hypothesis(looked_at, read, system, hypothesis,
                                      with_shapes(hypothesis, window), here, false);
         noise.add(scan.score.surrogates, scan.score.degrees);
       } else {
@@ -127,7 +130,7 @@ Screening screen(const EffectRecordings& data, EffectSignals& signals, const Evi
           grid = shape_grid(hypothesis, here, kGrid);
         }
         for (const VectorXd& shapes : grid) {
-          TrialScore trial = try_hypothesis(data, signals, system, hypothesis,
+          TrialScore trial = try_hypothesis(looked_at, read, system, hypothesis,
                                             with_shapes(hypothesis, shapes), here, true);
           noise.add(trial.score.surrogates, trial.score.degrees);
           if (first || better(trial, result.best)) result.best = std::move(trial);
@@ -148,7 +151,7 @@ Screening screen(const EffectRecordings& data, EffectSignals& signals, const Evi
     GenericResult result;
     result.structure = s;
     result.score = score_of(
-        system.products(system.whitened(generic_columns(data, signals, structures[s]))));
+        system.products(system.whitened(generic_columns(coarse.data(), coarse.signals(), structures[s]))));
     noise.add(result.score.surrogates, result.score.degrees);
     result.surprise = surprise_of(result.score.squares, result.score.degrees);
     screening.generic.push_back(std::move(result));

@@ -40,8 +40,25 @@ struct Screening {
 
 using ScreeningProgress = std::function<void(double done)>;
 
-/// Scores of everything; shapes on a grid.
-Screening screen(const EffectRecordings& data, EffectSignals& signals, const EvidenceSystem& system,
+/// Recordings for a first look, and their signals.
+class CoarseLook {
+ public:
+  explicit CoarseLook(const EffectRecordings& data) : data_(at_equations(data)), signals_(data_) {}
+  CoarseLook(const CoarseLook&) = delete;
+  CoarseLook& operator=(const CoarseLook&) = delete;
+
+  [[nodiscard]] const EffectRecordings& data() const { return data_; }
+  [[nodiscard]] EffectSignals& signals() { return signals_; }
+
+ private:
+  EffectRecordings data_;
+  EffectSignals signals_;
+};
+
+/// Scores of everything; shapes on a grid. Effects without memory, and structures, are looked at
+/// at the equations alone; those that remember or repeat with position at all samples.
+Screening screen(const EffectRecordings& data, EffectSignals& signals, CoarseLook& coarse,
+                 const EvidenceSystem& system,
                  const ScaleTable& scales, const Eigen::VectorXd& beta,
                  const std::vector<Hypothesis>& hypotheses,
                  const std::vector<GenericStructure>& structures,

@@ -67,6 +67,9 @@ struct EffectTorque {
 
 struct EffectWanted {
   bool by_parameter = false, by_variable = false, by_initial = false;
+  /// Derivatives by parameters with the states as they are. Exact for those of role kLinear, on
+  /// which no state of a catalogue's effect depends, and several times as fast.
+  bool states_held = false;
 };
 
 /// A physical effect as estimation and simulation see it, made of its effect file.

@@ -373,7 +373,7 @@ EffectEquations linearised(const EffectRecordings& data, EffectSignals& signals,
 }
 
 EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signals, std::size_t run,
-                             const EffectInstance& effect) {
+                             const EffectInstance& effect, bool states_held) {
   const EffectRun& here = data.runs[run];
   const Index np = effect.law.size();
   EffectSignature signature;
@@ -381,6 +381,7 @@ EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signal
     VectorXd state = VectorXd::Zero(static_cast<Index>(effect.law.states.size()));
     EffectWanted wanted;
     wanted.by_parameter = true;
+    wanted.states_held = states_held;
     const EffectTorque torque =
         effect.law.evaluate(signals.variables(run, effect, application.target), effect.parameters,
                             here.motion.sample_time, state, wanted);

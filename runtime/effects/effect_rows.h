@@ -77,9 +77,10 @@ struct EffectSignature {
   /// Of each of these joints, (equations x 1 + np): torque, then its derivatives.
   std::vector<Eigen::MatrixXd> columns;
 };
-/// @param run  its states begin at 0
+/// @param run          its states begin at 0
+/// @param states_held  as of EffectWanted
 EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signals, std::size_t run,
-                             const EffectInstance& effect);
+                             const EffectInstance& effect, bool states_held = false);
 
 /// x(t + shift) of a band-limited signal: interpolation by a windowed sinc of 32 samples, which
 /// needs 16 of them on both sides; beyond its ends the signal is continued as constant.

@@ -37,7 +37,7 @@ Score score_of(const Products& products, bool surrogates = true);
 class EvidenceSystem {
  public:
   struct Options {
-    int surrogates = 64;
+    int surrogates = 32;
     std::uint64_t seed = 1;
     bool with_regressor = true;  ///< false: no parameter of the model is fitted
   };

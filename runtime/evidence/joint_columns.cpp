@@ -13,13 +13,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals,
-                            const EffectInstance& effect, const std::vector<int>& wanted) {
+                            const EffectInstance& effect, const std::vector<int>& wanted,
+                            bool states_held) {
   std::map<int, MatrixXd> parts;
   Index start = 0;
   const auto width = static_cast<Index>(wanted.size());
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     const RowBlock& rows = data.runs[run].rows;
-    const EffectSignature signature = signature_of(data, signals, run, effect);
+    const EffectSignature signature = signature_of(data, signals, run, effect, states_held);
     for (std::size_t i = 0; i < signature.joints.size(); ++i) {
       const int joint = signature.joints[i];
       MatrixXd& part = parts[joint];
@@ -39,6 +40,23 @@ JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals
     columns.parts.push_back(std::move(part));
   }
   return columns;
+}
+
+EffectRecordings at_equations(const EffectRecordings& data) {
+  EffectRecordings coarse = data;
+  for (EffectRun& run : coarse.runs) {
+    const Index first = first_sample(run.decimator), factor = run.decimator.factor;
+    const auto places = Eigen::seqN(first, run.rows.Y.rows(), factor);
+    Motion& motion = run.motion;
+    motion.sample_time *= static_cast<double>(factor);
+    motion.time = motion.time(places).eval();
+    run.time = run.time(places).eval();
+    for (MatrixXd* signal : {&motion.q, &motion.dq, &motion.ddq, &motion.tau, &motion.temperature}) {
+      if (signal->size() != 0) *signal = (*signal)(places, Eigen::all).eval();
+    }
+    run.decimator = design_decimator(1);
+  }
+  return coarse;
 }
 
 JointColumns selected(const JointColumns& all, const std::vector<int>& places) {

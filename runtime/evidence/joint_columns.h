@@ -20,9 +20,15 @@ struct JointColumns {
 /// Torque of an effect and its derivatives by parameters, behind the parallel filter; equations
 /// that do not count are 0. Columns: 1 + np, or only those of `wanted` (0: the torque, 1 + k: by
 /// parameter k).
+/// @param states_held  as of EffectWanted
 /// @throws std::invalid_argument  if a recording lacks what the effect reads
 JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals,
-                            const EffectInstance& effect, const std::vector<int>& wanted);
+                            const EffectInstance& effect, const std::vector<int>& wanted,
+                            bool states_held = false);
+
+/// The recordings with the motion at the equations alone and no filter: what a first look at an
+/// effect without memory needs. Equations stay as they are.
+EffectRecordings at_equations(const EffectRecordings& data);
 
 /// Some of the columns. @param places  of columns
 JointColumns selected(const JointColumns& all, const std::vector<int>& places);
