@@ -187,6 +187,7 @@ class Descent {
     result.length = static_cast<int>(token.text.size());
     try {
       result.number = ExactNumber::from_decimal(token.text).exact();
+      result.value = GiNaC::ex_to<GiNaC::numeric>(result.number).to_double();
     } catch (const ArithmeticError& error) {
       throw Wrong{token, error.what(), error.hint()};
     }
@@ -367,9 +368,7 @@ ex to_algebra(const EffectExpression& expression,
 
 double evaluate(const EffectExpression& expression,
                 const std::function<double(const std::string&)>& value_of) {
-  if (expression.kind == Kind::kNumber) {
-    return GiNaC::ex_to<GiNaC::numeric>(expression.number).to_double();
-  }
+  if (expression.kind == Kind::kNumber) return expression.value;
   if (expression.kind == Kind::kName) {
     return expression.name == "pi" ? std::numbers::pi : value_of(expression.name);
   }
@@ -405,7 +404,7 @@ std::string spell(const EffectExpression& expression) {
   };
   switch (expression.kind) {
     case Kind::kNumber:
-      return fmt::format("{}", GiNaC::ex_to<GiNaC::numeric>(expression.number).to_double());
+      return fmt::format("{}", expression.value);
     case Kind::kName:
       return expression.name;
     case Kind::kNegate:

@@ -27,6 +27,7 @@ struct EffectExpression {
   Kind kind = Kind::kNumber;
   std::string name{};    ///< of kName and kCall
   GiNaC::ex number = 0;  ///< of kNumber: exact
+  double value = 0;      ///< of kNumber: the nearest double, which any thread may read
   std::vector<EffectExpression> operands{};
   SourcePosition position{};  ///< of the number, the name or the operator
   int length = 1;

@@ -16,8 +16,9 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kRefined = 12;   // candidates whose shapes are refined in a round
 constexpr double kLeastExplained = 0.5;  // part of a joint's structure that a name must explain
+constexpr int kAttempts = 4;           // effects that are fitted in a round before it gives up
 constexpr double kTie = 0.5;           // squares that decide nothing
-constexpr std::size_t kRivals = 8;     // that are compared again once the winner is fitted
+constexpr std::size_t kRivals = 5;     // that are compared again once the winner is fitted
 constexpr double kHeldoutGain = 2;     // by which held-out squares must fall
 
 /// One competition's data and what was found so far.
@@ -151,14 +152,17 @@ class Competition {
       named.surprise = surprise_of(named.best.score.squares, named.best.score.degrees);
     }
     std::stable_sort(order.begin(), order.end(), best_first);
+    int attempts = 0;
     for (const std::size_t place : order) {
       const NamedResult& named = screening.named[place];
+      if (attempts == kAttempts) break;
       if (screening.family_wise(named.surprise) > options_.false_alarm || net(named) <= 0) continue;
       double structure = 0;
       for (const int joint : joints_of_hypothesis(place)) {
         structure = std::max(structure, structure_of(screening, joint));
       }
       if (named.best.score.squares < kLeastExplained * structure) continue;
+      ++attempts;
       if (accept(settled(named, order, screening), screening)) return true;
     }
     return false;

@@ -92,7 +92,6 @@ class Diagnostician {
     }
     result_ = compete(train_, heldout_, hypotheses_, settings, progress_);
     describe_noise();
-    if (!worth_enough()) return std::move(answer_);
     describe_tests();
     describe_findings();
     describe_changes();
@@ -134,8 +133,9 @@ class Diagnostician {
     return true;
   }
 
-  /// Whether slow noise leaves independent samples enough.
+  /// Whether slow noise leaves independent samples enough to call recordings clean.
   bool worth_enough() {
+    if (!result_.winners.empty() || !result_.nameless.empty()) return true;
     Index joint = 0;
     const double least = result_.noise.worth.minCoeff(&joint);
     if (least >= kLeastIndependent) return true;
@@ -329,6 +329,7 @@ class Diagnostician {
   }
 
   void conclude() {
+    if (!worth_enough()) return;
     const bool open = std::any_of(result_.nameless.begin(), result_.nameless.end(),
                                   [&](const Nameless& nameless) {
                                     return nameless_part(nameless) > kUnexplainedPart;

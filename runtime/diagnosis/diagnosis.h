@@ -28,7 +28,7 @@ struct DiagnosisInput {
 
 struct DiagnosisOptions {
   double false_alarm = 0.01;  ///< of the whole diagnosis, 0 .. 0.5
-  int most_findings = 4;
+  int most_findings = 6;
   /// The regressor's parameters are not fitted: torque is what another simulator left unexplained.
   bool residual_only = false;
   Eigen::Index decimation = 0;  ///< as RowOptions

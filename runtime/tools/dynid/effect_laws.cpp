@@ -275,13 +275,14 @@ EffectCondition condition_of(const ::dyngen::EffectCondition& condition,
   for (const auto& parameter : parameters) {
     place.emplace(parameter.name, static_cast<Index>(place.size()));
   }
-  result.slack = [left = condition.left, right = condition.right, place](
-                     const VectorXd& p, const EffectScales& scales) {
+  // shared: GiNaC counts references without locks, and laws are copied by several threads
+  const auto sides = std::make_shared<const ::dyngen::EffectCondition>(condition);
+  result.slack = [sides, place](const VectorXd& p, const EffectScales& scales) {
     const auto value = [&](const std::string& name) {
       const auto found = place.find(name);
       return found == place.end() ? scale_value(scales, name) : p[found->second];
     };
-    return evaluate(right, value) - evaluate(left, value);
+    return evaluate(sides->right, value) - evaluate(sides->left, value);
   };
   return result;
 }
@@ -322,8 +323,9 @@ EffectLaw effect_law(const EffectFile& effect) {
   for (const auto& condition : effect.falsifiers) {
     law.falsifiers.push_back(condition_of(condition, effect.parameters));
   }
-  law.sizes = [parameters = effect.parameters](const EffectScales& scales) {
-    return sizes_of(parameters, scales);
+  law.sizes = [parameters = std::make_shared<const std::vector<::dyngen::EffectParameter>>(
+                   effect.parameters)](const EffectScales& scales) {
+    return sizes_of(*parameters, scales);
   };
   law.evaluate = EffectEvaluation(effect);
   law.moment = EffectMoment(effect);
