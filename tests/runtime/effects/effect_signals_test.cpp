@@ -124,6 +124,18 @@ TEST(EffectSignals, ASignTurnsOnlyAfterAWay) {
   for (Index k = 0; k < 600; ++k) EXPECT_EQ(plain[k], dq[k] > 0 ? 1 : dq[k] < 0 ? -1 : 0);
 }
 
+TEST(EffectSignals, ASignTurnsWhereTheVelocityDoes) {
+  // slow and exact: the band is only left a dozen samples after the turn
+  VectorXd q(400), dq(400);
+  for (Index k = 0; k < 400; ++k) {
+    const double t = 1e-3 * (static_cast<double>(k) - 199.5);
+    q[k] = -t * t;
+    dq[k] = -2 * t;
+  }
+  const VectorXd sign = travelled_sign(q, dq, 1e-4);
+  for (Index k = 0; k < 400; ++k) EXPECT_EQ(sign[k], k < 200 ? 1 : -1) << k;
+}
+
 TEST(EffectSignals, WhatARecordingLacksIsSaid) {
   const EffectRecordings data = recordings(moving());
   EffectSignals signals(data);
