@@ -16,6 +16,8 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kRefined = 12;   // candidates whose shapes are refined in a round
 constexpr double kLeastExplained = 0.5;  // part of a joint's structure that a name must explain
+constexpr double kTie = 0.5;           // squares that decide nothing
+constexpr std::size_t kRivals = 8;     // that are compared again once the winner is fitted
 constexpr double kHeldoutGain = 2;     // by which held-out squares must fall
 
 /// One competition's data and what was found so far.
@@ -32,7 +34,7 @@ class Competition {
         progress_(progress),
         scales_(train),
         signals_(train),
-        coarse_(train),
+        screening_data_(train),
         repeats_(repeats_of(train)) {}
 
   CompetitionResult run() {
@@ -41,13 +43,11 @@ class Competition {
     for (int round = 0;; ++round) {
       measure_noise();
       const EvidenceSystem system = model_system();
-      coarse_.signals().set_beta(result_.fit.point.beta);
-      coarse_.signals().set_tangent_beta(result_.fit.point.beta);
       const std::string stage = round == 0 ? "structure beside the model"
                                            : "structure beside the model and what was found";
-      Screening screening =
-          screen(train_, signals_, coarse_, system, scales_, result_.fit.point.beta, hypotheses_,
-                 structures_, [&](double done) { tell(stage, done); });
+      Screening screening = screen(screening_data_, system, scales_, result_.fit.point.beta,
+                                   hypotheses_, structures_, round == 0 ? nullptr : &result_.first,
+                                   [&](double done) { tell(stage, done); });
       if (round == 0) result_.first = screening;
       result_.last = screening;
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
@@ -106,6 +106,10 @@ class Competition {
            price_of(hypotheses_[result.hypothesis], result.best.score.degrees, result_.noise);
   }
 
+  [[nodiscard]] std::size_t size_of(std::size_t hypothesis) const {
+    return hypotheses_[hypothesis].linear.size() + hypotheses_[hypothesis].shapes.size();
+  }
+
   /// Joints on which the columns of a hypothesis act.
   [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const {
     return joints_of(hypotheses_[place].effect, train_.joints());
@@ -128,8 +132,12 @@ class Competition {
         order.push_back(named.hypothesis);
       }
     }
+    // of effects that are as good as one another the one with fewer parameters, then the first
     const auto best_first = [&](std::size_t a, std::size_t b) {
-      return net(screening.named[a]) > net(screening.named[b]);
+      const double first = std::floor(net(screening.named[a]) / kTie);
+      const double second = std::floor(net(screening.named[b]) / kTie);
+      if (first != second) return first > second;
+      return size_of(a) < size_of(b);
     };
     std::stable_sort(order.begin(), order.end(), best_first);
     if (order.size() > kRefined) order.resize(kRefined);
@@ -151,7 +159,7 @@ class Competition {
         structure = std::max(structure, structure_of(screening, joint));
       }
       if (named.best.score.squares < kLeastExplained * structure) continue;
-      if (accept(named, screening)) return true;
+      if (accept(settled(named, order, screening), screening)) return true;
     }
     return false;
   }
@@ -162,8 +170,51 @@ class Competition {
     });
   }
 
+  /// What effects read of the model (the load on a gear) is wrong as long as the model has taken up
+  /// a part of the effect: the winner and its rivals are compared again beside the model as it is
+  /// together with the winner.
+  [[nodiscard]] NamedResult settled(const NamedResult& named, const std::vector<std::size_t>& order,
+                                    const Screening& screening) {
+    tell("rivals of " + hypothesis_name(named.best.effect), 0);
+    std::vector<EffectInstance> all = effects();
+    all.push_back(named.best.effect);
+    EffectPoint beside = fit(all).point;
+    beside.effects.pop_back();
+    for (auto& run : beside.initial) run.pop_back();
+    std::vector<Hypothesis> others;
+    for (const Winner& winner : result_.winners) others.push_back(hypotheses_[winner.hypothesis]);
+    EvidenceSystem::Options options = system_options();
+    options.surrogates = 0;
+    const EvidenceSystem system =
+        system_at(train_, signals_, beside, others, result_.noise, options);
+    NamedResult best = named;
+    bool first = true;
+    std::size_t tried = 0;
+    for (const std::size_t place : order) {
+      if (tried++ == kRivals) break;
+      const NamedResult& rival = screening.named[place];
+      if (rival.best.score.squares < kLeastExplained * named.best.score.squares) continue;
+      const Hypothesis& hypothesis = hypotheses_[place];
+      const EffectScales scales = scales_.of(beside.beta, hypothesis.effect);
+      EffectInstance start = rival.best.effect;
+      for (const int p : hypothesis.linear) start.parameters[p] = hypothesis.effect.parameters[p];
+      NamedResult again = rival;
+      again.best = refined(train_, signals_, system, hypothesis,
+                           try_hypothesis(train_, signals_, system, hypothesis, start, scales, false),
+                           scales);
+      if (!again.best.admissible) continue;
+      again.surprise = surprise_of(again.best.score.squares, again.best.score.degrees);
+      const double gain = net(again) - net(best);
+      const bool better = gain > kTie || (gain > -kTie && size_of(place) < size_of(best.hypothesis));
+      if (first || better) best = std::move(again);
+      first = false;
+    }
+    return best;
+  }
+
   /// Fits the model with one more effect, and keeps it if held-out recordings agree.
   bool accept(const NamedResult& named, const Screening& screening) {
+    if (screening.family_wise(named.surprise) > options_.false_alarm) return false;
     tell("the model with " + hypothesis_name(named.best.effect), 0);
     std::vector<EffectInstance> all = effects();
     all.push_back(named.best.effect);
@@ -251,7 +302,7 @@ class Competition {
   const CompetitionProgress& progress_;
   ScaleTable scales_;
   EffectSignals signals_;
-  CoarseLook coarse_;
+  ScreeningData screening_data_;
   std::vector<double> repeats_;
   CompetitionResult result_;
 };

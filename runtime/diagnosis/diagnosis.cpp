@@ -12,6 +12,7 @@
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/naming.h"
 #include "runtime/diagnosis/raw_residual.h"
+#include "runtime/diagnosis/reference.h"
 #include "runtime/diagnosis/undecidable.h"
 #include "runtime/diagnosis/whereabouts.h"
 #include "runtime/effects/absorption.h"
@@ -85,6 +86,7 @@ class Diagnostician {
     describe_noise();
     describe_tests();
     describe_findings();
+    describe_changes();
     describe_unexplained();
     answer_.undecidable = undecidable_effects(hypotheses_, result_.first, input_.model);
     describe_certificate();
@@ -221,6 +223,16 @@ class Diagnostician {
     }
     return text + fmt::format("; the next name, {}, is {:.0f} squares worse", naming.runner_up,
                               naming.distance);
+  }
+
+  void describe_changes() {
+    if (input_.reference.empty()) return;
+    tell("changes since the reference", 0);
+    const EffectRecordings reference = equations_of(input_, input_.reference, options_);
+    for (Finding& change :
+         changes_since(reference, train_, hypotheses_, result_, options_.false_alarm)) {
+      answer_.findings.push_back(std::move(change));
+    }
   }
 
   void describe_unexplained() {

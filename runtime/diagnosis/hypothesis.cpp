@@ -43,6 +43,43 @@ VectorXd null_values(const JointColumns& plain, const Hypothesis& hypothesis,
   return nothing;
 }
 
+/// Parameters of a trial, and whether they are admissible.
+/// @param nothing  linear parameters at which there is no effect
+TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score score,
+                     const Products& products, const VectorXd& nothing,
+                     const EffectScales& scales) {
+  TrialScore result;
+  const auto k = static_cast<Index>(hypothesis.linear.size());
+  result.typical.resize(k);
+  for (Index i = 0; i < k; ++i) {
+    double& value = trial.parameters[hypothesis.linear[static_cast<std::size_t>(i)]];
+    result.typical[i] = value - nothing[i];
+    value = nothing[i] + score.coefficients[i];
+  }
+  result.typical_lambda = result.typical.dot(products.left * result.typical);
+  const EffectSizes sizes = trial.law.sizes(scales);
+  for (Index i = 0; i < k && result.admissible; ++i) {
+    const int p = hypothesis.linear[static_cast<std::size_t>(i)];
+    const double value = trial.parameters[p];
+    const double slack = 1e-9 * std::abs(result.typical[i]);
+    if (value >= sizes.min[p] - slack && value <= sizes.max[p] + slack) continue;
+    result.admissible = false;
+    result.objection =
+        fmt::format("{} would be {:.3g}", trial.law.parameters[static_cast<std::size_t>(p)].name,
+                    value);
+  }
+  for (const auto* conditions : {&trial.law.requirements, &trial.law.falsifiers}) {
+    for (const EffectCondition& condition : *conditions) {
+      if (!result.admissible || condition.slack(trial.parameters, scales) >= 0) continue;
+      result.admissible = false;
+      result.objection = condition.spelling + " does not hold";
+    }
+  }
+  result.effect = std::move(trial);
+  result.score = std::move(score);
+  return result;
+}
+
 }  // namespace
 
 std::string hypothesis_name(const EffectInstance& effect) {
@@ -130,52 +167,43 @@ JointColumns hypothesis_columns(const EffectRecordings& data, EffectSignals& sig
   return system.whitened(effect_columns(data, signals, trial, wanted, hypothesis.held));
 }
 
-TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score score,
-                     const Products& products, const VectorXd& nothing,
-                     const EffectScales& scales) {
-  TrialScore result;
+std::vector<TrialScore> try_shapes(const EffectRecordings& data, EffectSignals& signals,
+                                   const EvidenceSystem& system, const Hypothesis& hypothesis,
+                                   const std::vector<EffectInstance>& trials,
+                                   const EffectScales& scales, bool surrogates) {
   const auto k = static_cast<Index>(hypothesis.linear.size());
-  result.typical.resize(k);
-  for (Index i = 0; i < k; ++i) {
-    double& value = trial.parameters[hypothesis.linear[static_cast<std::size_t>(i)]];
-    result.typical[i] = value - nothing[i];
-    value = nothing[i] + score.coefficients[i];
-  }
-  result.typical_lambda = result.typical.dot(products.left * result.typical);
-  const EffectSizes sizes = trial.law.sizes(scales);
-  for (Index i = 0; i < k && result.admissible; ++i) {
-    const int p = hypothesis.linear[static_cast<std::size_t>(i)];
-    const double value = trial.parameters[p];
-    const double slack = 1e-9 * std::abs(result.typical[i]);
-    if (value >= sizes.min[p] - slack && value <= sizes.max[p] + slack) continue;
-    result.admissible = false;
-    result.objection =
-        fmt::format("{} would be {:.3g}", trial.law.parameters[static_cast<std::size_t>(p)].name,
-                    value);
-  }
-  for (const auto* conditions : {&trial.law.requirements, &trial.law.falsifiers}) {
-    for (const EffectCondition& condition : *conditions) {
-      if (!result.admissible || condition.slack(trial.parameters, scales) >= 0) continue;
-      result.admissible = false;
-      result.objection = condition.spelling + " does not hold";
+  std::vector<int> wanted = {0};
+  for (const int p : hypothesis.linear) wanted.push_back(1 + p);
+  JointColumns all;
+  std::vector<VectorXd> nothing;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const JointColumns plain = effect_columns(data, signals, trials[i], wanted, hypothesis.held);
+    nothing.push_back(null_values(plain, hypothesis, trials[i].parameters));
+    if (i == 0) {
+      all.joints = plain.joints;
+      for (const MatrixXd& part : plain.parts) {
+        all.parts.emplace_back(part.rows(), k * static_cast<Index>(trials.size()));
+      }
+    }
+    for (std::size_t j = 0; j < plain.parts.size(); ++j) {
+      all.parts[j].middleCols(static_cast<Index>(i) * k, k) = plain.parts[j].rightCols(k);
     }
   }
-  result.effect = std::move(trial);
-  result.score = std::move(score);
-  return result;
+  const std::vector<Products> products =
+      system.products_of_groups(system.whitened(std::move(all)), k, surrogates);
+  std::vector<TrialScore> scores;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    scores.push_back(concluded(hypothesis, trials[i], score_of(products[i], surrogates),
+                               products[i], nothing[i], scales));
+  }
+  return scores;
 }
 
 TrialScore try_hypothesis(const EffectRecordings& data, EffectSignals& signals,
                           const EvidenceSystem& system, const Hypothesis& hypothesis,
                           const EffectInstance& trial, const EffectScales& scales,
                           bool surrogates) {
-  std::vector<int> wanted = {0};
-  for (const int p : hypothesis.linear) wanted.push_back(1 + p);
-  JointColumns plain = effect_columns(data, signals, trial, wanted, hypothesis.held);
-  const VectorXd nothing = null_values(plain, hypothesis, trial.parameters);
-  for (MatrixXd& part : plain.parts) part = part.rightCols(part.cols() - 1).eval();
-  const Products products = system.products(system.whitened(std::move(plain)), surrogates);
-  return concluded(hypothesis, trial, score_of(products, surrogates), products, nothing, scales);
+  return try_shapes(data, signals, system, hypothesis, {trial}, scales, surrogates).front();
 }
 
 }  // namespace dyngen::runtime

@@ -57,8 +57,10 @@ TrialScore try_hypothesis(const EffectRecordings& data, EffectSignals& signals,
                           const EffectInstance& trial, const EffectScales& scales,
                           bool surrogates);
 
-TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score score,
-                     const Products& products, const Eigen::VectorXd& nothing,
-                     const EffectScales& scales);
+/// Several trials at once, which is faster.
+std::vector<TrialScore> try_shapes(const EffectRecordings& data, EffectSignals& signals,
+                                   const EvidenceSystem& system, const Hypothesis& hypothesis,
+                                   const std::vector<EffectInstance>& trials,
+                                   const EffectScales& scales, bool surrogates);
 
 }  // namespace dyngen::runtime

@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kMost = 1000;      // orders
-constexpr std::size_t kPeaks = 5;
+constexpr std::size_t kPeaks = 2;
 
 struct Extent {
   double lowest = 0, highest = 0;  // position
@@ -62,9 +62,10 @@ class Turning {
 
 }  // namespace
 
-OrderScan scan_orders(const EffectRecordings& data, const EvidenceSystem& system, int joint) {
+OrderScan scan_orders(const EffectRecordings& data, const EvidenceSystem& system, int joint,
+                      bool surrogates) {
   OrderScan scan;
-  scan.surrogates = VectorXd::Zero(system.surrogates());
+  scan.surrogates = VectorXd::Zero(surrogates ? system.surrogates() : 0);
   const Extent extent = extent_of(data, joint);
   const double range = extent.highest - extent.lowest;
   if (!(range > 0) || !(extent.speed > 0)) return scan;
@@ -80,21 +81,28 @@ OrderScan scan_orders(const EffectRecordings& data, const EvidenceSystem& system
   }
   std::vector<std::pair<double, double>> found;  // squares, order
   std::vector<double> squares;
-  for (double n = first; n <= scan.highest; n += step) {
-    MatrixXd part(data.equations(), 2);
-    Index start = 0;
-    for (std::size_t run = 0; run < runs.size(); ++run) {
-      const RowBlock& rows = data.runs[run].rows;
-      part.middleRows(start, rows.Y.rows()) =
-          rows.counted.col(joint).asDiagonal() *
-          decimate(data.runs[run].decimator, runs[run].now());
-      start += rows.Y.rows();
-      runs[run].next();
+  constexpr Index kBatch = 24;  // orders that are looked at together
+  for (double n = first; n <= scan.highest;) {
+    MatrixXd part(data.equations(), 2 * kBatch);
+    Index batch = 0;
+    for (; batch < kBatch && n <= scan.highest; ++batch, n += step) {
+      Index start = 0;
+      for (std::size_t run = 0; run < runs.size(); ++run) {
+        const RowBlock& rows = data.runs[run].rows;
+        part.block(start, 2 * batch, rows.Y.rows(), 2) =
+            rows.counted.col(joint).asDiagonal() *
+            decimate(data.runs[run].decimator, runs[run].now());
+        start += rows.Y.rows();
+        runs[run].next();
+      }
     }
-    const Score score =
-        score_of(system.products(system.whitened({{joint}, {std::move(part)}})));
-    scan.surrogates = scan.surrogates.cwiseMax(score.surrogates);
-    squares.push_back(score.squares);
+    const JointColumns columns{{joint}, {part.leftCols(2 * batch)}};
+    for (const Products& products :
+         system.products_of_groups(system.whitened(columns), 2, surrogates)) {
+      const Score score = score_of(products, surrogates);
+      if (surrogates) scan.surrogates = scan.surrogates.cwiseMax(score.surrogates);
+      squares.push_back(score.squares);
+    }
   }
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const bool peak = (i == 0 || squares[i] >= squares[i - 1]) &&

@@ -2,9 +2,12 @@
 #include "runtime/diagnosis/screening.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <map>
+#include <exception>
+#include <mutex>
 #include <stdexcept>
+#include <thread>
 
 #include "runtime/diagnosis/order_scan.h"
 #include "runtime/diagnosis/time_windows.h"
@@ -29,6 +32,11 @@ struct NoiseSurprises {
     }
   }
 
+  void add(const NoiseSurprises& other) {
+    if (other.largest.size() == 0) return;
+    largest = largest.size() == 0 ? other.largest : largest.cwiseMax(other.largest).eval();
+  }
+
   /// The smallest of N independent p-values: -ln(1 - p) has the mean 1 / N.
   [[nodiscard]] double tests() const {
     if (largest.size() == 0) return 1;
@@ -49,8 +57,10 @@ std::vector<VectorXd> ordered_grid(const Hypothesis& hypothesis, const EffectSca
                                    const OrderScan& orders) {
   const EffectSizes sizes = hypothesis.effect.law.sizes(scales);
   std::vector<VectorXd> grid;
+  const bool harmonics = hypothesis.linear.size() > 2;
   for (const double peak : orders.peaks) {
     for (const double harmonic : {1.0, 2.0, 4.0}) {
+      if (harmonic > 1 && !harmonics) continue;
       const double value = peak / harmonic;
       const int p = hypothesis.shapes.front();
       if (value < sizes.min[p] || value > sizes.max[p]) continue;
@@ -67,6 +77,169 @@ void remember_typical(const TrialScore& trial, NamedResult& result) {
   result.typical = trial.typical;
 }
 
+/// One screening: its parts are independent of one another.
+class Screener {
+ public:
+  Screener(ScreeningData& data, const EvidenceSystem& system, const ScaleTable& scales,
+           const VectorXd& beta, const std::vector<Hypothesis>& hypotheses,
+           const std::vector<GenericStructure>& structures, const Screening* before)
+      : data_(data),
+        system_(system),
+        scales_(scales),
+        beta_(beta),
+        hypotheses_(hypotheses),
+        structures_(structures),
+        before_(before) {}
+
+  Screening run(const ScreeningProgress& progress) {
+    Screening screening;
+    screening.named.resize(hypotheses_.size());
+    screening.generic.resize(structures_.size());
+    orders_.resize(static_cast<std::size_t>(data_.whole().joints()));
+    std::vector<NoiseSurprises> noise(data_.readers().size());
+    // orders first: hypotheses read their peaks
+    in_parallel(orders_.size(), {}, [&](std::size_t joint, std::size_t thread) {
+      orders_[joint] = scan_orders(data_.whole(), system_, static_cast<int>(joint), !before_);
+      if (!before_) noise[thread].add(orders_[joint].surrogates, 2);
+    });
+    const std::size_t count = hypotheses_.size() + structures_.size();
+    in_parallel(count, progress, [&](std::size_t place, std::size_t thread) {
+      if (place < hypotheses_.size()) {
+        screening.named[place] = named(place, data_.readers()[thread], noise[thread]);
+      } else {
+        const std::size_t structure = place - hypotheses_.size();
+        screening.generic[structure] = generic(structure, data_.readers()[thread], noise[thread]);
+      }
+    });
+    if (before_) {
+      screening.tests = before_->tests;
+    } else {
+      NoiseSurprises all;
+      for (const NoiseSurprises& part : noise) all.add(part);
+      screening.tests = all.tests();
+    }
+    return screening;
+  }
+
+ private:
+  /// Work for all threads, one piece after the other.
+  template <typename Work>
+  void in_parallel(std::size_t count, const ScreeningProgress& progress, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    std::mutex guard;
+    std::exception_ptr failure;
+    const auto loop = [&](std::size_t thread) {
+      for (std::size_t i = next++; i < count; i = next++) {
+        try {
+          work(i, thread);
+        } catch (...) {
+          const std::lock_guard lock(guard);
+          if (!failure) failure = std::current_exception();
+          next = count;
+        }
+        if (thread == 0 && progress) {
+          progress(static_cast<double>(i) / static_cast<double>(count));
+        }
+      }
+    };
+    std::vector<std::thread> others;
+    for (std::size_t t = 1; t < data_.readers().size(); ++t) others.emplace_back(loop, t);
+    loop(0);
+    for (std::thread& thread : others) thread.join();
+    if (failure) std::rethrow_exception(failure);
+  }
+
+  /// Trial shapes that are worth a look.
+  [[nodiscard]] std::vector<EffectInstance> trials(std::size_t place,
+                                                   const EffectScales& scales) const {
+    const Hypothesis& hypothesis = hypotheses_[place];
+    std::vector<VectorXd> grid;
+    if (hypothesis.ordered && hypothesis.shapes.size() == 1) {
+      grid = ordered_grid(hypothesis, scales,
+                          orders_[static_cast<std::size_t>(hypothesis.effect.joint)]);
+    } else if (before_ && before_->named[place].seen) {
+      VectorXd shapes(static_cast<Index>(hypothesis.shapes.size()));
+      for (Index i = 0; i < shapes.size(); ++i) {
+        shapes[i] = before_->named[place]
+                        .best.effect.parameters[hypothesis.shapes[static_cast<std::size_t>(i)]];
+      }
+      grid = {shapes};
+    } else {
+      grid = shape_grid(hypothesis, scales, kGrid);
+    }
+    std::vector<EffectInstance> trials;
+    for (const VectorXd& shapes : grid) trials.push_back(with_shapes(hypothesis, shapes));
+    return trials;
+  }
+
+  NamedResult named(std::size_t place, ScreeningData::Reader& reader, NoiseSurprises& noise) const {
+    const Hypothesis& hypothesis = hypotheses_[place];
+    NamedResult result;
+    result.hypothesis = place;
+    const EffectScales scales = scales_.of(beta_, hypothesis.effect);
+    const bool whole = !hypothesis.effect.law.states.empty() || hypothesis.ordered;
+    const EffectRecordings& data = whole ? data_.whole() : data_.coarse();
+    EffectSignals& signals = whole ? reader.whole : reader.coarse;
+    try {
+      if (before_) {
+        const NamedResult& earlier = before_->named[place];
+        result.typical_lambda = earlier.typical_lambda;
+        result.part_left = earlier.part_left;
+        result.typical = earlier.typical;
+      } else {
+        remember_typical(try_hypothesis(data, signals, system_, hypothesis, hypothesis.effect,
+                                        scales, false),
+                         result);
+      }
+      if (hypothesis.windowed) {
+        const WindowScan scan = scan_windows(data, signals, system_, hypothesis, !before_);
+        VectorXd window(static_cast<Index>(hypothesis.shapes.size()));
+        window[0] = scan.begin;
+        if (window.size() > 1) window[1] = scan.end;
+        result.best = try_hypothesis(data, signals, system_, hypothesis,
+                                     with_shapes(hypothesis, window), scales, false);
+        if (!before_) noise.add(scan.score.surrogates, scan.score.degrees);
+      } else {
+        bool first = true;
+        for (TrialScore& trial : try_shapes(data, signals, system_, hypothesis,
+                                            trials(place, scales), scales, !before_)) {
+          if (!before_) noise.add(trial.score.surrogates, trial.score.degrees);
+          if (first || better(trial, result.best)) result.best = std::move(trial);
+          first = false;
+        }
+      }
+      result.seen = std::isfinite(result.best.score.squares) && result.best.score.degrees > 0;
+    } catch (const std::invalid_argument&) {
+      result.seen = false;  // a signal is missing
+    }
+    if (result.seen) {
+      result.surprise = surprise_of(result.best.score.squares, result.best.score.degrees);
+    }
+    return result;
+  }
+
+  GenericResult generic(std::size_t place, ScreeningData::Reader& reader,
+                        NoiseSurprises& noise) const {
+    GenericResult result;
+    result.structure = place;
+    const JointColumns columns =
+        generic_columns(data_.coarse(), reader.coarse, structures_[place]);
+    result.score = score_of(system_.products(system_.whitened(columns), !before_), !before_);
+    if (!before_) noise.add(result.score.surrogates, result.score.degrees);
+    result.surprise = surprise_of(result.score.squares, result.score.degrees);
+    return result;
+  }
+
+  ScreeningData& data_;
+  const EvidenceSystem& system_;
+  const ScaleTable& scales_;
+  const VectorXd& beta_;
+  const std::vector<Hypothesis>& hypotheses_;
+  const std::vector<GenericStructure>& structures_;
+  const Screening* before_;
+  std::vector<OrderScan> orders_;
+};
+
 }  // namespace
 
 double surprise_of(double squares, int degrees) {
@@ -82,82 +255,29 @@ double Screening::family_wise(double surprise) const {
   return -std::expm1(tests * std::log1p(-std::exp(-surprise)));
 }
 
-Screening screen(const EffectRecordings& data, EffectSignals& signals, CoarseLook& coarse,
-                 const EvidenceSystem& system, const ScaleTable& scales, const VectorXd& beta,
-                 const std::vector<Hypothesis>& hypotheses,
-                 const std::vector<GenericStructure>& structures,
+ScreeningData::ScreeningData(const EffectRecordings& data)
+    : whole_(data), coarse_(at_equations(data)) {
+  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
+  for (unsigned i = 0; i < threads; ++i) {
+    readers_.push_back({EffectSignals(whole_), EffectSignals(coarse_)});
+  }
+}
+
+void ScreeningData::set_beta(const VectorXd& beta) {
+  for (Reader& reader : readers_) {
+    for (EffectSignals* signals : {&reader.whole, &reader.coarse}) {
+      signals->set_beta(beta);
+      signals->set_tangent_beta(beta);
+    }
+  }
+}
+
+Screening screen(ScreeningData& data, const EvidenceSystem& system, const ScaleTable& scales,
+                 const VectorXd& beta, const std::vector<Hypothesis>& hypotheses,
+                 const std::vector<GenericStructure>& structures, const Screening* before,
                  const ScreeningProgress& progress) {
-  Screening screening;
-  NoiseSurprises noise;
-  std::map<int, OrderScan> orders;
-  const double all = static_cast<double>(hypotheses.size() + structures.size());
-  const auto tell = [&](std::size_t place) {
-    if (progress) progress(static_cast<double>(place) / all);
-  };
-  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-    tell(h);
-    const Hypothesis& hypothesis = hypotheses[h];
-    NamedResult result;
-    result.hypothesis = h;
-    const EffectScales here = scales.of(beta, hypothesis.effect);
-    const bool fine = !hypothesis.effect.law.states.empty() || hypothesis.ordered;
-    const EffectRecordings& looked_at = fine ? data : coarse.data();
-    EffectSignals& read = fine ? signals : coarse.signals();
-    try {
-      TrialScore typical =
-          try_hypothesis(looked_at, read, system, hypothesis, hypothesis.effect, here, false);
-      remember_typical(typical, result);
-      if (hypothesis.windowed) {
-        const WindowScan scan = scan_windows(looked_at, read, system, hypothesis);
-        VectorXd window(static_cast<Index>(hypothesis.shapes.size()));
-        window[0] = scan.begin;
-        if (window.size() > 1) window[1] = scan.end;
-        result.best = try_hypothesis(looked_at, read, system, hypothesis,
-                                     with_shapes(hypothesis, window), here, false);
-        noise.add(scan.score.surrogates, scan.score.degrees);
-      } else {
-        bool first = true;
-        std::vector<VectorXd> grid;
-        if (hypothesis.ordered && hypothesis.shapes.size() == 1) {
-          const int joint = hypothesis.effect.joint;
-          const auto [place, added] = orders.try_emplace(joint);
-          if (added) {
-            place->second = scan_orders(data, system, joint);
-            noise.add(place->second.surrogates, 2);
-          }
-          grid = ordered_grid(hypothesis, here, place->second);
-        } else {
-          grid = shape_grid(hypothesis, here, kGrid);
-        }
-        for (const VectorXd& shapes : grid) {
-          TrialScore trial = try_hypothesis(looked_at, read, system, hypothesis,
-                                            with_shapes(hypothesis, shapes), here, true);
-          noise.add(trial.score.surrogates, trial.score.degrees);
-          if (first || better(trial, result.best)) result.best = std::move(trial);
-          first = false;
-        }
-      }
-      result.seen = std::isfinite(result.best.score.squares) && result.best.score.degrees > 0;
-    } catch (const std::invalid_argument&) {
-      result.seen = false;  // a signal is missing
-    }
-    if (result.seen) {
-      result.surprise = surprise_of(result.best.score.squares, result.best.score.degrees);
-    }
-    screening.named.push_back(std::move(result));
-  }
-  for (std::size_t s = 0; s < structures.size(); ++s) {
-    tell(hypotheses.size() + s);
-    GenericResult result;
-    result.structure = s;
-    result.score = score_of(
-        system.products(system.whitened(generic_columns(coarse.data(), coarse.signals(), structures[s]))));
-    noise.add(result.score.surrogates, result.score.degrees);
-    result.surprise = surprise_of(result.score.squares, result.score.degrees);
-    screening.generic.push_back(std::move(result));
-  }
-  screening.tests = noise.tests();
-  return screening;
+  data.set_beta(beta);
+  return Screener(data, system, scales, beta, hypotheses, structures, before).run(progress);
 }
 
 TrialScore refined(const EffectRecordings& data, EffectSignals& signals,

@@ -38,30 +38,42 @@ struct Screening {
   [[nodiscard]] double family_wise(double surprise) const;
 };
 
+/// Told how far it is, 0 .. 1; from the calling thread.
 using ScreeningProgress = std::function<void(double done)>;
 
-/// Recordings for a first look, and their signals.
-class CoarseLook {
+/// The recordings as screening reads them: whole, and at the equations alone. Signals are kept from
+/// one screening to the next.
+class ScreeningData {
  public:
-  explicit CoarseLook(const EffectRecordings& data) : data_(at_equations(data)), signals_(data_) {}
-  CoarseLook(const CoarseLook&) = delete;
-  CoarseLook& operator=(const CoarseLook&) = delete;
+  /// @param data  must outlive it
+  explicit ScreeningData(const EffectRecordings& data);
+  ScreeningData(const ScreeningData&) = delete;
+  ScreeningData& operator=(const ScreeningData&) = delete;
 
-  [[nodiscard]] const EffectRecordings& data() const { return data_; }
-  [[nodiscard]] EffectSignals& signals() { return signals_; }
+  void set_beta(const Eigen::VectorXd& beta);
+
+  /// What one thread reads.
+  struct Reader {
+    EffectSignals whole, coarse;
+  };
+  [[nodiscard]] const EffectRecordings& whole() const { return whole_; }
+  [[nodiscard]] const EffectRecordings& coarse() const { return coarse_; }
+  [[nodiscard]] std::vector<Reader>& readers() { return readers_; }
 
  private:
-  EffectRecordings data_;
-  EffectSignals signals_;
+  const EffectRecordings& whole_;
+  EffectRecordings coarse_;
+  std::vector<Reader> readers_;
 };
 
-/// Scores of everything; shapes on a grid. Effects without memory, and structures, are looked at
-/// at the equations alone; those that remember or repeat with position at all samples.
-Screening screen(const EffectRecordings& data, EffectSignals& signals, CoarseLook& coarse,
-                 const EvidenceSystem& system,
-                 const ScaleTable& scales, const Eigen::VectorXd& beta,
-                 const std::vector<Hypothesis>& hypotheses,
-                 const std::vector<GenericStructure>& structures,
+/// Scores of everything. Effects without memory, and structures, are looked at at the equations
+/// alone; those that remember or repeat with position at all samples. Runs on all processors; what
+/// it gives does not depend on how many there are.
+/// @param before  an earlier screening of the same hypotheses: then the shapes that were best there
+///                are tried again, not the whole grid, and the number of tests is taken from it
+Screening screen(ScreeningData& data, const EvidenceSystem& system, const ScaleTable& scales,
+                 const Eigen::VectorXd& beta, const std::vector<Hypothesis>& hypotheses,
+                 const std::vector<GenericStructure>& structures, const Screening* before,
                  const ScreeningProgress& progress = {});
 
 /// Shapes between the grid's, by a search that halves its steps.

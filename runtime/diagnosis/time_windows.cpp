@@ -48,7 +48,8 @@ Products between(const Running& sums, std::size_t from, std::size_t to) {
 }  // namespace
 
 WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
-                        const EvidenceSystem& system, const Hypothesis& hypothesis) {
+                        const EvidenceSystem& system, const Hypothesis& hypothesis,
+                        bool surrogates) {
   WindowScan scan;
   const VectorXd times = equation_times(data);
   const double longest = times.maxCoeff();
@@ -68,7 +69,7 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
   const Index k = columns.columns();
   sums.whole.push_back(MatrixXd::Zero(k, k));
   sums.rest.push_back(VectorXd::Zero(k));
-  sums.noise.push_back(MatrixXd::Zero(k, std::min(kWindowSurrogates, system.surrogates())));
+  sums.noise.push_back(MatrixXd::Zero(k, surrogates ? std::min(kWindowSurrogates, system.surrogates()) : 0));
   sums.inner.push_back(MatrixXd::Zero(system.rank(), k));
   for (int b = 0; b < kBlocks; ++b) {
     MatrixXd whole = sums.whole.back(), noise = sums.noise.back(), inner = sums.inner.back();
@@ -78,7 +79,7 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
       std::size_t last = first + 1;
       while (last < here.size() && here[last] == here[last - 1] + 1) ++last;
       const Index from = here[first], to = here[last - 1] + 1;
-      const Products part = system.products(columns, from, to, true);
+      const Products part = system.products(columns, from, to, surrogates);
       const MatrixXd absorbed = system.absorbed(columns, from, to);
       whole += part.whole;
       rest += part.rest;
@@ -98,8 +99,8 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
              : kBlocks;
     for (std::size_t to = ends ? from + 1 : kBlocks; to <= last; ++to) {
       if (!ends && (from == 0 || from + 3 > kBlocks)) continue;
-      Score score = score_of(between(sums, from, to));
-      largest = largest.cwiseMax(score.surrogates);
+      Score score = score_of(between(sums, from, to), surrogates);
+      if (surrogates) largest = largest.cwiseMax(score.surrogates);
       if (scan.found && score.squares <= scan.score.squares) continue;
       scan.score = std::move(score);
       scan.begin = static_cast<double>(from) * step;

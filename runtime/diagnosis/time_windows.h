@@ -19,6 +19,7 @@ struct WindowScan {
 /// Columns are whitened before a window is cut out of them: exact but for the samples at its ends.
 /// @param hypothesis  scanned parameters: when it begins, and when it ends if there are two
 WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
-                        const EvidenceSystem& system, const Hypothesis& hypothesis);
+                        const EvidenceSystem& system, const Hypothesis& hypothesis,
+                        bool surrogates);
 
 }  // namespace dyngen::runtime

@@ -17,6 +17,7 @@ using Eigen::VectorXd;
 using Kind = StructureVariable::Kind;
 
 constexpr double kShare = 0.7;
+constexpr double kSpread = 0.5;  // of the samples: with more the range says nothing
 
 /// A variable at the equations of all runs.
 VectorXd at_equations(const EffectRecordings& data, EffectSignals& signals,
@@ -94,6 +95,22 @@ Whereabouts whereabouts_of(const EffectRecordings& data, EffectSignals& signals,
     where.from = range.from;
     where.to = range.to;
     where.share = range.share;
+  }
+  if (least > kSpread) {
+    // spread over everything: the variable that the effect is about, from end to end
+    const auto& read = effect.law.variables;
+    const auto reads = [&](const char* name) {
+      return std::find(read.begin(), read.end(), name) != read.end();
+    };
+    const StructureVariable variable = reads("q")          ? StructureVariable{Kind::kPosition, joint}
+                                       : reads("tau_load") ? StructureVariable{Kind::kLoad, joint}
+                                       : reads("t")        ? StructureVariable{Kind::kTime, -1}
+                                                    : StructureVariable{Kind::kVelocity, joint};
+    const VectorXd x = at_equations(data, signals, variable);
+    where.variable = variable_name(variable);
+    where.from = x.minCoeff();
+    where.to = x.maxCoeff();
+    where.share = 1;
   }
   if (hypothesis.windowed) {
     where.t_from = effect.parameters[hypothesis.shapes.front()];

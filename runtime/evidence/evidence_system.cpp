@@ -144,6 +144,35 @@ Products EvidenceSystem::products(const JointColumns& whitened, bool surrogates)
   return products(whitened, 0, rows_, surrogates);
 }
 
+std::vector<Products> EvidenceSystem::products_of_groups(const JointColumns& whitened, Index width,
+                                                         bool surrogates) const {
+  const Index count = whitened.columns();
+  MatrixXd noise = MatrixXd::Zero(count, surrogates ? noise_.cols() : 0);
+  VectorXd rest = VectorXd::Zero(count);
+  for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
+    const MatrixXd& C = whitened.parts[i];
+    const Index first = whitened.joints[i] * rows_;
+    rest += C.transpose() * rest_.segment(first, rows_);
+    if (surrogates) noise += C.transpose() * noise_.middleRows(first, rows_);
+  }
+  const MatrixXd inner = absorbed(whitened, 0, rows_);
+  std::vector<Products> groups;
+  for (Index start = 0; start + width <= count; start += width) {
+    Products group;
+    group.whole = MatrixXd::Zero(width, width);
+    for (const MatrixXd& part : whitened.parts) {
+      const auto C = part.middleCols(start, width);
+      group.whole += C.transpose() * C;
+    }
+    const auto taken = inner.middleCols(start, width);
+    group.left = group.whole - taken.transpose() * taken;
+    group.rest = rest.segment(start, width);
+    group.noise = noise.middleRows(start, width);
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
 MatrixXd EvidenceSystem::absorbed(const JointColumns& whitened, Index from, Index to) const {
   MatrixXd inner = MatrixXd::Zero(basis_.cols(), whitened.columns());
   for (std::size_t i = 0; i < whitened.joints.size(); ++i) {

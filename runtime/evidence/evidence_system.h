@@ -52,6 +52,11 @@ class EvidenceSystem {
   void add(const JointColumns& whitened);
 
   [[nodiscard]] Products products(const JointColumns& whitened, bool surrogates = true) const;
+  /// Of consecutive groups of columns, each by itself: one pass over the model's columns for all.
+  /// @param width  columns of a group
+  [[nodiscard]] std::vector<Products> products_of_groups(const JointColumns& whitened,
+                                                         Eigen::Index width,
+                                                         bool surrogates) const;
   /// The same over a range of rows of every joint alone. @param from, to  as fractions of no run:
   /// rows of a joint, [from, to)
   [[nodiscard]] Products products(const JointColumns& whitened, Eigen::Index from,

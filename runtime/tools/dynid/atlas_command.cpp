@@ -2,20 +2,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
-#include "gen/diagnostic/diagnostic.h"
 #include "gen/tool/output_files.h"
 #include "runtime/recordings/trajectory_file.h"
 #include "runtime/tools/dynid/atlas_report.h"
 #include "runtime/tools/dynid/commands.h"
+#include "runtime/tools/dynid/effect_hypotheses.h"
 #include "runtime/tools/dynid/effect_laws.h"
 #include "runtime/tools/dynid/effect_report.h"
+#include "runtime/tools/dynid/file_values.h"
 #include "runtime/tools/dynid/loading.h"
 #include "runtime/tools/dynid/robot_tangents.h"
 
@@ -27,27 +27,6 @@ using Eigen::VectorXd;
 
 constexpr double kTrajectoryRate = 200;    // Hz: equations of a trajectory, at most
 constexpr double kTrajectoryNoise = 0.01;  // of the largest torque
-
-/// The file's numbers as parameters of the model: an absent row is 0.
-/// @throws ModelError  naming what is unknown
-VectorXd file_values(const DescribedRobot& robot, const std::string& path) {
-  const StandardParameters written = describe_robot(path, OpenParameters::kAsWritten).standard;
-  VectorXd beta = VectorXd::Zero(robot.grouping.rows());
-  std::string unknown;
-  for (Index i = 0; i < beta.size(); ++i) {
-    for (Index c = 0; c < written.size(); ++c) {
-      if (robot.grouping(i, c) != 0) beta[i] += robot.grouping(i, c) * written[c];
-    }
-    if (std::isfinite(beta[i])) continue;
-    unknown +=
-        (unknown.empty() ? "" : " ") + robot.linear.parameters[static_cast<std::size_t>(i)].name;
-  }
-  if (unknown.empty()) return beta;
-  throw ModelError(
-      fmt::format("{}: error: parameters are unknown ('*'): {}; expected numbers, since a "
-                  "trajectory alone cannot say them: 'dynid fit' finds them, or give recordings\n",
-                  path, unknown));
-}
 
 /// A motion as if it had been recorded with the model's torque.
 MotionSource source_of(const Trajectory& trajectory, const LinearModel& model, const VectorXd& beta,
@@ -94,7 +73,9 @@ Motions of_trajectory(const ToolOptions& options, AtlasReport& report) {
                                             model.name, model.joints()));
   }
   Motions motions;
-  motions.beta = file_values(report.robot, options.robot);
+  motions.beta = file_values(report.robot, options.robot,
+                             "since a trajectory alone cannot say them: 'dynid fit' finds them, "
+                             "or give recordings");
   const MotionSource source = source_of(trajectory, model, motions.beta, options.atlas.trajectory);
   RowOptions rows = options.rows;
   if (rows.decimation <= 0) {
@@ -153,23 +134,6 @@ AtlasNoise noise_of(const ToolOptions& options, const Motions& motions, AtlasRep
   return white_noise(deviation);
 }
 
-/// Every effect where it can be, with the links that the robot file counts. Pairs that the file
-/// names in its rows are looked at besides neighbours.
-std::vector<EffectInstance> effects_of(const DescribedRobot& robot,
-                                       const EffectCatalogue& catalogue) {
-  std::vector<std::pair<int, int>> pairs;
-  for (const EffectInstance& row : effect_instances(robot.model, catalogue)) {
-    if (row.other >= 0 && row.joint >= 0) pairs.emplace_back(row.joint, row.other);
-  }
-  std::vector<EffectInstance> effects = atlas_effects(robot.linear, effect_laws(catalogue), pairs);
-  for (EffectInstance& effect : effects) {
-    for (int j = 1; j <= robot.model.size(); ++j) {
-      if (effect.joint >= 0 && robot.model.joint(j).coordinate == effect.joint) effect.link = j;
-    }
-  }
-  return effects;
-}
-
 std::vector<std::size_t> sorted(const AtlasReport& report) {
   std::vector<std::size_t> order(report.atlas.entries.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -201,7 +165,7 @@ int run_atlas(const ToolOptions& options) {
   report.equations = motions.data.equations();
   report.row_time = motions.data.row_time;
   report.atlas =
-      absorption_atlas(motions.data, motions.beta, noise, effects_of(report.robot, catalogue),
+      absorption_atlas(motions.data, motions.beta, noise, possible_effects(report.robot, catalogue),
                        [&](const std::string& effect, std::size_t place, std::size_t count) {
                          progress.show(effect, place, count);
                        });

@@ -16,6 +16,7 @@ int run_fit(const ToolOptions& options, ProcessGroup& group);
 int run_check(const ToolOptions& options);
 int run_accumulate(const ToolOptions& options);
 int run_atlas(const ToolOptions& options);
+int run_diagnose(const ToolOptions& options);
 int run_merge(const ToolOptions& options);
 int run_simulate(const SimulateOptions& options);
 /// Where NLopt was absent when dynid was built: says so, exit 2.

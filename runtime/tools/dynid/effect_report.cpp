@@ -147,19 +147,23 @@ Json effect_json(const EffectReport& report, const DescribedRobot& robot) {
           {"heldout_rms", heldout ? numbers(report.heldout_rms) : Json(nullptr)}};
 }
 
+std::string effect_row(const EffectInstance& effect, const RobotModel& model, bool exact) {
+  std::string row = "effect " + effect.law.name;
+  if (const int joint = file_joint(effect, model); joint > 0)
+    row += fmt::format(" joint={}", joint);
+  if (effect.other >= 0) row += fmt::format(" other={}", file_joint(model, effect.other));
+  for (std::size_t p = 0; p < effect.law.parameters.size(); ++p) {
+    const double value = effect.parameters[static_cast<Index>(p)];
+    row += fmt::format(" {}={}", effect.law.parameters[p].name,
+                       exact ? fmt::format("{}", value) : fmt::format("{:.12g}", value));
+  }
+  return row;
+}
+
 std::vector<std::string> effect_file_rows(const EffectReport& report, const DescribedRobot& robot) {
   std::vector<std::string> rows;
   for (const EffectInstance& effect : report.fit.point.effects) {
-    std::string row = "effect " + effect.law.name;
-    if (const int joint = file_joint(effect, robot.model); joint > 0) {
-      row += fmt::format(" joint={}", joint);
-    }
-    if (effect.other >= 0) row += fmt::format(" other={}", file_joint(robot.model, effect.other));
-    for (std::size_t p = 0; p < effect.law.parameters.size(); ++p) {
-      row += fmt::format(" {}={:.12g}", effect.law.parameters[p].name,
-                         effect.parameters[static_cast<Index>(p)]);
-    }
-    rows.push_back(std::move(row));
+    rows.push_back(effect_row(effect, robot.model, false));
   }
   return rows;
 }

@@ -28,6 +28,10 @@ std::vector<std::vector<std::string>> effect_units(const std::vector<EffectInsta
 /// "joint 2", "joint 5, other 6", "": where an effect is, as the robot file counts.
 std::string place_of(const EffectInstance& effect, const RobotModel& model);
 
+/// "effect stribeck joint=2 Fs=2.1 vs=0.05 delta=2": the row of a robot file.
+/// @param exact  numbers that read back as they are; else of 12 digits
+std::string effect_row(const EffectInstance& effect, const RobotModel& model, bool exact);
+
 /// The part of the table about effects.
 std::string effect_rows(const EffectReport& report, const DescribedRobot& robot);
 

@@ -9,6 +9,7 @@
 
 #include "gen/effect_file/effect_variables.h"
 #include "gen/effect_file/units.h"
+#include "runtime/tools/dynid/effect_formula.h"
 #include "runtime/tools/dynid/effect_laws.h"
 #include "runtime/tools/dynid/pendulum_signals.h"
 
@@ -30,27 +31,6 @@ std::string scope_name(const EffectFile& effect) {
 std::string role_name(ParameterRole role) {
   constexpr const char* kNames[] = {"linear", "shape", "scanned", "given"};
   return kNames[static_cast<std::size_t>(role)];
-}
-
-/// The equations, a line each.
-std::vector<std::string> equations(const EffectFile& effect) {
-  std::vector<std::string> lines;
-  for (const auto& [name, value] : effect.lets) lines.push_back(name + " = " + spell(value));
-  for (const EffectState& state : effect.states) {
-    std::string line = "d" + state.name + "/dt = " + spell(state.rate);
-    if (state.min && state.max) {
-      line += ",  " + spell(*state.min) + " <= " + state.name + " <= " + spell(*state.max);
-    }
-    lines.push_back(line);
-  }
-  lines.push_back("torque = " + spell(effect.torque[0]));
-  if (effect.torque.size() == 2) lines.push_back("torque_other = " + spell(effect.torque[1]));
-  if (effect.alignment) {
-    lines.push_back(fmt::format(
-        "{} of {}", *effect.alignment == ::dyngen::AlignmentOperator::kDelay ? "delay" : "lag",
-        effect.alignment_parameter));
-  }
-  return lines;
 }
 
 std::string range_of(const ::dyngen::EffectParameter& parameter) {
@@ -97,7 +77,7 @@ std::string markdown_of(const EffectFile& effect) {
                                  kind_name(effect), scope_name(effect), where_it_runs(effect));
   if (!effect.source.empty()) text += effect.source + ".\n";
   text += "\n```\n";
-  for (const std::string& line : equations(effect)) text += line + "\n";
+  for (const std::string& line : equation_lines(effect)) text += line + "\n";
   text += "```\n\n| parameter | role | unit | bounds | typical | |\n|---|---|---|---|---|---|\n";
   for (const auto& parameter : effect.parameters) {
     text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", parameter.name,
@@ -196,7 +176,7 @@ std::string effect_text(const EffectFile& effect) {
                   kind_name(effect), scope_name(effect), where_it_runs(effect));
   if (!effect.source.empty()) text += effect.source + "\n";
   text += "\n";
-  for (const std::string& line : equations(effect)) text += "  " + line + "\n";
+  for (const std::string& line : equation_lines(effect)) text += "  " + line + "\n";
   text += "\n";
   for (const auto& parameter : effect.parameters) {
     text += fmt::format("  {:<8}{:<9}{:<14}typical {:<18}{}\n", parameter.name,

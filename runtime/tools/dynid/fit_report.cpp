@@ -81,13 +81,14 @@ std::string identified_file(const FitReport& report) {
         "full parameters of bodies that can exist; only these base parameters were measured");
     add_values(report, report.consistent->beta, stddev, comment);
     add_effects();
-    return identified_text(report.robot, report.consistent->standard, comment, effects);
+    return identified_text(report.robot, report.consistent->standard, {comment, effects});
   }
   comment.push_back(origin(report, method));
   comment.emplace_back(kBaseParameters);
   add_values(report, fit.estimate.beta, stddev, comment);
   add_effects();
-  return identified_text(report.robot, carried(report.robot, fit.estimate.beta), comment, effects);
+  return identified_text(report.robot, carried(report.robot, fit.estimate.beta),
+                         {comment, effects});
 }
 
 std::string identified_file(const FitReport& report, std::size_t robot) {
@@ -102,7 +103,7 @@ std::string identified_file(const FitReport& report, std::size_t robot) {
                                      hierarchy.robots.size()))};
   comment.emplace_back(kBaseParameters);
   add_values(report, beta, stddev, comment);
-  return identified_text(report.robot, carried(report.robot, beta), comment);
+  return identified_text(report.robot, carried(report.robot, beta), {comment});
 }
 
 }  // namespace dyngen::runtime

@@ -38,6 +38,8 @@ int run(const ToolOptions& options, ProcessGroup& group) {
       return run_excite(options);
     case Command::kAtlas:
       return run_atlas(options);
+    case Command::kDiagnose:
+      return run_diagnose(options);
     case Command::kEffects:
       return run_effects(options.catalogue);
   }

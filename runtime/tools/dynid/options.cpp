@@ -36,7 +36,8 @@ struct Words {
   std::string period = "auto";
 };
 
-void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
+/// How motion and equations come from a recording.
+void add_state_options(CLI::App& command, ToolOptions& options, Words& words) {
   command
       .add_option("--state", words.state,
                   "joint state by lowpass, smoother, kalman, spectral or "
@@ -53,6 +54,10 @@ void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
                   "samples per equation, behind the parallel filter; 0: from the cut-off")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+}
+
+void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
+  add_state_options(command, options, words);
   command
       .add_option("--still", options.rows.still_speed,
                   "rad/s: slower joints give no equation; negative: 1 % of the largest speed")
@@ -140,6 +145,24 @@ void add_atlas(CLI::App& tool, ToolOptions& options, Words& words) {
   add_motion_options(*atlas, options, words);
 }
 
+void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
+  CLI::App* diagnose = tool.add_subcommand(
+      "diagnose", "where model and recordings differ, which physics was left out, and the proof");
+  diagnose->add_option("robot", options.robot, "robot file; rows that are absent or * are fitted")
+      ->required();
+  diagnose->add_option("recordings", options.recordings, "recordings");
+  diagnose
+      ->add_option("--holdout", options.heldout,
+                   "a recording that only proves the answer; may be given again. Else the last "
+                   "fifth of every recording")
+      ->allow_extra_args(false);
+  add_effects(*diagnose, options);
+  diagnose->add_option("-o,--output", options.output, "the robot file with what was found");
+  diagnose->add_option("--json", options.json, "all results for programs");
+  add_diagnose_options(*diagnose, options.diagnose);
+  add_state_options(*diagnose, options, words);
+}
+
 void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* check = tool.add_subcommand("check", "residuals of a robot file, without a fit");
   check->add_option("robot", options.robot, "robot file with numbers")->required();
@@ -217,6 +240,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_fit(tool, parsed.options, words);
   add_others(tool, parsed.options, words);
   add_atlas(tool, parsed.options, words);
+  add_diagnose(tool, parsed.options, words);
+  parsed.options.diagnose.command = command_text(argc, argv);
   add_simulate(tool, parsed.options.simulate);
   add_effects(tool, parsed.options.catalogue);
   add_excite(tool, parsed.options.robot, parsed.options.output, parsed.options.json,
@@ -241,7 +266,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                                                    {"simulate", Command::kSimulate},
                                                    {"excite", Command::kExcite},
                                                    {"atlas", Command::kAtlas},
-                                                   {"effects", Command::kEffects}};
+                                                   {"effects", Command::kEffects},
+                                                   {"diagnose", Command::kDiagnose}};
   parsed.options.command = commands.at(name);
   if (parsed.options.command == Command::kSimulate || parsed.options.command == Command::kEffects) {
     return parsed;

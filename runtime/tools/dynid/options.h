@@ -7,13 +7,24 @@
 #include "runtime/identification/fit.h"
 #include "runtime/identification/motion_rows.h"
 #include "runtime/identification/motion_source.h"
+#include "runtime/tools/dynid/diagnose_options.h"
 #include "runtime/tools/dynid/effects_command.h"
 #include "runtime/tools/dynid/excite_options.h"
 #include "runtime/tools/dynid/simulate_options.h"
 
 namespace dyngen::runtime {
 
-enum class Command { kFit, kCheck, kAccumulate, kMerge, kSimulate, kExcite, kAtlas, kEffects };
+enum class Command {
+  kFit,
+  kCheck,
+  kAccumulate,
+  kMerge,
+  kSimulate,
+  kExcite,
+  kAtlas,
+  kEffects,
+  kDiagnose
+};
 
 /// What dynid atlas is asked for besides a robot, recordings and --effects.
 struct AtlasOptions {
@@ -44,6 +55,7 @@ struct ToolOptions {
   SimulateOptions simulate;
   ExciteOptions excite;
   AtlasOptions atlas;
+  DiagnoseOptions diagnose;
   EffectsOptions catalogue;  ///< of dynid effects
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tools/dynid/robot_tangents.h"
 
-#include <Eigen/QR>
 #include <array>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -72,8 +72,7 @@ MatrixXd column_of(const MatrixXd& array, Index column, Index width, Index rows)
 /// The programs of a robot, written when they are needed.
 class Tangents {
  public:
-  explicit Tangents(const DescribedRobot& robot)
-      : model_(robot.model), robot_(robot), inverse_(robot.grouping) {
+  explicit Tangents(const DescribedRobot& robot) : model_(robot.model), robot_(robot) {
     gravity_.resize(3);
     for (Index k = 0; k < 3; ++k) {
       gravity_[k] = to_double(model_.gravity[static_cast<std::size_t>(k)].value);
@@ -83,7 +82,7 @@ class Tangents {
   MatrixXd operator()(const std::string& name, int link, const JointMotion& motion,
                       const VectorXd& beta) {
     const Index n = model_.coordinate_count;
-    const VectorXd standard = standard_of(beta);
+    const VectorXd standard = nearest_standard(robot_, beta);
     if (name == "d_gx" || name == "d_gy" || name == "d_gz") {
       VectorXd direction = VectorXd::Zero(3);
       direction[name[3] - 'x'] = 1;
@@ -118,12 +117,6 @@ class Tangents {
   static const TangentProgram& kept(std::optional<TangentProgram>& program, const Make& make) {
     if (!program) program = make();
     return *program;
-  }
-
-  [[nodiscard]] VectorXd standard_of(const VectorXd& beta) const {
-    if (!robot_.standard.allFinite()) return carried(robot_, beta);
-    const VectorXd rest = beta - robot_.grouping * robot_.standard;
-    return robot_.standard + inverse_.solve(rest);
   }
 
   [[nodiscard]] Index coordinate(int link) const {
@@ -187,7 +180,6 @@ class Tangents {
 
   RobotModel model_;
   DescribedRobot robot_;
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> inverse_;
   VectorXd gravity_;
   std::optional<TangentProgram> gravity_torque_, derivatives_, wrenches_;
   std::optional<PayloadProgram> payload_;
@@ -199,19 +191,21 @@ class Tangents {
 
 TangentFunction robot_tangents(const DescribedRobot& robot) {
   auto tangents = std::make_shared<Tangents>(robot);
-  return [tangents](const std::string& name, int link, const JointMotion& motion,
-                    const VectorXd& beta) { return (*tangents)(name, link, motion, beta); };
+  auto guard = std::make_shared<std::mutex>();  // programs are written when they are needed
+  return [tangents, guard](const std::string& name, int link, const JointMotion& motion,
+                           const VectorXd& beta) {
+    const std::lock_guard lock(*guard);
+    return (*tangents)(name, link, motion, beta);
+  };
 }
 
 EffectRobot effect_robot(const DescribedRobot& robot) {
   EffectRobot result;
   result.tangent = robot_tangents(robot);
   result.joined_rotors = VectorXd::Zero(robot.model.coordinate_count);
-  for (const JointModel& joint : robot.model.joints) {
-    const Quantity& IA = joint.chi[index(Chi::kIA)];
-    if (joint.coordinate < 0 || IA.unknown) continue;
-    if (parameter_of(robot.linear, joint.coordinate, ParameterKind::kRotorInertia) >= 0) continue;
-    result.joined_rotors[joint.coordinate] = to_double(IA.value);
+  for (const Index place : joined_rotors(robot)) {
+    const int link = static_cast<int>(place / static_cast<Index>(kChiCount)) + 1;
+    result.joined_rotors[robot.model.joint(link).coordinate] = robot.standard[place];
   }
   return result;
 }

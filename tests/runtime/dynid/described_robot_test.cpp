@@ -74,7 +74,7 @@ TEST_P(DescribedRobots, ComeBackFromTheirIdentifiedFile) {
   const DescribedRobot robot = describe_robot(robot_path(GetParam()), OpenParameters::kAsWritten);
   const VectorXd beta = beta_of(robot);
   const std::string path = test::temporary_path("identified.robot");
-  std::ofstream(path) << identified_text(robot, carried(robot, beta), {"identified"});
+  std::ofstream(path) << identified_text(robot, carried(robot, beta), {{"identified"}});
   const DescribedRobot again = describe_robot(path, OpenParameters::kAsWritten);
   ASSERT_EQ(again.linear.joints(), robot.linear.joints());
   const Index n = robot.linear.joints();

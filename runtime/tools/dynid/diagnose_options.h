@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/diagnosis/diagnosis.h"
+
+namespace CLI {
+class App;
+}
+
+namespace dyngen::runtime {
+
+/// What dynid diagnose is asked for besides a robot, recordings, --holdout, --effects, --json and
+/// -o.
+struct DiagnoseOptions {
+  std::vector<std::string> reference;  ///< recordings of the robot before it changed
+  std::string report;                  ///< the page; empty: none
+  DiagnosisOptions diagnosis;
+  std::string command;  ///< as it was called, for the report
+};
+
+void add_diagnose_options(CLI::App& command, DiagnoseOptions& options);
+
+/// The words of a call as a shell would need them, the program's path left out.
+std::string command_text(int argc, const char* const* argv);
+
+}  // namespace dyngen::runtime

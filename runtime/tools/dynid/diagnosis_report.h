@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gen/effects/effect_catalogue.h"
+#include "runtime/diagnosis/findings.h"
+#include "runtime/tools/dynid/described_robot.h"
+
+namespace dyngen::runtime {
+
+/// What the file of an effect says about it, for people.
+struct EffectWords {
+  std::string title, formula;
+  std::vector<std::string> equations;        ///< a line each
+  std::vector<std::string> units, meanings;  ///< of the parameters
+};
+
+/// A recording that was looked at.
+struct DiagnosedRecording {
+  std::string name;
+  std::string use;  ///< "fitted", "held out", "reference"
+  double seconds = 0;
+};
+
+/// A diagnosis with all that its JSON, its page and its text say.
+struct DiagnosisReport {
+  std::string robot;
+  std::vector<bool> revolute;  ///< (n)
+  Diagnosis diagnosis;
+  std::vector<EffectWords> words;              ///< of each finding
+  std::vector<std::string> certificate_units;  ///< of each line; "" where no parameter is named
+  std::string trajectory;                      ///< file of the next experiment; empty: none
+  std::vector<DiagnosedRecording> recordings;
+  bool residual_only = false;
+  double false_alarm = 0;
+  std::uint64_t seed = 0;
+  std::string command, version;
+  std::vector<std::string> written;  ///< files
+
+  [[nodiscard]] int joints() const { return static_cast<int>(revolute.size()); }
+  /// Unit of a joint's torque: "N m" or "N".
+  [[nodiscard]] std::string unit(int joint) const;
+};
+
+/// A diagnosis with the words that its effects have in a catalogue.
+DiagnosisReport diagnosis_report(Diagnosis diagnosis, const DescribedRobot& robot,
+                                 const EffectCatalogue& catalogue);
+
+/// "clean", "explained", "unexplained_structure", "insufficient_data".
+std::string verdict_name(Verdict verdict);
+
+/// The joint of an effect as the answer counts: coordinates from 1, as the columns of a recording;
+/// 0 for the whole robot.
+int answer_joint(const EffectInstance& effect);
+
+/// "joint 2", "joint 5 with joint 6", "the whole robot".
+std::string answer_place(const EffectInstance& effect);
+
+/// "qd2 in rad/s": the unit of a variable of the answer, by the kind of its joint; empty: none.
+std::string variable_unit(const std::string& variable, const std::vector<bool>& revolute);
+
+/// How an effect's parameter is known: "13.2 +- 0.3", "2 (given)"; intervals of 95 %.
+std::string parameter_text(const EffectParameterFit& parameter, double interval);
+
+/// Schema dynid.diagnosis/1, docs/diagnosis.md.
+std::string diagnosis_json(const DiagnosisReport& report);
+
+/// What a person reads on a terminal: some 25 lines.
+std::string diagnosis_text(const DiagnosisReport& report);
+
+/// One HTML page that needs nothing else.
+std::string diagnosis_page(const DiagnosisReport& report);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// dynid diagnose as its users call it, on recordings whose truth is known.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+
+#include "runtime/recordings/writer.h"
+#include "runtime/tools/dynid/effect_laws.h"
+#include "runtime/tools/dynid/recorded_effects.h"
+#include "tests/runtime/dynid/diagnosis_schema.h"
+#include "tests/runtime/dynid/multisine.h"
+#include "tests/runtime/dynid/run_dynid.h"
+
+namespace dyngen::runtime {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+using Json = nlohmann::json;
+using test::content;
+using test::dynid;
+using test::Outcome;
+
+class Diagnose : public testing::Test {
+ protected:
+  static constexpr const char* kRobot = DYNGEN_SOURCE_DIR "/tests/studies/robots/puma3.robot";
+
+  void SetUp() override {
+    folder_ =
+        fs::path(testing::TempDir()) /
+        (std::string("diagnose_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (folder_ / name).string();
+  }
+
+  /// The robot file with further rows.
+  std::string robot(const std::string& name, const std::string& rows) const {
+    std::string text = content(kRobot);
+    text.insert(text.rfind("stop"), rows);
+    std::ofstream(path(name)) << text;
+    return path(name);
+  }
+
+  /// A motion of all joints with the torque of a plant that has further rows, and noise.
+  Recording motion(const std::string& rows, std::uint64_t seed, double seconds) const {
+    const DescribedRobot plant =
+        describe_robot(robot("plant.robot", rows), OpenParameters::kAsWritten);
+    Recording recording = test::multisine(
+        plant.linear, plant.grouping * plant.standard,
+        {.seconds = seconds, .sample_time = 0.005, .period = seconds, .size = 1.5, .seed = seed});
+    recording.tau =
+        recorded_torque(plant, effect_instances(plant.model, EffectCatalogue()), recording);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> noise(0, 0.3);
+    for (Index k = 0; k < recording.tau.size(); ++k) recording.tau.data()[k] += noise(random);
+    recording.dq.resize(0, 0);
+    recording.ddq.resize(0, 0);
+    return recording;
+  }
+  std::string record(const std::string& name, const std::string& rows, std::uint64_t seed,
+                     double seconds = 20) const {
+    write_recording(motion(rows, seed, seconds), path(name));
+    return path(name);
+  }
+
+  [[nodiscard]] Outcome diagnose(const std::string& arguments) const {
+    return dynid("diagnose " + std::string(kRobot) + " " + arguments + " --json " + path("d.json") +
+                 " --report " + path("d.html") + " -o " + path("d.robot"));
+  }
+  [[nodiscard]] Json json() const { return Json::parse(content(path("d.json"))); }
+
+  fs::path folder_;
+};
+
+TEST_F(Diagnose, NamesFrictionThatTheModelLeavesOut) {
+  const std::string rows = "effect load_friction joint=3 mu=0.12\n";
+  const std::string train = record("a.csv", rows, 1), test = record("b.csv", rows, 2);
+  const Outcome run = diagnose(train + " --holdout " + test);
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
+  EXPECT_EQ(json()["verdict"], "explained") << run.out;
+  ASSERT_EQ(json()["findings"].size(), 1u) << run.out;
+  const Json finding = json()["findings"][0];
+  EXPECT_EQ(finding["family"], "load_friction") << run.out;
+  EXPECT_EQ(finding["joint"], 3) << run.out;
+  const Json heldout = json()["heldout"];
+  EXPECT_LT(heldout["rms_after"][2].get<double>(), 0.95 * heldout["rms_before"][2].get<double>());
+  EXPECT_EQ(test::markup_fault(content(path("d.html"))), "");
+  EXPECT_NE(run.out.find("of joint 3, probability"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("written: " + path("d.html")), std::string::npos) << run.out;
+  // the file that it writes leaves less of the recordings, and compiles
+  const auto left = [&](const std::string& file) {
+    const Outcome check = dynid("check " + file + " " + test + " --json " + path("check.json"));
+    EXPECT_EQ(check.exit_code, 0) << check.out;
+    return Json::parse(content(path("check.json")))["recordings"][0]["rms"][2].get<double>();
+  };
+  EXPECT_LT(left(path("d.robot")), 0.8 * left(kRobot));
+  // it is known then: taken off, and there is nothing left to find
+  const Outcome again = dynid("diagnose " + path("d.robot") + " " + train + " --holdout " + test +
+                              " --json " + path("again.json"));
+  ASSERT_EQ(again.exit_code, 0) << again.out;
+  EXPECT_EQ(Json::parse(content(path("again.json")))["verdict"], "clean") << again.out;
+}
+
+TEST_F(Diagnose, FindsNothingWhereNothingIs) {
+  const Outcome run = diagnose(record("a.csv", "", 3));
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  EXPECT_EQ(json()["verdict"], "clean") << run.out;
+  EXPECT_EQ(json()["findings"].size(), 0u);
+  EXPECT_GT(json()["certificate"].size(), 50u);
+  EXPECT_GT(json()["undecidable"].size(), 0u);
+  // all parameters are those of a fit
+  EXPECT_EQ(dynid("check " + path("d.robot") + " " + path("a.csv")).exit_code, 0);
+}
+
+TEST_F(Diagnose, SaysTheSameTwice) {
+  const std::string train = record("a.csv", "effect stribeck joint=2 Fs=14 vs=0.1\n", 4, 12);
+  ASSERT_EQ(diagnose(train).exit_code, 0);
+  const std::string json = content(path("d.json")), page = content(path("d.html")),
+                    file = content(path("d.robot"));
+  ASSERT_EQ(diagnose(train).exit_code, 0);
+  EXPECT_EQ(content(path("d.json")), json);
+  EXPECT_EQ(content(path("d.html")), page);
+  EXPECT_EQ(content(path("d.robot")), file);
+}
+
+TEST_F(Diagnose, ExplainsWhatAnotherSimulatorLeaves) {
+  Recording recording = motion("", 5, 20);
+  const std::string call = path("sim.csv") + " --residual-only";
+  write_recording(recording, path("sim.csv"));
+  const Outcome without = diagnose(call);
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_NE(without.out.find("there are no columns tausim1 .. tausim3"), std::string::npos)
+      << without.out;
+  // a simulator that knows all but a cable on joint 1
+  recording.tau_sim = recording.tau;
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> noise(0, 0.3);
+  for (Index k = 0; k < recording.tau.size(); ++k) recording.tau_sim.data()[k] += noise(random);
+  recording.tau_sim.col(0).array() -= 1.5 * recording.q.col(0).array().cube();
+  write_recording(recording, path("sim.csv"));
+  const Outcome run = diagnose(call);
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
+  ASSERT_GE(json()["findings"].size(), 1u) << run.out;
+  EXPECT_EQ(json()["findings"][0]["joint"], 1) << run.out;
+  // the file keeps its own parameters
+  EXPECT_NE(content(path("d.robot")).find("\nFs       5.9  8.1  4.4\n"), std::string::npos);
+}
+
+TEST_F(Diagnose, SaysWhatIsWrong) {
+  const std::string train = record("a.csv", "", 6, 3);
+  const auto expect = [](const Outcome& outcome, int code, const std::string& words) {
+    EXPECT_EQ(outcome.exit_code, code) << outcome.out;
+    EXPECT_NE(outcome.out.find(words), std::string::npos) << outcome.out;
+  };
+  expect(dynid("diagnose " + std::string(kRobot)), 2, "there is no recording");
+  expect(diagnose(train + " --false-alarm 0.7"), 2, "--false-alarm");
+  expect(diagnose(path("missing.csv")), 1, "missing.csv");
+  expect(dynid("diagnose " + std::string(DYNGEN_SOURCE_DIR "/robots/planar2r.robot ") + train), 1,
+         "joints");
+  expect(dynid("diagnose " + robot("e.robot", "effect stribeck joint=2 Fs=*\n") + " " + train), 1,
+         "effect 'stribeck' has no numbers");
+  expect(diagnose(train + " --effects " + path("nowhere")), 1, "nowhere");
+  EXPECT_FALSE(fs::exists(path("d.json")));
+}
+
+TEST_F(Diagnose, RefusesToAnswerFromTooLittle) {
+  const Outcome run = diagnose(record("a.csv", "", 7, 8) + " --holdout " +
+                               record("b.csv", "", 8, 8) + " --decimate 30");
+  EXPECT_EQ(run.exit_code, 3) << run.out;
+  EXPECT_NE(run.out.find("too few"), std::string::npos) << run.out;
+  EXPECT_EQ(json()["verdict"], "insufficient_data");
+  EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
+  EXPECT_EQ(test::markup_fault(content(path("d.html"))), "");
+  EXPECT_FALSE(fs::exists(path("d.robot")));
+}
+
+}  // namespace
+}  // namespace dyngen::runtime

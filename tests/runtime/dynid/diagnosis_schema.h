@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+/// Judges of what dynid diagnose writes, made from the documents alone.
+namespace dyngen::test {
+
+/// What does not fit the schema dynid.diagnosis/1 of docs/diagnosis.md, a line each: keys that are
+/// missing or unknown, values of the wrong kind.
+std::vector<std::string> schema_faults(const nlohmann::json& json);
+
+/// Places of all keys of all objects.
+std::vector<nlohmann::json::json_pointer> all_keys(const nlohmann::json& json);
+
+/// What is wrong with a page's markup: elements that are not closed in order, '&' and '<' that are
+/// not escaped. Empty: nothing.
+std::string markup_fault(const std::string& page);
+
+}  // namespace dyngen::test
