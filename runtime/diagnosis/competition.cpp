@@ -219,6 +219,13 @@ class Competition {
     std::vector<EffectInstance> all = effects();
     all.push_back(named.best.effect);
     EffectFit next = fit(all);
+    // a bound that holds the estimate, a falsifier, or a parameter that the data do not determine
+    // speak against the name
+    const int own = static_cast<int>(all.size()) - 1;
+    const bool doubtful =
+        std::any_of(next.remarks.begin(), next.remarks.end(),
+                    [&](const EffectRemark& remark) { return remark.effect == own; });
+    if (doubtful) return false;
     const auto squares = [&](const EffectFit& fitted) {
       EffectPoint point = fitted.point;
       point.initial.clear();

@@ -13,6 +13,7 @@
 #include "runtime/diagnosis/naming.h"
 #include "runtime/diagnosis/raw_residual.h"
 #include "runtime/diagnosis/reference.h"
+#include "runtime/diagnosis/standstill.h"
 #include "runtime/diagnosis/undecidable.h"
 #include "runtime/diagnosis/whereabouts.h"
 #include "runtime/effects/absorption.h"
@@ -25,6 +26,7 @@ using Eigen::VectorXd;
 
 constexpr double kHeldPart = 0.2;        // of every recording, where none is held out
 constexpr double kLeastWorth = 30;       // independent samples of a joint beyond its parameters
+constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise's correlation
 constexpr double kUnexplainedPart = 0.2; // of a joint's structure: above it a verdict is open
 
 struct Divided {
@@ -46,7 +48,13 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
   RowOptions rows;
   rows.decimation = options.decimation;
   const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
-  return effect_recordings(input.model, input.robot, sources, rows, all);
+  EffectRecordings data = effect_recordings(input.model, input.robot, sources, rows, all);
+  VectorXd still = VectorXd::Zero(data.joints());
+  for (const MotionSource& source : sources) {
+    still = still.cwiseMax(plan_rows(source, rows).still_speed);
+  }
+  for (EffectRun& run : data.runs) leave_out_standstill(run, still);
+  return data;
 }
 
 std::string where_it_acts(const EffectInstance& effect) {
@@ -84,6 +92,7 @@ class Diagnostician {
     }
     result_ = compete(train_, heldout_, hypotheses_, settings, progress_);
     describe_noise();
+    if (!worth_enough()) return std::move(answer_);
     describe_tests();
     describe_findings();
     describe_changes();
@@ -123,6 +132,19 @@ class Diagnostician {
       return false;
     }
     return true;
+  }
+
+  /// Whether slow noise leaves independent samples enough.
+  bool worth_enough() {
+    Index joint = 0;
+    const double least = result_.noise.worth.minCoeff(&joint);
+    if (least >= kLeastIndependent) return true;
+    answer_.verdict = Verdict::kInsufficientData;
+    answer_.sentence = fmt::format(
+        "What the model leaves of joint {} is so slow that the recordings are worth {:.0f} "
+        "independent samples: too few to tell structure from noise.",
+        joint + 1, least);
+    return false;
   }
 
   void describe_noise() {
