@@ -31,8 +31,8 @@ struct ModelDerivative {
 ///     d_* payload_* contact_* wrench_* of EffectRobot::tangent
 ///
 /// sign_qd turns only when the joint has come back by 2.5 steps of its encoder from where it was
-/// farthest: the noise of a velocity near 0 has no part in it. Where no step is known it is the
-/// plain sign.
+/// farthest, and then from the sample on since which the velocity has had that direction: the noise
+/// of a velocity near 0 has no part in it. Where no step is known it is the plain sign.
 ///
 /// Keeps what it computed until beta changes.
 class EffectSignals {
@@ -83,7 +83,8 @@ class EffectSignals {
   std::map<std::pair<std::size_t, int>, Eigen::MatrixXd> filtered_rates_;
 };
 
-/// The sign of a joint's velocity with a dead band of travel.
+/// The sign of a joint's velocity with a dead band of travel: it turns where the velocity does, if
+/// the joint then goes back by more than the band.
 /// @param band  rad or m; 0: the plain sign of dq
 Eigen::VectorXd travelled_sign(const Eigen::VectorXd& q, const Eigen::VectorXd& dq, double band);
 

@@ -213,10 +213,24 @@ std::optional<VectorXd> where_it_vanishes(const Bench& bench, EffectInstance eff
   return std::nullopt;
 }
 
+/// Whether a machine could have it: its file's bounds and conditions.
+bool could_be(const EffectInstance& effect, const runtime::EffectSizes& sizes,
+              const runtime::EffectScales& scales) {
+  const VectorXd& p = effect.parameters;
+  bool could = (p.array() >= sizes.min.array()).all() && (p.array() <= sizes.max.array()).all();
+  for (const auto* conditions : {&effect.law.requirements, &effect.law.falsifiers}) {
+    for (const runtime::EffectCondition& condition : *conditions) {
+      could = could && condition.slack(p, scales) >= 0;
+    }
+  }
+  return could;
+}
+
 /// Gives an effect a strength; none if it cannot have it.
 std::optional<TrueEffect> scaled(const Bench& bench, const StrengthMeter& meter,
-                                 const EffectInstance& drawn, const runtime::EffectSizes& sizes,
+                                 const EffectInstance& drawn, const runtime::EffectScales& scales,
                                  double lambda, int only) {
+  const runtime::EffectSizes sizes = drawn.law.sizes(scales);
   const std::optional<VectorXd> nothing = where_it_vanishes(bench, drawn, sizes);
   if (!nothing) return std::nullopt;
   TrueEffect result{drawn, 0, 0, only, 0, ""};
@@ -229,10 +243,7 @@ std::optional<TrueEffect> scaled(const Bench& bench, const StrengthMeter& meter,
     result.absorbed = before > 0 ? 1 - result.lambda / before : 1;
     if (!std::isfinite(before) || result.absorbed > 1 - kSeen) return std::nullopt;
     if (std::abs(result.lambda / lambda - 1) < 0.01) {
-      const VectorXd& p = result.effect.parameters;
-      const bool fits =
-          (p.array() >= sizes.min.array()).all() && (p.array() <= sizes.max.array()).all();
-      return fits ? std::optional(result) : std::nullopt;
+      return could_be(result.effect, sizes, scales) ? std::optional(result) : std::nullopt;
     }
     scale *= std::sqrt(lambda / result.lambda);
     if (!(scale < kMostScaled)) return std::nullopt;
@@ -309,7 +320,7 @@ std::optional<TrueEffect> drawn_effect(const Bench& bench, const std::string& fa
   const int only =
       time_local(effect.law) && random() % 2 == 0 ? static_cast<int>(random() % kTrain) : -1;
   StrengthMeter meter(data, bench.robot.beta, noise);
-  std::optional<TrueEffect> truth = scaled(bench, meter, effect, sizes, request.lambda, only);
+  std::optional<TrueEffect> truth = scaled(bench, meter, effect, scales, request.lambda, only);
   if (truth && with_likeness) largest_likeness(meter, bench, *truth, scales);
   return truth;
 }

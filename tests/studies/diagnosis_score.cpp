@@ -259,12 +259,14 @@ CaseScore run_case(const CaseRequest& request, bool baselines) {
     score.verdict = verdict_name(diagnosis.verdict);
     score.answer = answer_text(diagnosis);
     judge_findings(own, diagnosis, score);
-    const auto rows = [&](const std::vector<runtime::MotionSource>& sources) {
-      return runtime::effect_recordings(own.input.model, own.input.robot, sources, {},
-                                        remembering(own));
+    const auto rows = [&](const std::vector<runtime::MotionSource>& sources,
+                          const std::vector<bool>& keeping) {
+      return runtime::effect_recordings(own.input.model, own.input.robot, sources, {}, keeping);
     };
-    const EffectRecordings train = rows(own.input.train);
-    judge_heldout(own, diagnosis, train, rows(own.input.heldout), score);
+    const EffectRecordings train = rows(own.input.train, remembering(own));
+    // friction of a joint that stands is any: it says nothing of a model
+    const std::vector<bool> none(static_cast<std::size_t>(own.robot.joints()), false);
+    judge_heldout(own, diagnosis, train, rows(own.input.heldout, none), score);
     if (baselines) judge_baselines(own, train, score);
   } catch (const std::exception& error) {
     score.failure = without_breaks(error.what());

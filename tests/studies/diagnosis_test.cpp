@@ -47,7 +47,8 @@ TEST(Cases, HaveTheStrengthThatTheAtlasSays) {
 }
 
 TEST(Cases, ComeAgainFromTheirSeed) {
-  const CaseRequest request{.kind = CaseKind::kPair, .seed = 3, .lambda = 80};
+  const CaseRequest request{
+      .kind = CaseKind::kPair, .seed = 3, .lambda = 80, .noise = {}, .family = ""};
   const DiagnosisCase a = make_case(request, false), b = make_case(request, false);
   EXPECT_EQ(a.truth_text(), b.truth_text());
   const auto first = [](const DiagnosisCase& own) {
@@ -62,8 +63,8 @@ TEST(Cases, ComeAgainFromTheirSeed) {
 TEST(Nulls, LeaveTheNoiseAlone) {
   for (const CaseNoise noise :
        {CaseNoise::kWhite, CaseNoise::kMixed, CaseNoise::kSlow, CaseNoise::kClosedLoop}) {
-    const DiagnosisCase own =
-        make_case({.kind = CaseKind::kNull, .seed = 5, .robot = "planar2", .noise = noise});
+    const DiagnosisCase own = make_case(
+        {.kind = CaseKind::kNull, .seed = 5, .robot = "planar2", .noise = noise, .family = ""});
     const runtime::EffectRecordings data = equations(own);
     const runtime::EffectFit fit = runtime::fit_effects(data, {});
     for (int j = 0; j < own.robot.joints(); ++j) {
