@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/diagnosis.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/runtime/effects/effect_arm.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// A small catalogue of laws made by hand, on both joints where they are of one.
+std::vector<EffectInstance> small_catalogue() {
+  std::vector<EffectInstance> hypotheses;
+  EffectLaw asymmetry = test::coulomb_asymmetry_law();
+  asymmetry.aliases.emplace_back("base");
+  for (const EffectLaw& law : {test::stribeck_law(), test::load_friction_law(), test::spring_law(),
+                               test::ripple_law(), asymmetry}) {
+    for (const int joint : {0, 1}) hypotheses.push_back(test::unknown(law, joint));
+  }
+  hypotheses.push_back(test::unknown(test::tilt_law(), -1));
+  for (EffectInstance& effect : hypotheses) {
+    effect.law.family = effect.law.name;
+    effect.link = effect.joint + 1;
+  }
+  return hypotheses;
+}
+
+DiagnosisInput input_with(const std::vector<EffectInstance>& effects, unsigned seed,
+                          double noise = 0.1, double coefficient = 0.5) {
+  const double phase = 0.3 * seed;
+  DiagnosisInput input;
+  input.model = test::planar_arm();
+  input.robot = test::planar_arm_tangents();
+  input.train = test::measured({test::sines(30, 0.01, phase), test::sines(30, 0.01, phase + 2)},
+                               test::planar_arm_values(), effects, noise, coefficient, seed);
+  input.heldout = test::measured({test::sines(20, 0.01, phase + 4, 0.9)}, test::planar_arm_values(),
+                                 effects, noise, coefficient, seed + 100);
+  input.hypotheses = small_catalogue();
+  return input;
+}
+
+DiagnosisOptions every_sample() {
+  DiagnosisOptions options;
+  options.decimation = 1;
+  return options;
+}
+
+TEST(Diagnosis, OfNullsIsClean) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    const double coefficient = seed % 3 == 0 ? 0 : seed % 3 == 1 ? 0.5 : 0.95;
+    const Diagnosis diagnosis = diagnose(input_with({}, seed, 0.1, coefficient), every_sample());
+    EXPECT_EQ(diagnosis.verdict, Verdict::kClean) << "seed " << seed << " AR " << coefficient;
+    EXPECT_TRUE(diagnosis.findings.empty());
+  }
+}
+
+struct Truth {
+  EffectInstance effect;
+  int joint;
+};
+
+TEST(Diagnosis, NamesWhatWasLeftOut) {
+  const std::vector<Truth> truths = {{test::known(test::load_friction_law(), 0, {0.05}), 0},
+                                     {test::known(test::spring_law(), 1, {0.4}), 1},
+                                     {test::known(test::ripple_law(), 1, {0.1, 0.05, 21}), 1},
+                                     {test::known(test::tilt_law(), -1, {0.2, 0.1}), -1}};
+  for (const Truth& truth : truths) {
+    for (const unsigned seed : {1U, 2U}) {
+      const Diagnosis diagnosis = diagnose(input_with({truth.effect}, seed), every_sample());
+      ASSERT_FALSE(diagnosis.findings.empty()) << truth.effect.law.name << " seed " << seed;
+      const Finding& finding = diagnosis.findings.front();
+      EXPECT_EQ(finding.effect.law.name, truth.effect.law.name) << "seed " << seed;
+      EXPECT_EQ(finding.effect.joint, truth.joint);
+      EXPECT_GT(finding.evidence.lambda, 20);
+      EXPECT_LT(finding.evidence.delta_bic, 0);
+      EXPECT_GT(finding.evidence.heldout_gain, 0);
+      EXPECT_GT(finding.where.share, 0.5);
+      EXPECT_FALSE(finding.why.empty());
+      for (int p = 0; p < truth.effect.law.size(); ++p) {
+        EXPECT_NEAR(finding.effect.parameters[p], truth.effect.parameters[p],
+                    4.5 * finding.parameters[static_cast<std::size_t>(p)].stddev +
+                        0.1 * truth.effect.parameters.head(1).norm())  // an order is held
+            << truth.effect.law.name;
+      }
+    }
+  }
+}
+
+TEST(Diagnosis, WhatIsAColumnOfTheModelIsUndecidable) {
+  const Diagnosis diagnosis = diagnose(
+      input_with({test::known(test::coulomb_asymmetry_law(), 0, {1.0})}, 3), every_sample());
+  EXPECT_EQ(diagnosis.verdict, Verdict::kClean);
+  const auto listed = std::any_of(
+      diagnosis.undecidable.begin(), diagnosis.undecidable.end(), [](const Undecidable& entry) {
+        return entry.joint == 0 && std::find(entry.families.begin(), entry.families.end(),
+                                             "coulomb_asymmetry") != entry.families.end();
+      });
+  EXPECT_TRUE(listed);
+}
+
+TEST(Diagnosis, AReferenceDecidesWhatNoRecordingAloneCan) {
+  DiagnosisInput input =
+      input_with({test::known(test::coulomb_asymmetry_law(), 0, {1.0})}, 4);
+  input.reference = input_with({}, 5).train;
+  const Diagnosis diagnosis = diagnose(input, every_sample());
+  ASSERT_EQ(diagnosis.findings.size(), 1U);
+  const Finding& finding = diagnosis.findings.front();
+  EXPECT_TRUE(finding.since_reference);
+  EXPECT_EQ(finding.effect.law.name, "coulomb_asymmetry");
+  EXPECT_EQ(finding.effect.joint, 0);
+  EXPECT_NEAR(finding.effect.parameters[0], 1, 5 * finding.parameters[0].stddev);
+  input.train = input_with({}, 6).train;
+  EXPECT_TRUE(diagnose(input, every_sample()).findings.empty());
+}
+
+TEST(Diagnosis, StructureOutsideTheCatalogueHasNoName) {
+  EffectLaw foreign = test::algebraic_law(
+      "foreign", {"q", "q_other"},
+      {{"a", EffectRole::kLinear, -10, 10, 0, 1}},
+      [](const VectorXd& v, const VectorXd& p) { return p[0] * std::sin(3 * v[0]) * v[1]; });
+  foreign.scope = EffectScope::kPair;
+  EffectInstance effect = test::known(foreign, 0, {0.6});
+  effect.other = 1;
+  const Diagnosis diagnosis = diagnose(input_with({effect}, 7), every_sample());
+  EXPECT_EQ(diagnosis.verdict, Verdict::kUnexplainedStructure);
+  ASSERT_FALSE(diagnosis.unexplained.empty());
+  EXPECT_EQ(diagnosis.unexplained.front().joint, 0);
+  EXPECT_GT(diagnosis.unexplained.front().rms, 0.02);
+}
+
+TEST(Diagnosis, IsTheSameTwice) {
+  const DiagnosisInput input = input_with({test::known(test::spring_law(), 1, {0.4})}, 8);
+  const Diagnosis a = diagnose(input, every_sample()), b = diagnose(input, every_sample());
+  EXPECT_EQ(a.findings.size(), b.findings.size());
+  EXPECT_EQ(a.fit.point.beta, b.fit.point.beta);
+  EXPECT_EQ(a.heldout.after, b.heldout.after);
+  ASSERT_EQ(a.before.size(), b.before.size());
+  for (std::size_t j = 0; j < a.before.size(); ++j) {
+    EXPECT_EQ(a.before[j].statistic, b.before[j].statistic);
+    EXPECT_EQ(a.before[j].threshold, b.before[j].threshold);
+  }
+}
+
+TEST(Diagnosis, OfAFewSamplesIsRefused) {
+  DiagnosisInput input = input_with({}, 9);
+  input.train = test::measured({test::sines(0.3, 0.01)}, test::planar_arm_values(), {}, 0.1, 0, 1);
+  const Diagnosis diagnosis = diagnose(input, every_sample());
+  EXPECT_EQ(diagnosis.verdict, Verdict::kInsufficientData);
+  EXPECT_FALSE(diagnosis.sentence.empty());
+}
+
+TEST(DiagnosisOptions, AreCheckedByName) {
+  DiagnosisOptions options;
+  options.false_alarm = 0;
+  EXPECT_THROW(options.validate(), std::invalid_argument);
+  options = {};
+  options.most_findings = -1;
+  EXPECT_THROW(options.validate(), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace dyngen::runtime

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/evidence/evidence_system.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "runtime/diagnosis/generic_structure.h"
+#include "runtime/diagnosis/screening.h"
+#include "runtime/diagnosis/standstill.h"
+#include "runtime/effects/absorption.h"
+#include "tests/runtime/effects/effect_arm.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+EffectRecordings arm_recordings(double seconds, double noise, unsigned seed,
+                                const std::vector<EffectInstance>& effects = {}) {
+  return effect_recordings(test::planar_arm(), test::planar_arm_tangents(),
+                           test::measured({test::sines(seconds, 0.01)}, test::planar_arm_values(),
+                                          effects, noise, 0, seed),
+                           {1, -1}, {true, true});
+}
+
+RunResiduals residuals_at_truth(const EffectRecordings& data) {
+  return {residual(data.runs.front().rows, test::planar_arm_values())};
+}
+
+TorqueNoiseModel white(double deviation) {
+  return {white_noise(VectorXd::Constant(2, deviation)).joints, VectorXd::Constant(2, 2000), false};
+}
+
+TEST(TorqueNoiseModel, OfPeriodsDoesNotSeeWhatRepeats) {
+  // AR(1) noise of coefficient 0.8 under structure ten times as large, which repeats
+  const EffectRecordings data = arm_recordings(60, 0.1, 1);
+  const Index rows = data.equations(), period = 1000;
+  std::mt19937_64 random(20261121);
+  std::normal_distribution<double> normal;
+  MatrixXd e(rows, 2);
+  for (Index j = 0; j < 2; ++j) {
+    double x = normal(random);
+    for (Index k = 0; k < rows; ++k) {
+      e(k, j) = 0.1 * x + std::sin(2 * M_PI * static_cast<double>(k) / static_cast<double>(period));
+      x = 0.8 * x + std::sqrt(1 - 0.64) * normal(random);
+    }
+  }
+  const VectorXd fitted = VectorXd::Zero(2);
+  const TorqueNoiseModel repeated =
+      torque_noise_model(data, {e}, {static_cast<double>(period)}, fitted);
+  EXPECT_TRUE(repeated.from_periods);
+  const TorqueNoiseModel plain = torque_noise_model(data, {e}, {0}, fitted);
+  EXPECT_FALSE(plain.from_periods);
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_NEAR(repeated.joints[j].deviation, 0.1, 0.01);
+    EXPECT_NEAR(repeated.joints[j].correlation_time, 9, 2.5);
+    EXPECT_GT(plain.joints[j].deviation, 0.5);
+  }
+}
+
+TEST(EvidenceSystem, NoiseGivesChiSquare) {
+  const EffectRecordings data = arm_recordings(20, 0.1, 2);
+  EvidenceSystem::Options options;
+  options.surrogates = 400;
+  const EvidenceSystem system(data, residuals_at_truth(data), white(0.1), options);
+  EffectSignals signals(data);
+  signals.set_beta(test::planar_arm_values());
+  const GenericStructure structure{0, {{StructureVariable::Kind::kPosition, 1}}, false};
+  const Score score =
+      score_of(system.products(system.whitened(generic_columns(data, signals, structure))));
+  EXPECT_GE(score.degrees, 5);
+  const double mean = score.surrogates.mean();
+  EXPECT_NEAR(mean, score.degrees, 4 * std::sqrt(2.0 * score.degrees / 400));
+  // and the recording's own noise is one of them
+  EXPECT_LT(score.squares, score.degrees + 5 * std::sqrt(2.0 * score.degrees));
+}
+
+TEST(EvidenceSystem, WhatTheModelSpansIsNoEvidence) {
+  const EffectRecordings data = arm_recordings(20, 0.1, 3);
+  EvidenceSystem system(data, residuals_at_truth(data), white(0.1), {});
+  JointColumns offset{{1}, {MatrixXd::Ones(data.equations(), 1)}};
+  EXPECT_EQ(score_of(system.products(system.whitened(offset))).degrees, 0);
+  // a column that is added is spanned from then on
+  JointColumns own{{1}, {data.runs.front().motion.q.col(1)}};
+  EXPECT_EQ(score_of(system.products(system.whitened(own))).degrees, 1);
+  system.add(system.whitened(own));
+  EXPECT_EQ(score_of(system.products(system.whitened(own))).degrees, 0);
+}
+
+TEST(EvidenceSystem, SquaresGrowAsTheNoncentralitySays) {
+  // a spring of 0.2 N m/rad on joint 2, noise 0.1 N m
+  const EffectInstance spring = test::known(test::spring_law(), 1, {0.2});
+  const EffectRecordings data = arm_recordings(40, 0.1, 4, {spring});
+  const EvidenceSystem system(data, residuals_at_truth(data), white(0.1), {});
+  EffectSignals signals(data);
+  signals.set_beta(test::planar_arm_values());
+  const Products products =
+      system.products(system.whitened(effect_columns(data, signals, spring, {1})));
+  const double lambda = 0.04 * products.left(0, 0);
+  const Score score = score_of(products);
+  EXPECT_NEAR(score.squares, lambda + 1, 4 * std::sqrt(2 + 4 * lambda));
+  EXPECT_NEAR(score.coefficients[0], 0.2, 4 * 0.2 / std::sqrt(lambda));
+}
+
+TEST(Surprise, IsTheLogarithmOfTheTailAlsoWhereItIsTooSmallForADouble) {
+  EXPECT_NEAR(surprise_of(3.841, 1), -std::log(0.05), 1e-3);
+  EXPECT_EQ(surprise_of(0, 3), 0);
+  EXPECT_NEAR(surprise_of(1320, 4) - surprise_of(1300, 4), 10, 0.1);
+  EXPECT_GT(surprise_of(3000, 2), surprise_of(2000, 2));
+  EXPECT_NEAR(surprise_of(3000, 2), 1500, 1e-6);
+}
+
+TEST(Standstill, IsLeftOutAndReversalsStayIn) {
+  EffectRecordings data = arm_recordings(20, 0.1, 5);
+  EffectRun& run = data.runs.front();
+  const double before = run.rows.counted.sum();
+  EffectRun moving = run;
+  leave_out_standstill(moving, VectorXd::Constant(2, 0.001));
+  EXPECT_EQ(moving.rows.counted.sum(), before);
+  run.motion.dq.col(1).segment(500, 300).setZero();
+  leave_out_standstill(run, VectorXd::Constant(2, 0.001));
+  EXPECT_EQ(run.rows.counted.col(0).sum(), before / 2);
+  EXPECT_NEAR(run.rows.counted.col(1).sum(), before / 2 - 300, 4);
+  EXPECT_EQ(run.rows.tau(650, 1), 0);
+}
+
+}  // namespace
+}  // namespace dyngen::runtime
