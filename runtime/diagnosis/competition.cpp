@@ -14,12 +14,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kRefined = 12;   // candidates whose shapes are refined in a round
+constexpr std::size_t kRefined = 12;     // candidates whose shapes are refined in a round
 constexpr double kLeastExplained = 0.5;  // part of a joint's structure that a name must explain
-constexpr int kAttempts = 4;           // effects that are fitted in a round before it gives up
-constexpr double kTie = 0.5;           // squares that decide nothing
-constexpr std::size_t kRivals = 5;     // that are compared again once the winner is fitted
-constexpr double kHeldoutGain = 2;     // by which held-out squares must fall
+constexpr int kAttempts = 4;             // effects that are fitted in a round before it gives up
+constexpr double kTie = 0.5;             // squares that decide nothing
+constexpr std::size_t kRivals = 5;       // that are compared again once the winner is fitted
+constexpr double kHeldoutGain = 2;       // by which held-out squares must fall
 
 /// One competition's data and what was found so far.
 class Competition {
@@ -46,9 +46,9 @@ class Competition {
       const EvidenceSystem system = model_system();
       const std::string stage = round == 0 ? "structure beside the model"
                                            : "structure beside the model and what was found";
-      Screening screening = screen(screening_data_, system, scales_, result_.fit.point.beta,
-                                   hypotheses_, structures_, round == 0 ? nullptr : &result_.first,
-                                   [&](double done) { tell(stage, done); });
+      Screening screening =
+          screen(screening_data_, system, scales_, result_.fit.point.beta, hypotheses_, structures_,
+                 round == 0 ? nullptr : &result_.first, [&](double done) { tell(stage, done); });
       if (round == 0) result_.first = screening;
       result_.last = screening;
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
@@ -94,8 +94,8 @@ class Competition {
   EvidenceSystem model_system() {
     std::vector<Hypothesis> beside;
     for (const Winner& winner : result_.winners) beside.push_back(hypotheses_[winner.hypothesis]);
-    EvidenceSystem system = system_at(train_, signals_, result_.fit.point, beside, result_.noise,
-                                      system_options());
+    EvidenceSystem system =
+        system_at(train_, signals_, result_.fit.point, beside, result_.noise, system_options());
     for (const Nameless& nameless : result_.nameless) {
       system.add(system.whitened(generic_columns(train_, signals_, nameless.structure)));
     }
@@ -169,9 +169,8 @@ class Competition {
   }
 
   [[nodiscard]] bool already(std::size_t hypothesis) const {
-    return std::any_of(result_.winners.begin(), result_.winners.end(), [&](const Winner& winner) {
-      return winner.hypothesis == hypothesis;
-    });
+    return std::any_of(result_.winners.begin(), result_.winners.end(),
+                       [&](const Winner& winner) { return winner.hypothesis == hypothesis; });
   }
 
   /// What effects read of the model (the load on a gear) is wrong as long as the model has taken up
@@ -203,13 +202,14 @@ class Competition {
       EffectInstance start = rival.best.effect;
       for (const int p : hypothesis.linear) start.parameters[p] = hypothesis.effect.parameters[p];
       NamedResult again = rival;
-      again.best = refined(train_, signals_, system, hypothesis,
-                           try_hypothesis(train_, signals_, system, hypothesis, start, scales, false),
-                           scales);
+      again.best = refined(
+          train_, signals_, system, hypothesis,
+          try_hypothesis(train_, signals_, system, hypothesis, start, scales, false), scales);
       if (!again.best.admissible) continue;
       again.surprise = surprise_of(again.best.score.squares, again.best.score.degrees);
       const double gain = net(again) - net(best);
-      const bool better = gain > kTie || (gain > -kTie && size_of(place) < size_of(best.hypothesis));
+      const bool better =
+          gain > kTie || (gain > -kTie && size_of(place) < size_of(best.hypothesis));
       if (first || better) best = std::move(again);
       first = false;
     }
@@ -272,8 +272,8 @@ class Competition {
     // whitened squares are squares over the innovation's variance
     const AutoregressiveNoise& noise =
         result_.noise.joints[static_cast<std::size_t>(structure.joint)];
-    nameless.rms = noise.deviation * std::sqrt(explained.squaredNorm() /
-                                               static_cast<double>(explained.size()));
+    nameless.rms = noise.deviation *
+                   std::sqrt(explained.squaredNorm() / static_cast<double>(explained.size()));
     result_.nameless.push_back(std::move(nameless));
     return true;
   }
@@ -291,9 +291,9 @@ class Competition {
       const EvidenceSystem system =
           system_at(train_, signals_, rest, beside, result_.noise, system_options());
       const Hypothesis& hypothesis = hypotheses_[result_.winners[i].hypothesis];
-      const TrialScore again = try_hypothesis(
-          train_, signals_, system, hypothesis, result_.fit.point.effects[i],
-          scales_.of(result_.fit.point.beta, hypothesis.effect), false);
+      const TrialScore again =
+          try_hypothesis(train_, signals_, system, hypothesis, result_.fit.point.effects[i],
+                         scales_.of(result_.fit.point.beta, hypothesis.effect), false);
       const double surprise = surprise_of(again.score.squares, again.score.degrees);
       if (result_.last.family_wise(surprise) <= options_.false_alarm) {
         ++i;
@@ -344,8 +344,7 @@ EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
 
 CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
-                          const CompetitionOptions& options,
-                          const CompetitionProgress& progress) {
+                          const CompetitionOptions& options, const CompetitionProgress& progress) {
   return Competition(train, heldout, hypotheses, options, progress).run();
 }
 

@@ -13,10 +13,10 @@ namespace dyngen::runtime {
 
 /// An effect that won a round.
 struct Winner {
-  std::size_t hypothesis = 0;     ///< its place
-  TrialScore trial;               ///< beside the model of its round
-  double surprise = 0;            ///< in its round
-  double heldout_before = 0;      ///< whitened squares of held-out residuals of its joints
+  std::size_t hypothesis = 0;  ///< its place
+  TrialScore trial;            ///< beside the model of its round
+  double surprise = 0;         ///< in its round
+  double heldout_before = 0;   ///< whitened squares of held-out residuals of its joints
   double heldout_after = 0;
   std::vector<NamedResult> others;  ///< its round's results, its own among them
 };

@@ -11,6 +11,7 @@
 
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/naming.h"
+#include "runtime/diagnosis/next_experiment.h"
 #include "runtime/diagnosis/raw_residual.h"
 #include "runtime/diagnosis/reference.h"
 #include "runtime/diagnosis/standstill.h"
@@ -24,10 +25,10 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kHeldPart = 0.2;        // of every recording, where none is held out
-constexpr double kLeastWorth = 30;       // independent samples of a joint beyond its parameters
+constexpr double kHeldPart = 0.2;         // of every recording, where none is held out
+constexpr double kLeastWorth = 30;        // independent samples of a joint beyond its parameters
 constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise's correlation
-constexpr double kUnexplainedPart = 0.2; // of a joint's structure: above it a verdict is open
+constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
 
 struct Divided {
   std::vector<MotionSource> train, heldout;
@@ -100,6 +101,7 @@ class Diagnostician {
     describe_certificate();
     describe_base();
     describe_heldout();
+    answer_.next = next_experiment(answer_.findings);
     conclude();
     return std::move(answer_);
   }
@@ -228,8 +230,9 @@ class Diagnostician {
         1 - std::sqrt(winner.heldout_after / std::max(winner.heldout_before, 1e-300));
     for (const EffectRemark& remark : answer_.fit.remarks) {
       if (remark.effect != static_cast<int>(place)) continue;
-      finding.tests.push_back({remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound",
-                               false, remark.text});
+      finding.tests.push_back(
+          {remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound", false,
+           remark.text});
     }
     finding.why = why(finding, naming);
     return finding;
@@ -282,18 +285,17 @@ class Diagnostician {
       CertificateLine line;
       line.effect = hypothesis.effect;
       line.parameter = hypothesis.linear[static_cast<std::size_t>(main)];
-      line.smallest = named.typical_lambda > 0 && named.part_left > 1e-6
-                          ? std::abs(named.typical[main]) *
-                                std::sqrt(kDetectableLambda / named.typical_lambda)
-                          : std::numeric_limits<double>::infinity();
+      line.smallest =
+          named.typical_lambda > 0 && named.part_left > 1e-6
+              ? std::abs(named.typical[main]) * std::sqrt(kDetectableLambda / named.typical_lambda)
+              : std::numeric_limits<double>::infinity();
       answer_.certificate.push_back(std::move(line));
     }
   }
 
   void describe_base() {
     const VectorXd& before = result_.base.point.beta;
-    const VectorXd deviation =
-        answer_.fit.base.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+    const VectorXd deviation = answer_.fit.base.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     for (Index i = 0; i < before.size(); ++i) {
       answer_.base_parameters.push_back({input_.model.parameters[static_cast<std::size_t>(i)].name,
                                          before[i], answer_.fit.point.beta[i], deviation[i]});
@@ -330,10 +332,9 @@ class Diagnostician {
 
   void conclude() {
     if (!worth_enough()) return;
-    const bool open = std::any_of(result_.nameless.begin(), result_.nameless.end(),
-                                  [&](const Nameless& nameless) {
-                                    return nameless_part(nameless) > kUnexplainedPart;
-                                  });
+    const bool open = std::any_of(
+        result_.nameless.begin(), result_.nameless.end(),
+        [&](const Nameless& nameless) { return nameless_part(nameless) > kUnexplainedPart; });
     if (open) {
       answer_.verdict = Verdict::kUnexplainedStructure;
       answer_.sentence = answer_.findings.empty()
@@ -342,10 +343,9 @@ class Diagnostician {
                                "explains.";
     } else if (!answer_.findings.empty()) {
       answer_.verdict = Verdict::kExplained;
-      answer_.sentence = fmt::format("{} left-out effect{} explain{} what the model leaves.",
-                                     answer_.findings.size(),
-                                     answer_.findings.size() == 1 ? "" : "s",
-                                     answer_.findings.size() == 1 ? "s" : "");
+      answer_.sentence = fmt::format(
+          "{} left-out effect{} explain{} what the model leaves.", answer_.findings.size(),
+          answer_.findings.size() == 1 ? "" : "s", answer_.findings.size() == 1 ? "s" : "");
     } else {
       answer_.verdict = Verdict::kClean;
       answer_.sentence = "Nothing above the noise: the model explains these recordings.";

@@ -48,9 +48,10 @@ struct Finding {
   std::vector<EffectParameterFit> parameters;
   std::vector<std::string> aliases;  ///< families that these data cannot tell apart, its own first
   double probability = 0;            ///< that the family is right, 0 .. 1
-  /// A change since the reference recordings: part of the model's own parameters, no row of effects.
+  /// A change since the reference recordings: part of the model's own parameters, no row of
+  /// effects.
   bool since_reference = false;
-  double absorbed = 0;               ///< part of its squares that a refit of the model takes up
+  double absorbed = 0;  ///< part of its squares that a refit of the model takes up
   Whereabouts where;
   Evidence evidence;
   std::vector<FalsifierOutcome> tests;

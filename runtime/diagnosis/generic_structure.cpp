@@ -178,8 +178,7 @@ JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signal
       const MatrixXd second = hats(values[1][run], places[1]);
       MatrixXd both(shape.rows(), shape.cols() * second.cols());
       for (Index i = 0; i < shape.cols(); ++i) {
-        both.middleCols(i * second.cols(), second.cols()) =
-            shape.col(i).asDiagonal() * second;
+        both.middleCols(i * second.cols(), second.cols()) = shape.col(i).asDiagonal() * second;
       }
       shape = std::move(both);
     }

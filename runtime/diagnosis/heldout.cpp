@@ -27,7 +27,8 @@ VectorXd whitened_squares(const EffectRecordings& data, const RunResiduals& resi
       for (Index t = 0; t < rest.rows(); ++t) {
         double innovation = rest(t, j);
         const Index inside = std::min<Index>(process.coefficients.size(), t);
-        for (Index k = 0; k < inside; ++k) innovation -= process.coefficients[k] * rest(t - 1 - k, j);
+        for (Index k = 0; k < inside; ++k)
+          innovation -= process.coefficients[k] * rest(t - 1 - k, j);
         squares[j] += innovation * innovation / (process.innovation * process.innovation);
       }
     }

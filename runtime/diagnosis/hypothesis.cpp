@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kOrders = 1000;  // values of a scan that is one over orders
-constexpr double kWide = 8;  // times the typical shape, both ways, where there are no bounds
+constexpr double kWide = 8;    // times the typical shape, both ways, where there are no bounds
 
 /// Linear parameters at which the effect has no torque: torque = C (p - nothing).
 VectorXd null_values(const JointColumns& plain, const Hypothesis& hypothesis,
@@ -33,8 +33,8 @@ VectorXd null_values(const JointColumns& plain, const Hypothesis& hypothesis,
   VectorXd scale = A.diagonal().cwiseSqrt();
   for (double& s : scale) s = s > 0 ? 1 / s : 0;
   const MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
-  const VectorXd distance = scale.cwiseProduct(
-      scaled.completeOrthogonalDecomposition().solve(scale.cwiseProduct(b)));
+  const VectorXd distance =
+      scale.cwiseProduct(scaled.completeOrthogonalDecomposition().solve(scale.cwiseProduct(b)));
   VectorXd nothing = present - distance;
   // rounding: a file that says 0 means 0
   for (Index i = 0; i < k; ++i) {
@@ -64,9 +64,8 @@ TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score s
     const double slack = 1e-9 * std::abs(result.typical[i]);
     if (value >= sizes.min[p] - slack && value <= sizes.max[p] + slack) continue;
     result.admissible = false;
-    result.objection =
-        fmt::format("{} would be {:.3g}", trial.law.parameters[static_cast<std::size_t>(p)].name,
-                    value);
+    result.objection = fmt::format("{} would be {:.3g}",
+                                   trial.law.parameters[static_cast<std::size_t>(p)].name, value);
   }
   for (const auto* conditions : {&trial.law.requirements, &trial.law.falsifiers}) {
     for (const EffectCondition& condition : *conditions) {
@@ -150,7 +149,8 @@ std::vector<VectorXd> shape_grid(const Hypothesis& hypothesis, const EffectScale
       for (int i = 0; i < count; ++i) {
         const double part = count == 1 ? 0 : static_cast<double>(i) / (count - 1);
         VectorXd shapes(before.size() + 1);
-        shapes << before, logarithmic ? low * std::pow(high / low, part) : low + part * (high - low);
+        shapes << before,
+            logarithmic ? low * std::pow(high / low, part) : low + part * (high - low);
         wider.push_back(std::move(shapes));
       }
     }

@@ -54,8 +54,7 @@ JointColumns hypothesis_columns(const EffectRecordings& data, EffectSignals& sig
 /// @throws std::invalid_argument  if a recording lacks what the effect reads
 TrialScore try_hypothesis(const EffectRecordings& data, EffectSignals& signals,
                           const EvidenceSystem& system, const Hypothesis& hypothesis,
-                          const EffectInstance& trial, const EffectScales& scales,
-                          bool surrogates);
+                          const EffectInstance& trial, const EffectScales& scales, bool surrogates);
 
 /// Several trials at once, which is faster.
 std::vector<TrialScore> try_shapes(const EffectRecordings& data, EffectSignals& signals,

@@ -10,8 +10,8 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr std::size_t kRivals = 24;      // effects that are compared with a winner
-constexpr double kStrongEnough = 0.3;    // of the winner's squares in its round
+constexpr std::size_t kRivals = 24;    // effects that are compared with a winner
+constexpr double kStrongEnough = 0.3;  // of the winner's squares in its round
 /// Misfit of the noise model and of linearisation makes differences of squares wider than theory
 /// has it: the odds are those of squares this much smaller.
 constexpr double kCaution = 2;
@@ -47,8 +47,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   const auto place = static_cast<std::ptrdiff_t>(winner);
   others.effects.erase(others.effects.begin() + place);
   for (auto& run : others.initial) run.erase(run.begin() + place);
-  const EvidenceSystem system =
-      system_at(data, signals, others, beside, result.noise, options);
+  const EvidenceSystem system = system_at(data, signals, others, beside, result.noise, options);
   const ScaleTable scales(data);
   const Winner& own = result.winners[winner];
   Naming naming;

@@ -14,9 +14,9 @@ struct Naming {
   double probability = 0;             ///< of the winner's family, 0 .. 1
   double lambda = 0;                  ///< squares of the winner beside all else, less its degrees
   double delta_bic = 0;
-  double part_left = 0;      ///< of the winner's squares, after the refit of the model
-  std::string runner_up;     ///< the next effect of another family; empty: none
-  double distance = 0;       ///< of the runner-up, in squares net of prices; inf: none
+  double part_left = 0;   ///< of the winner's squares, after the refit of the model
+  std::string runner_up;  ///< the next effect of another family; empty: none
+  double distance = 0;    ///< of the runner-up, in squares net of prices; inf: none
 };
 
 /// Winners are compared with all that was strong in their round, each beside the model with all

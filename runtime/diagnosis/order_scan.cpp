@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMost = 1000;      // orders
+constexpr double kMost = 1000;  // orders
 constexpr std::size_t kPeaks = 2;
 
 struct Extent {

@@ -10,9 +10,9 @@ namespace dyngen::runtime {
 
 /// Torque that repeats with a joint's position, over all orders that the equations can carry.
 struct OrderScan {
-  std::vector<double> peaks;    ///< times per turn of the joint, the strongest first; two at most
-  Eigen::VectorXd surrogates;   ///< the largest squares of noise over all orders
-  double highest = 0;           ///< order up to which was looked
+  std::vector<double> peaks;   ///< times per turn of the joint, the strongest first; two at most
+  Eigen::VectorXd surrogates;  ///< the largest squares of noise over all orders
+  double highest = 0;          ///< order up to which was looked
 };
 
 /// Columns cos(n q), sin(n q) of one joint for n from 1 (two turns of the range at least) up to the

@@ -39,8 +39,8 @@ VectorXd raw_rms(const EffectRecordings& data, const RunResiduals& residuals) {
     for (Index j = 0; j < squares.size(); ++j) {
       for (Index k = 0; k < here.rows.Y.rows(); ++k) {
         if (here.rows.counted(k, j) == 0) continue;
-        squares[j] += residuals[run].col(j).segment(first + k * factor - factor / 2, factor)
-                          .squaredNorm();
+        squares[j] +=
+            residuals[run].col(j).segment(first + k * factor - factor / 2, factor).squaredNorm();
         counts[j] += static_cast<double>(factor);
       }
     }

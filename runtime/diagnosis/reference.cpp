@@ -140,14 +140,13 @@ Finding finding_of(const Change& change, const std::vector<Change>& ranked,
     if (family == finding.aliases.front()) continue;
     const double distance = change.net - other.net;
     rest += std::exp(-std::clamp(distance, 0.0, 200.0) / 4);
-    if (distance < kApart &&
-        std::find(finding.aliases.begin(), finding.aliases.end(), family) == finding.aliases.end()) {
+    if (distance < kApart && std::find(finding.aliases.begin(), finding.aliases.end(), family) ==
+                                 finding.aliases.end()) {
       finding.aliases.push_back(family);
     }
   }
   finding.probability = 1 / (1 + rest);
-  finding.evidence.lambda =
-      std::max(0.0, change.trial.score.squares - change.trial.score.degrees);
+  finding.evidence.lambda = std::max(0.0, change.trial.score.squares - change.trial.score.degrees);
   finding.evidence.delta_bic = -change.net;
   finding.parameters.resize(static_cast<std::size_t>(hypothesis.effect.law.size()));
   for (int p = 0; p < hypothesis.effect.law.size(); ++p) {
@@ -183,8 +182,7 @@ std::vector<Finding> changes_since(const EffectRecordings& reference, const Effe
     if (ranked.empty()) break;
     const Change& best = ranked.front();
     const double surprise = surprise_of(best.trial.score.squares, best.trial.score.degrees);
-    if (best.net <= 0 ||
-        static_cast<double>(ranked.size()) * std::exp(-surprise) > false_alarm) {
+    if (best.net <= 0 || static_cast<double>(ranked.size()) * std::exp(-surprise) > false_alarm) {
       break;
     }
     findings.push_back(finding_of(best, ranked, hypotheses));

@@ -187,9 +187,9 @@ class Screener {
         result.part_left = earlier.part_left;
         result.typical = earlier.typical;
       } else {
-        remember_typical(try_hypothesis(data, signals, system_, hypothesis, hypothesis.effect,
-                                        scales, false),
-                         result);
+        remember_typical(
+            try_hypothesis(data, signals, system_, hypothesis, hypothesis.effect, scales, false),
+            result);
       }
       if (hypothesis.windowed) {
         const WindowScan scan = scan_windows(data, signals, system_, hypothesis, !before_);
@@ -222,8 +222,7 @@ class Screener {
                         NoiseSurprises& noise) const {
     GenericResult result;
     result.structure = place;
-    const JointColumns columns =
-        generic_columns(data_.coarse(), reader.coarse, structures_[place]);
+    const JointColumns columns = generic_columns(data_.coarse(), reader.coarse, structures_[place]);
     result.score = score_of(system_.products(system_.whitened(columns), !before_), !before_);
     if (!before_) noise.add(result.score.surrogates, result.score.degrees);
     result.surprise = surprise_of(result.score.squares, result.score.degrees);
@@ -295,8 +294,10 @@ TrialScore refined(const EffectRecordings& data, EffectSignals& signals,
     logarithmic.push_back(parameter.logarithmic && best.effect.parameters[p] > 0);
     const double reach = sizes.max[p] - sizes.min[p];
     const bool scanned = parameter.role == EffectRole::kScanned && std::isfinite(reach);
-    steps[i] = hypothesis.ordered ? 0.5 / std::max(scales.q_range, 0.1) : scanned ? reach / 80 : logarithmic.back() ? std::log(2.0)
-                       : 0.25 * std::max(std::abs(best.effect.parameters[p]), 1e-6);
+    steps[i] = hypothesis.ordered   ? 0.5 / std::max(scales.q_range, 0.1)
+               : scanned            ? reach / 80
+               : logarithmic.back() ? std::log(2.0)
+                                    : 0.25 * std::max(std::abs(best.effect.parameters[p]), 1e-6);
     if (scanned) logarithmic.back() = false;
   }
   for (int halving = 0; halving < kHalvings && count > 0; ++halving) {

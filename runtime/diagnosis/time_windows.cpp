@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kBlocks = 120;         // of the longest recording
+constexpr int kBlocks = 120;          // of the longest recording
 constexpr double kLongestPush = 0.3;  // of the recording: what lasts longer is no window
 constexpr int kWindowSurrogates = 16;
 
@@ -57,8 +57,8 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
   VectorXd always(static_cast<Index>(hypothesis.shapes.size()));
   always[0] = -1;
   if (ends) always[1] = 2 * longest + 1;
-  const JointColumns columns = hypothesis_columns(data, signals, system, hypothesis,
-                                                  with_shapes(hypothesis, always));
+  const JointColumns columns =
+      hypothesis_columns(data, signals, system, hypothesis, with_shapes(hypothesis, always));
   const double step = longest / kBlocks;
   // rows of a recording are consecutive, so that each block is a few ranges
   std::vector<std::vector<Index>> rows(kBlocks);
@@ -69,7 +69,8 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
   const Index k = columns.columns();
   sums.whole.push_back(MatrixXd::Zero(k, k));
   sums.rest.push_back(VectorXd::Zero(k));
-  sums.noise.push_back(MatrixXd::Zero(k, surrogates ? std::min(kWindowSurrogates, system.surrogates()) : 0));
+  sums.noise.push_back(
+      MatrixXd::Zero(k, surrogates ? std::min(kWindowSurrogates, system.surrogates()) : 0));
   sums.inner.push_back(MatrixXd::Zero(system.rank(), k));
   for (int b = 0; b < kBlocks; ++b) {
     MatrixXd whole = sums.whole.back(), noise = sums.noise.back(), inner = sums.inner.back();
@@ -95,7 +96,8 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
   VectorXd largest = VectorXd::Zero(sums.noise.front().cols());
   for (std::size_t from = 0; from < kBlocks; ++from) {
     const std::size_t last =
-        ends ? std::min<std::size_t>(kBlocks, from + static_cast<std::size_t>(kLongestPush * kBlocks))
+        ends ? std::min<std::size_t>(kBlocks,
+                                     from + static_cast<std::size_t>(kLongestPush * kBlocks))
              : kBlocks;
     for (std::size_t to = ends ? from + 1 : kBlocks; to <= last; ++to) {
       if (!ends && (from == 0 || from + 3 > kBlocks)) continue;

@@ -11,8 +11,8 @@ namespace dyngen::runtime {
 /// Scores of a windowed hypothesis (a payload taken up, a contact) over all windows that begin and
 /// end on a grid of times; of one that only begins, those that last to the end of each recording.
 struct WindowScan {
-  double begin = 0, end = 0;   ///< s, of the best window
-  Score score;                 ///< of the best window; surrogates: the largest over all windows
+  double begin = 0, end = 0;  ///< s, of the best window
+  Score score;                ///< of the best window; surrogates: the largest over all windows
   bool found = false;
 };
 

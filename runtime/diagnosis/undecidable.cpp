@@ -39,8 +39,7 @@ std::string reason(const std::string& family) {
 }  // namespace
 
 std::vector<Undecidable> undecidable_effects(const std::vector<Hypothesis>& hypotheses,
-                                             const Screening& screening,
-                                             const LinearModel& model) {
+                                             const Screening& screening, const LinearModel& model) {
   std::map<std::pair<int, std::string>, std::vector<std::string>> groups;
   for (const NamedResult& named : screening.named) {
     const EffectInstance& effect = hypotheses[named.hypothesis].effect;

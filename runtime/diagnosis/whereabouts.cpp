@@ -55,8 +55,7 @@ Range closest_range(const VectorXd& x, const VectorXd& energy) {
     inside += energy[order[to]];
     while (inside - energy[order[from]] >= wanted) inside -= energy[order[from++]];
     if (inside < wanted) continue;
-    const double samples =
-        static_cast<double>(to + 1 - from) / static_cast<double>(order.size());
+    const double samples = static_cast<double>(to + 1 - from) / static_cast<double>(order.size());
     if (samples < best.samples) {
       best = {x[order[from]], x[order[to]], inside / energy.sum(), samples};
     }
@@ -69,8 +68,7 @@ Range closest_range(const VectorXd& x, const VectorXd& energy) {
 Whereabouts whereabouts_of(const EffectRecordings& data, EffectSignals& signals,
                            const EvidenceSystem& system, const Hypothesis& hypothesis,
                            const EffectInstance& effect) {
-  const JointColumns columns =
-      system.whitened(effect_columns(data, signals, effect, {0}));
+  const JointColumns columns = system.whitened(effect_columns(data, signals, effect, {0}));
   int joint = columns.joints.front();
   VectorXd energy;
   for (const int j : columns.joints) {
@@ -102,7 +100,7 @@ Whereabouts whereabouts_of(const EffectRecordings& data, EffectSignals& signals,
     const auto reads = [&](const char* name) {
       return std::find(read.begin(), read.end(), name) != read.end();
     };
-    const StructureVariable variable = reads("q")          ? StructureVariable{Kind::kPosition, joint}
+    const StructureVariable variable = reads("q") ? StructureVariable{Kind::kPosition, joint}
                                        : reads("tau_load") ? StructureVariable{Kind::kLoad, joint}
                                        : reads("t")        ? StructureVariable{Kind::kTime, -1}
                                                     : StructureVariable{Kind::kVelocity, joint};
@@ -116,8 +114,7 @@ Whereabouts whereabouts_of(const EffectRecordings& data, EffectSignals& signals,
     where.t_from = effect.parameters[hypothesis.shapes.front()];
     double end = 0;
     for (const EffectRun& run : data.runs) end = std::max(end, run.time[run.time.size() - 1]);
-    where.t_to =
-        hypothesis.shapes.size() > 1 ? effect.parameters[hypothesis.shapes.back()] : end;
+    where.t_to = hypothesis.shapes.size() > 1 ? effect.parameters[hypothesis.shapes.back()] : end;
   }
   return where;
 }

@@ -42,8 +42,7 @@ Score score_of(const Products& products, bool surrogates) {
     score.coefficients += direction * (along / value);
     ++score.degrees;
     if (surrogates) {
-      score.surrogates +=
-          (products.noise.transpose() * direction).cwiseAbs2() / value;
+      score.surrogates += (products.noise.transpose() * direction).cwiseAbs2() / value;
     }
   }
   return score;
@@ -127,8 +126,7 @@ void EvidenceSystem::add(const JointColumns& whitened) {
   for (int pass = 0; pass < 2; ++pass) columns -= basis_ * (basis_.transpose() * columns);
   for (Index c = 0; c < columns.cols(); ++c) {
     for (int pass = 0; pass < 2; ++pass) {
-      columns.col(c) -=
-          columns.leftCols(c) * (columns.leftCols(c).transpose() * columns.col(c));
+      columns.col(c) -= columns.leftCols(c) * (columns.leftCols(c).transpose() * columns.col(c));
     }
     const double left = columns.col(c).norm();
     if (left > std::sqrt(kAbsorbed) * before[c]) {

@@ -20,11 +20,11 @@ struct Products {
 
 /// What columns explain beside the model.
 struct Score {
-  double squares = 0;           ///< r'P r: how far the whitened squares would fall
-  int degrees = 0;              ///< independent columns that the model does not absorb
-  double part_left = 0;         ///< of the columns' squares, before and after projection
-  Eigen::VectorXd coefficients; ///< (k) of the columns; 0 of those that are absorbed
-  Eigen::VectorXd surrogates;   ///< (m) squares of the noise surrogates
+  double squares = 0;            ///< r'P r: how far the whitened squares would fall
+  int degrees = 0;               ///< independent columns that the model does not absorb
+  double part_left = 0;          ///< of the columns' squares, before and after projection
+  Eigen::VectorXd coefficients;  ///< (k) of the columns; 0 of those that are absorbed
+  Eigen::VectorXd surrogates;    ///< (m) squares of the noise surrogates
 };
 /// @param surrogates  false: those are left out
 Score score_of(const Products& products, bool surrogates = true);
@@ -55,12 +55,11 @@ class EvidenceSystem {
   /// Of consecutive groups of columns, each by itself: one pass over the model's columns for all.
   /// @param width  columns of a group
   [[nodiscard]] std::vector<Products> products_of_groups(const JointColumns& whitened,
-                                                         Eigen::Index width,
-                                                         bool surrogates) const;
+                                                         Eigen::Index width, bool surrogates) const;
   /// The same over a range of rows of every joint alone. @param from, to  as fractions of no run:
   /// rows of a joint, [from, to)
-  [[nodiscard]] Products products(const JointColumns& whitened, Eigen::Index from,
-                                  Eigen::Index to, bool surrogates) const;
+  [[nodiscard]] Products products(const JointColumns& whitened, Eigen::Index from, Eigen::Index to,
+                                  bool surrogates) const;
 
   /// What the model leaves of a joint, whitened. @return (equations)
   [[nodiscard]] auto rest(int joint) const { return rest_.segment(joint * rows_, rows_); }

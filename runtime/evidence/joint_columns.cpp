@@ -26,10 +26,9 @@ JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals
       MatrixXd& part = parts[joint];
       if (part.size() == 0) part = MatrixXd::Zero(data.equations(), width);
       for (Index c = 0; c < width; ++c) {
-        part.col(c).segment(start, rows.Y.rows()) =
-            signature.columns[i]
-                .col(wanted[static_cast<std::size_t>(c)])
-                .cwiseProduct(rows.counted.col(joint));
+        part.col(c).segment(start, rows.Y.rows()) = signature.columns[i]
+                                                        .col(wanted[static_cast<std::size_t>(c)])
+                                                        .cwiseProduct(rows.counted.col(joint));
       }
     }
     start += rows.Y.rows();
@@ -51,7 +50,8 @@ EffectRecordings at_equations(const EffectRecordings& data) {
     motion.sample_time *= static_cast<double>(factor);
     motion.time = motion.time(places).eval();
     run.time = run.time(places).eval();
-    for (MatrixXd* signal : {&motion.q, &motion.dq, &motion.ddq, &motion.tau, &motion.temperature}) {
+    for (MatrixXd* signal :
+         {&motion.q, &motion.dq, &motion.ddq, &motion.tau, &motion.temperature}) {
       if (signal->size() != 0) *signal = (*signal)(places, Eigen::all).eval();
     }
     run.decimator = design_decimator(1);

@@ -42,8 +42,7 @@ void difference_of_periods(const VectorXd& e, const VectorXd& counted, double pe
   const VectorXd moved = shifted(e, static_cast<double>(whole) - period);
   const Index rows = e.size() - whole;
   VectorXd both = counted.tail(rows).cwiseProduct(counted.head(rows));
-  const VectorXd difference =
-      (e.tail(rows) - moved.head(rows)).cwiseProduct(both) / std::sqrt(2.0);
+  const VectorXd difference = (e.tail(rows) - moved.head(rows)).cwiseProduct(both) / std::sqrt(2.0);
   products.add(difference, both);
 }
 
@@ -80,8 +79,8 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   }
   model.from_periods = true;
   for (std::size_t j = 0; j < all.size(); ++j) {
-    model.from_periods =
-        model.from_periods && repeated[j].samples >= kLeastPart * all[j].samples && all[j].samples > 0;
+    model.from_periods = model.from_periods && repeated[j].samples >= kLeastPart * all[j].samples &&
+                         all[j].samples > 0;
   }
   for (std::size_t j = 0; j < all.size(); ++j) {
     const Products& products = model.from_periods ? repeated[j] : all[j];

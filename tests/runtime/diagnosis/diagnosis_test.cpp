@@ -107,8 +107,7 @@ TEST(Diagnosis, WhatIsAColumnOfTheModelIsUndecidable) {
 }
 
 TEST(Diagnosis, AReferenceDecidesWhatNoRecordingAloneCan) {
-  DiagnosisInput input =
-      input_with({test::known(test::coulomb_asymmetry_law(), 0, {1.0})}, 4);
+  DiagnosisInput input = input_with({test::known(test::coulomb_asymmetry_law(), 0, {1.0})}, 4);
   input.reference = input_with({}, 5).train;
   const Diagnosis diagnosis = diagnose(input, every_sample());
   ASSERT_EQ(diagnosis.findings.size(), 1U);
@@ -123,8 +122,7 @@ TEST(Diagnosis, AReferenceDecidesWhatNoRecordingAloneCan) {
 
 TEST(Diagnosis, StructureOutsideTheCatalogueHasNoName) {
   EffectLaw foreign = test::algebraic_law(
-      "foreign", {"q", "q_other"},
-      {{"a", EffectRole::kLinear, -10, 10, 0, 1}},
+      "foreign", {"q", "q_other"}, {{"a", EffectRole::kLinear, -10, 10, 0, 1}},
       [](const VectorXd& v, const VectorXd& p) { return p[0] * std::sin(3 * v[0]) * v[1]; });
   foreign.scope = EffectScope::kPair;
   EffectInstance effect = test::known(foreign, 0, {0.6});

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/evidence/evidence_system.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "runtime/diagnosis/screening.h"
 #include "runtime/diagnosis/standstill.h"
 #include "runtime/effects/absorption.h"
+#include "runtime/evidence/evidence_system.h"
 #include "tests/runtime/effects/effect_arm.h"
 
 namespace dyngen::runtime {
