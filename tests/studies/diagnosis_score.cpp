@@ -22,7 +22,6 @@ using Eigen::VectorXd;
 using runtime::Diagnosis;
 using runtime::EffectInstance;
 using runtime::EffectRecordings;
-using runtime::EffectRole;
 using runtime::Finding;
 
 constexpr double kConfident = 0.9;
@@ -161,17 +160,6 @@ double heldout_rms(const EffectRecordings& data, runtime::EffectPoint point,
   return scaled_rms(runtime::residual_with_effects(data, point), noise);
 }
 
-/// What is told to a fit that knows the effect: its law, and what is given or scanned.
-EffectInstance told(EffectInstance effect) {
-  for (Index p = 0; p < effect.parameters.size(); ++p) {
-    const EffectRole role = effect.law.parameters[static_cast<std::size_t>(p)].role;
-    if (role == EffectRole::kLinear || role == EffectRole::kShape) {
-      effect.parameters[p] = std::numeric_limits<double>::quiet_NaN();
-    }
-  }
-  return effect;
-}
-
 void judge_heldout(const DiagnosisCase& own, const Diagnosis& diagnosis,
                    const EffectRecordings& train, const EffectRecordings& heldout,
                    CaseScore& score) {
@@ -181,7 +169,7 @@ void judge_heldout(const DiagnosisCase& own, const Diagnosis& diagnosis,
   if (own.request.kind != CaseKind::kTheorem) {
     for (const TrueEffect& truth : own.truth) {
       if (truth.recording >= 0) return;
-      effects.push_back(told(truth.effect));
+      effects.push_back(truth.effect);  // where its search begins
     }
   }
   const double oracle = heldout_rms(heldout, runtime::fit_effects(train, effects).point, own.noise);
