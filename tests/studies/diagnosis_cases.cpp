@@ -34,8 +34,7 @@ using runtime::Recording;
 constexpr std::size_t kTrain = 3;   // recordings
 constexpr double kMostScaled = 25;  // times the typical size: beyond, no machine is like that
 constexpr double kSeen = 1e-5;      // part of the squares that a refit must leave
-constexpr double kHardly = 1e-4;    // part of a theorem that filters of the motion leave
-constexpr double kNothing = 5;      // noncentrality that no test notices
+constexpr double kHardly = 1e-3;    // part of a theorem that measurement and friction at rest leave
 
 constexpr std::array<const char*, 6> kKindNames = {"null",    "single",  "pair",
                                                    "theorem", "unknown", "time_local"};
@@ -367,9 +366,9 @@ TrueEffect drawn_theorem(const Bench& bench, const CaseRequest& request,
         drawn_size(*law, law->sizes(runtime::scales_of(data, bench.robot.beta, truth.effect.joint)),
                    bench.settings.train_seconds(), random);
     const auto torque = torque_in(bench, truth.effect, -1);
-    truth.lambda = meter.left_of(torque).squaredNorm();
-    truth.absorbed = 1 - truth.lambda / meter.whitened(torque).squaredNorm();
-    if (truth.absorbed > 1 - kHardly && truth.lambda < kNothing) return truth;
+    const double left = meter.left_of(torque).squaredNorm();
+    truth.absorbed = 1 - left / meter.whitened(torque).squaredNorm();
+    if (truth.absorbed > 1 - kHardly) return truth;
   }
   throw std::runtime_error(
       fmt::format("seed {}: {} shows on every joint of {}", request.seed, name, request.robot));

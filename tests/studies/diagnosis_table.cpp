@@ -220,11 +220,10 @@ std::string of_kind(CaseKind kind, const Scores& scores) {
       break;
     }
     case CaseKind::kTheorem:
-      text +=
-          "Answered as undecidable, without a name: " +
-          rate(scores, [](const CaseScore& s) { return s.undecidable && !s.detected; }).text() +
-          "; a name given: " + rate(scores, [](const CaseScore& s) { return s.detected; }).text() +
-          ".\n\n";
+      text += "Answered as undecidable, without a name: " +
+              rate(scores, [](const CaseScore& s) { return s.undecidable && !s.detected; }).text() +
+              "; anything found: " +
+              rate(scores, [](const CaseScore& s) { return s.detected; }).text() + ".\n\n";
       break;
     case CaseKind::kUnknown:
       text +=
