@@ -90,7 +90,7 @@ MatrixXd orthonormal(const MatrixXd& W, double tolerance) {
   const SingularValues svd = decomposed(triangle_of(W) * scale.asDiagonal());
   const Index rank = (svd.values.array() > tolerance * svd.values[0]).count();
   MatrixXd basis = W * (scale.asDiagonal() * svd.V.leftCols(rank) *
-                     svd.values.head(rank).cwiseInverse().asDiagonal());
+                        svd.values.head(rank).cwiseInverse().asDiagonal());
   // once more: what the division by small singular values left of right angles
   const MatrixXd R = triangle_of(basis);
   R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(basis);

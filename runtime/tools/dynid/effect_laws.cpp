@@ -131,8 +131,8 @@ class EffectEvaluation {
   History follow(const MatrixXd& variables, const VectorXd& parameters, double sample_time,
                  VectorXd& state, const EffectWanted& wanted) const {
     const Index samples = variables.rows(), constants = static_cast<Index>(constants_.size());
-    const bool slopes = !wanted.states_held &&
-                        (wanted.by_parameter || wanted.by_variable || wanted.by_initial);
+    const bool slopes =
+        !wanted.states_held && (wanted.by_parameter || wanted.by_variable || wanted.by_initial);
     ProgramEvaluator step(programs_->step, {"m", "p", "z", "h"}, "z");
     ProgramEvaluator step_slopes(programs_->step_slopes, {"m", "p", "z", "h"},
                                  std::vector<std::string>{"by_z", "by_p", "by_m"});
