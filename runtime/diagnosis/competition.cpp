@@ -96,9 +96,7 @@ class Competition {
     for (const Winner& winner : result_.winners) beside.push_back(hypotheses_[winner.hypothesis]);
     EvidenceSystem system =
         system_at(train_, signals_, result_.fit.point, beside, result_.noise, system_options());
-    for (const Nameless& nameless : result_.nameless) {
-      system.add(system.whitened(generic_columns(train_, signals_, nameless.structure)));
-    }
+    add_nameless(train_, signals_, result_, system);
     return system;
   }
 
@@ -178,18 +176,16 @@ class Competition {
   /// together with the winner.
   [[nodiscard]] NamedResult settled(const NamedResult& named, const std::vector<std::size_t>& order,
                                     const Screening& screening) {
-    tell("rivals of " + hypothesis_name(named.best.effect), 0);
+    tell("rivals of " + short_name(named.best.effect), 0);
     std::vector<EffectInstance> all = effects();
     all.push_back(named.best.effect);
-    EffectPoint beside = fit(all).point;
-    beside.effects.pop_back();
-    for (auto& run : beside.initial) run.pop_back();
+    const EffectPoint beside = without(fit(all).point, all.size() - 1);
     std::vector<Hypothesis> others;
     for (const Winner& winner : result_.winners) others.push_back(hypotheses_[winner.hypothesis]);
     EvidenceSystem::Options options = system_options();
     options.surrogates = 0;
-    const EvidenceSystem system =
-        system_at(train_, signals_, beside, others, result_.noise, options);
+    EvidenceSystem system = system_at(train_, signals_, beside, others, result_.noise, options);
+    add_nameless(train_, signals_, result_, system);
     NamedResult best = named;
     bool first = true;
     std::size_t tried = 0;
@@ -219,7 +215,7 @@ class Competition {
   /// Fits the model with one more effect, and keeps it if held-out recordings agree.
   bool accept(const NamedResult& named, const Screening& screening) {
     if (screening.family_wise(named.surprise) > options_.false_alarm) return false;
-    tell("the model with " + hypothesis_name(named.best.effect), 0);
+    tell("the model with " + short_name(named.best.effect), 0);
     std::vector<EffectInstance> all = effects();
     all.push_back(named.best.effect);
     EffectFit next = fit(all);
@@ -249,6 +245,56 @@ class Competition {
     return true;
   }
 
+  /// A joint that friction holds where it turns: impulses at its reversals are more than noise, and
+  /// beside them the structure is not. They become part of the model, and so do those of all other
+  /// joints where they are the strongest structure.
+  bool next_resting(const EvidenceSystem& system, const Screening& screening,
+                    const GenericStructure& structure) {
+    if (rests(structure.joint) || !significant(impulses_of(screening, structure.joint))) {
+      return false;
+    }
+    if (!structure.at_reversals) {
+      EvidenceSystem beside = system;
+      const auto white = [&](const GenericStructure& own) {
+        return system.whitened(generic_columns(train_, signals_, own));
+      };
+      beside.add(white(impulses_at_reversals(structure.joint)));
+      const Score left = score_of(beside.products(white(structure), false), false);
+      const double surprise = surprise_of(left.squares, left.degrees);
+      if (screening.family_wise(surprise) <= options_.false_alarm) return false;
+    }
+    result_.resting.push_back(structure.joint);
+    for (int j = 0; j < train_.joints(); ++j) {
+      const double impulses = impulses_of(screening, j);
+      if (rests(j) || screening.family_wise(impulses) > options_.false_alarm) continue;
+      const bool strongest = std::all_of(
+          screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
+            return structures_[generic.structure].joint != j || generic.surprise <= impulses;
+          });
+      if (strongest) result_.resting.push_back(j);
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool rests(int joint) const {
+    return std::find(result_.resting.begin(), result_.resting.end(), joint) !=
+           result_.resting.end();
+  }
+
+  /// Whether a single test by itself would say so.
+  [[nodiscard]] bool significant(double surprise) const {
+    return std::exp(-surprise) < options_.false_alarm;
+  }
+
+  /// Surprise of the impulses at the reversals of a joint.
+  [[nodiscard]] double impulses_of(const Screening& screening, int joint) const {
+    for (const GenericResult& generic : screening.generic) {
+      const GenericStructure& structure = structures_[generic.structure];
+      if (structure.at_reversals && structure.joint == joint) return generic.surprise;
+    }
+    return 0;
+  }
+
   /// The strongest structure that nothing explains becomes part of the model, without a name.
   bool next_nameless(const EvidenceSystem& system, const Screening& screening) {
     const GenericResult* strongest = nullptr;
@@ -259,6 +305,7 @@ class Competition {
       return false;
     }
     const GenericStructure& structure = structures_[strongest->structure];
+    if (next_resting(system, screening, structure)) return true;
     for (const Nameless& before : result_.nameless) {
       if (before.structure.joint == structure.joint) return false;  // said already
     }
@@ -281,15 +328,8 @@ class Competition {
   /// A winner that the others made superfluous leaves.
   void drop_superfluous() {
     for (std::size_t i = 0; i < result_.winners.size() && result_.winners.size() > 1;) {
-      EffectPoint rest = result_.fit.point;
-      std::vector<Hypothesis> beside;
-      for (std::size_t k = 0; k < result_.winners.size(); ++k) {
-        if (k != i) beside.push_back(hypotheses_[result_.winners[k].hypothesis]);
-      }
-      rest.effects.erase(rest.effects.begin() + static_cast<std::ptrdiff_t>(i));
-      for (auto& run : rest.initial) run.erase(run.begin() + static_cast<std::ptrdiff_t>(i));
       const EvidenceSystem system =
-          system_at(train_, signals_, rest, beside, result_.noise, system_options());
+          system_without(train_, signals_, hypotheses_, result_, i, system_options());
       const Hypothesis& hypothesis = hypotheses_[result_.winners[i].hypothesis];
       const TrialScore again =
           try_hypothesis(train_, signals_, system, hypothesis, result_.fit.point.effects[i],
@@ -299,6 +339,7 @@ class Competition {
         ++i;
         continue;
       }
+      const EffectPoint rest = without(result_.fit.point, i);
       result_.winners.erase(result_.winners.begin() + static_cast<std::ptrdiff_t>(i));
       result_.fit = fit(rest.effects);
       i = 0;
@@ -319,28 +360,6 @@ class Competition {
 };
 
 }  // namespace
-
-double price_of(const Hypothesis& hypothesis, int degrees, const TorqueNoiseModel& noise) {
-  const double parameters = degrees + static_cast<double>(hypothesis.shapes.size());
-  return parameters * std::log(std::max(noise.worth.sum(), 2.0));
-}
-
-EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
-                         const EffectPoint& point, const std::vector<Hypothesis>& beside,
-                         const TorqueNoiseModel& noise, const EvidenceSystem::Options& options) {
-  signals.set_beta(point.beta);
-  signals.set_tangent_beta(point.beta);
-  EvidenceSystem system(data, residuals_of(data, point), noise, options);
-  for (std::size_t i = 0; i < beside.size(); ++i) {
-    std::vector<int> wanted;
-    for (const int p : beside[i].linear) wanted.push_back(1 + p);
-    for (const int p : beside[i].shapes) {
-      if (!beside[i].windowed) wanted.push_back(1 + p);
-    }
-    system.add(system.whitened(effect_columns(data, signals, point.effects[i], wanted)));
-  }
-  return system;
-}
 
 CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "runtime/diagnosis/competition.h"
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/naming.h"
 #include "runtime/diagnosis/next_experiment.h"
@@ -28,6 +29,7 @@ using Eigen::VectorXd;
 constexpr double kHeldPart = 0.2;         // of every recording, where none is held out
 constexpr double kLeastWorth = 30;        // independent samples of a joint beyond its parameters
 constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise's correlation
+constexpr double kBand = 0.6;  // of the cut-off: acceleration there is within 2 % of the true one
 constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
 
 struct Divided {
@@ -48,6 +50,8 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
                               const DiagnosisOptions& options) {
   RowOptions rows;
   rows.decimation = options.decimation;
+  rows.band = kBand;
+  rows.multiple = kThinnedSamples;
   const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
   EffectRecordings data = effect_recordings(input.model, input.robot, sources, rows, all);
   VectorXd still = VectorXd::Zero(data.joints());
@@ -162,6 +166,12 @@ class Diagnostician {
                             ? "from what differs between periods of the same motion"
                             : "from what the last model leaves: a lower bound of what is missing, "
                               "since no motion repeats";
+    for (const int joint : result_.resting) {
+      answer_.noise.how += fmt::format(
+          "; joint {} rests for an instant where it turns: friction there may be of "
+          "any size, and an impulse at each reversal is left out of the judgement",
+          joint + 1);
+    }
   }
 
   void describe_tests() {
@@ -216,15 +226,8 @@ class Diagnostician {
     finding.probability = naming.probability;
     finding.absorbed = 1 - naming.part_left;
     finding.evidence = {naming.lambda, naming.delta_bic, 0};
-    EffectPoint without = result_.fit.point;
-    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(place));
-    for (auto& run : without.initial) run.erase(run.begin() + static_cast<std::ptrdiff_t>(place));
-    std::vector<Hypothesis> beside;
-    for (std::size_t k = 0; k < result_.winners.size(); ++k) {
-      if (k != place) beside.push_back(hypotheses_[result_.winners[k].hypothesis]);
-    }
     const EvidenceSystem system =
-        system_at(train_, signals, without, beside, result_.noise, options);
+        system_without(train_, signals, hypotheses_, result_, place, options);
     finding.where = whereabouts_of(train_, signals, system, hypothesis, finding.effect);
     finding.evidence.heldout_gain =
         1 - std::sqrt(winner.heldout_after / std::max(winner.heldout_before, 1e-300));

@@ -67,6 +67,15 @@ VectorXd distance_since_reversal(const VectorXd& q, const VectorXd& sign) {
   return distance;
 }
 
+/// Samples at which the travel of a joint turns.
+std::vector<Index> turns_of(const VectorXd& sign) {
+  std::vector<Index> turns;
+  for (Index k = 1; k < sign.size(); ++k) {
+    if (sign[k] * sign[k - 1] < 0) turns.push_back(k);
+  }
+  return turns;
+}
+
 VectorXd sign_of(const EffectRecordings& data, std::size_t run, int joint) {
   const EffectRun& here = data.runs[run];
   return travelled_sign(here.motion.q.col(joint), here.motion.dq.col(joint),
@@ -95,6 +104,7 @@ std::string variable_name(const StructureVariable& variable) {
 }
 
 std::vector<std::string> GenericStructure::names() const {
+  if (at_reversals) return {variable_name({Kind::kDistance, joint})};
   std::vector<std::string> names;
   for (const StructureVariable& variable : variables) names.push_back(variable_name(variable));
   const std::string speed = variable_name({Kind::kVelocity, joint});
@@ -103,6 +113,8 @@ std::vector<std::string> GenericStructure::names() const {
   }
   return names;
 }
+
+GenericStructure impulses_at_reversals(int joint) { return {joint, {}, false, true}; }
 
 std::vector<GenericStructure> generic_structures(int joints) {
   std::vector<GenericStructure> structures;
@@ -115,6 +127,7 @@ std::vector<GenericStructure> generic_structures(int joints) {
       structures.push_back({j, {{kind, j}}, true});
     }
     structures.push_back({j, {{Kind::kTime, -1}}, true});
+    structures.push_back(impulses_at_reversals(j));
     for (int k = 0; k < joints; ++k) {
       if (k == j) continue;
       for (const Kind kind : {Kind::kPosition, Kind::kVelocity, Kind::kAcceleration}) {
@@ -157,8 +170,42 @@ VectorXd variable_values(const EffectRecordings& data, EffectSignals& signals, s
   return here.time;
 }
 
+namespace {
+
+/// An impulse at each reversal, short beside the filter.
+JointColumns impulse_columns(const EffectRecordings& data, int joint) {
+  std::vector<std::vector<Index>> turns;
+  Index count = 0;
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    turns.push_back(turns_of(sign_of(data, run, joint)));
+    count += static_cast<Index>(turns.back().size());
+  }
+  JointColumns columns{{joint}, {MatrixXd::Zero(data.equations(), count)}};
+  Index start = 0, column = 0;
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    const EffectRun& here = data.runs[run];
+    const Index samples = here.motion.samples();
+    const Index width = std::max<Index>(1, here.decimator.factor / 4);
+    MatrixXd impulses = MatrixXd::Zero(samples, static_cast<Index>(turns[run].size()));
+    for (Index c = 0; c < impulses.cols(); ++c) {
+      const Index turn = turns[run][static_cast<std::size_t>(c)];
+      for (Index k = std::max<Index>(0, turn - width); k < std::min(samples, turn + width); ++k) {
+        impulses(k, c) = 1 - std::abs(static_cast<double>(k - turn)) / static_cast<double>(width);
+      }
+    }
+    columns.parts[0].block(start, column, here.rows.Y.rows(), impulses.cols()) =
+        here.rows.counted.col(joint).asDiagonal() * decimate(here.decimator, impulses);
+    start += here.rows.Y.rows();
+    column += impulses.cols();
+  }
+  return columns;
+}
+
+}  // namespace
+
 JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
                              const GenericStructure& structure) {
+  if (structure.at_reversals) return impulse_columns(data, structure.joint);
   const int knots = structure.variables.size() > 1 ? kInPairs : kAlone;
   std::vector<std::vector<VectorXd>> values;
   std::vector<std::vector<double>> places;

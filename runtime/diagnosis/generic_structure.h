@@ -29,25 +29,31 @@ struct StructureVariable {
 std::string variable_name(const StructureVariable& variable);
 
 /// Torque of a joint as any smooth function of one or two variables: piecewise linear between
-/// quantiles of the recordings, for two variables the products of coarser ones.
+/// quantiles of the recordings, for two variables the products of coarser ones. Or an impulse of
+/// its own at each reversal: a joint that rests there for an instant is held by friction of any
+/// size up to its own, which no function of the motion is.
 struct GenericStructure {
   int joint = 0;  ///< coordinate, from 0
   std::vector<StructureVariable> variables;
-  bool times_sign = false;  ///< times the sign of the joint's velocity
+  bool times_sign = false;    ///< times the sign of the joint's velocity
+  bool at_reversals = false;  ///< impulses; no variables
 
   [[nodiscard]] std::vector<std::string> names() const;
 };
 
 /// Those that are looked at for every joint: its own position, velocity, acceleration, load, time
 /// and distance since reversal, position, velocity and acceleration of the others, friction that
-/// depends on these, and pairs of positions and of a velocity with a position.
+/// depends on these, pairs of positions and of a velocity with a position, impulses at reversals.
 std::vector<GenericStructure> generic_structures(int joints);
+
+/// An impulse at each reversal of a joint.
+GenericStructure impulses_at_reversals(int joint);
 
 /// A variable at all samples of a run. @return (N)
 Eigen::VectorXd variable_values(const EffectRecordings& data, EffectSignals& signals,
                                 std::size_t run, const StructureVariable& variable);
 
-/// Its columns, behind the parallel filter.
+/// Its columns, behind the parallel filter. Impulses need the motion at all samples.
 JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
                              const GenericStructure& structure);
 

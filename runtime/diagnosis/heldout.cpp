@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/heldout.h"
 
-#include <algorithm>
-#include <cmath>
+#include "runtime/estimation/whitener.h"
 
 namespace dyngen::runtime {
 
@@ -21,28 +20,15 @@ RunResiduals residuals_of(const EffectRecordings& data, const EffectPoint& point
 VectorXd whitened_squares(const EffectRecordings& data, const RunResiduals& residuals,
                           const TorqueNoiseModel& noise) {
   VectorXd squares = VectorXd::Zero(data.joints());
-  for (const MatrixXd& rest : residuals) {
-    for (Index j = 0; j < rest.cols(); ++j) {
-      const AutoregressiveNoise& process = noise.joints[static_cast<std::size_t>(j)];
-      for (Index t = 0; t < rest.rows(); ++t) {
-        double innovation = rest(t, j);
-        const Index inside = std::min<Index>(process.coefficients.size(), t);
-        for (Index k = 0; k < inside; ++k)
-          innovation -= process.coefficients[k] * rest(t - 1 - k, j);
-        squares[j] += innovation * innovation / (process.innovation * process.innovation);
-      }
+  for (Index j = 0; j < squares.size(); ++j) {
+    const Whitener whitener(noise.joints[static_cast<std::size_t>(j)]);
+    for (std::size_t run = 0; run < residuals.size(); ++run) {
+      MatrixXd rest = residuals[run].col(j);
+      whitener.apply(rest, data.runs[run].rows.counted.col(j));
+      squares[j] += rest.squaredNorm();
     }
   }
   return squares;
-}
-
-VectorXd rms_of(const EffectRecordings& data, const RunResiduals& residuals) {
-  VectorXd squares = VectorXd::Zero(data.joints()), counts = squares;
-  for (std::size_t run = 0; run < residuals.size(); ++run) {
-    squares += residuals[run].colwise().squaredNorm().transpose();
-    counts += data.runs[run].rows.counted.colwise().sum().transpose();
-  }
-  return squares.cwiseQuotient(counts.cwiseMax(1)).cwiseSqrt();
 }
 
 }  // namespace dyngen::runtime

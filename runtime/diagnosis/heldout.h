@@ -15,7 +15,4 @@ RunResiduals residuals_of(const EffectRecordings& data, const EffectPoint& point
 Eigen::VectorXd whitened_squares(const EffectRecordings& data, const RunResiduals& residuals,
                                  const TorqueNoiseModel& noise);
 
-/// (n) rms over the equations that count.
-Eigen::VectorXd rms_of(const EffectRecordings& data, const RunResiduals& residuals);
-
 }  // namespace dyngen::runtime

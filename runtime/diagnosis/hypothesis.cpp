@@ -81,14 +81,6 @@ TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score s
 
 }  // namespace
 
-std::string hypothesis_name(const EffectInstance& effect) {
-  const int joint = effect.link > 0 ? effect.link : effect.joint + 1;
-  if (effect.law.scope == EffectScope::kPair) {
-    return fmt::format("{} {}<-{}", effect.law.name, joint, effect.other + 1);
-  }
-  return joint == 0 ? effect.law.name : fmt::format("{} {}", effect.law.name, joint);
-}
-
 Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scales) {
   Hypothesis hypothesis;
   hypothesis.effect = effect;

@@ -21,9 +21,6 @@ struct Hypothesis {
   bool ordered = false;     ///< what is scanned is how often it repeats in a turn of the joint
 };
 
-/// "stribeck 2", "motor_coupling 6<-5", "base_tilt"; joints from 1.
-std::string hypothesis_name(const EffectInstance& effect);
-
 /// @param scales  at the model's present estimate
 Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scales);
 

@@ -17,10 +17,8 @@ constexpr double kStrongEnough = 0.3;  // of the winner's squares in its round
 constexpr double kCaution = 2;
 
 /// Places of the strongest rivals of a winner in its round, itself first.
-std::vector<std::size_t> rivals_of(const Winner& winner, const std::vector<Hypothesis>& hypotheses,
-                                   int joints) {
+std::vector<std::size_t> rivals_of(const Winner& winner) {
   std::vector<std::size_t> places;
-  const std::vector<int> own = joints_of(hypotheses[winner.hypothesis].effect, joints);
   for (const NamedResult& named : winner.others) {
     if (named.hypothesis == winner.hypothesis || !named.seen || !named.best.admissible) continue;
     if (named.best.score.squares < kStrongEnough * winner.trial.score.squares) continue;
@@ -39,15 +37,7 @@ std::vector<std::size_t> rivals_of(const Winner& winner, const std::vector<Hypot
 Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
                    const std::vector<Hypothesis>& hypotheses, const CompetitionResult& result,
                    std::size_t winner, const EvidenceSystem::Options& options) {
-  EffectPoint others = result.fit.point;
-  std::vector<Hypothesis> beside;
-  for (std::size_t k = 0; k < result.winners.size(); ++k) {
-    if (k != winner) beside.push_back(hypotheses[result.winners[k].hypothesis]);
-  }
-  const auto place = static_cast<std::ptrdiff_t>(winner);
-  others.effects.erase(others.effects.begin() + place);
-  for (auto& run : others.initial) run.erase(run.begin() + place);
-  const EvidenceSystem system = system_at(data, signals, others, beside, result.noise, options);
+  const EvidenceSystem system = system_without(data, signals, hypotheses, result, winner, options);
   const ScaleTable scales(data);
   const Winner& own = result.winners[winner];
   Naming naming;
@@ -57,9 +47,9 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   double best = 0;
   std::map<std::string, double> family_net;
   std::map<std::string, std::string> family_effect;
-  for (const std::size_t rival : rivals_of(own, hypotheses, data.joints())) {
+  for (const std::size_t rival : rivals_of(own)) {
     const Hypothesis& hypothesis = hypotheses[rival];
-    const EffectScales here = scales.of(others.beta, hypothesis.effect);
+    const EffectScales here = scales.of(result.fit.point.beta, hypothesis.effect);
     TrialScore trial = rival == own.hypothesis ? own.trial : own.others[rival].best;
     try {
       EffectInstance start = trial.effect;
@@ -84,7 +74,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
     const auto [entry, added] = family_net.try_emplace(hypothesis.effect.law.family, net);
     if (added || net > entry->second) {
       entry->second = net;
-      family_effect[hypothesis.effect.law.family] = hypothesis_name(hypothesis.effect);
+      family_effect[hypothesis.effect.law.family] = short_name(hypothesis.effect);
     }
   }
   double rest = 0;

@@ -222,7 +222,10 @@ class Screener {
                         NoiseSurprises& noise) const {
     GenericResult result;
     result.structure = place;
-    const JointColumns columns = generic_columns(data_.coarse(), reader.coarse, structures_[place]);
+    const bool whole = structures_[place].at_reversals;
+    const JointColumns columns =
+        generic_columns(whole ? data_.whole() : data_.coarse(),
+                        whole ? reader.whole : reader.coarse, structures_[place]);
     result.score = score_of(system_.products(system_.whitened(columns), !before_), !before_);
     if (!before_) noise.add(result.score.surrogates, result.score.degrees);
     result.surprise = surprise_of(result.score.squares, result.score.degrees);
@@ -254,8 +257,7 @@ double Screening::family_wise(double surprise) const {
   return -std::expm1(tests * std::log1p(-std::exp(-surprise)));
 }
 
-ScreeningData::ScreeningData(const EffectRecordings& data)
-    : whole_(data), coarse_(at_equations(data)) {
+ScreeningData::ScreeningData(const EffectRecordings& data) : whole_(data), coarse_(thinned(data)) {
   const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
   for (unsigned i = 0; i < threads; ++i) {
     readers_.push_back({EffectSignals(whole_), EffectSignals(coarse_)});

@@ -22,14 +22,6 @@ using Eigen::VectorXd;
 
 constexpr double kAllAbsorbed = 1 - 1e-9;
 
-std::string entry_name(const EffectInstance& effect) {
-  const int joint = effect.link > 0 ? effect.link : effect.joint + 1;
-  if (effect.law.scope == EffectScope::kPair) {
-    return fmt::format("{} {}<-{}", effect.law.name, joint, effect.other + 1);
-  }
-  return joint == 0 ? effect.law.name : fmt::format("{} {}", effect.law.name, joint);
-}
-
 /// The first linear parameter that is not typically 0, else the first that is not given.
 int main_parameter(const EffectLaw& law, const VectorXd& typical) {
   for (const bool linear : {true, false}) {
@@ -75,7 +67,7 @@ class Atlas {
     const EffectSizes sizes = effect.law.sizes(scales_.of(beta_, effect));
     effect.parameters = sizes.typical;
     entry.effect = effect;
-    entry.name = entry_name(effect);
+    entry.name = short_name(effect);
     entry.parameter = main_parameter(effect.law, sizes.typical);
     entry.typical = entry.parameter < 0 ? 0 : sizes.typical[entry.parameter];
     const Index place = entries_++;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/effects/effect_rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -342,6 +344,14 @@ Alignment alignment_of(const std::vector<EffectInstance>& effects, int joints) {
     }
   }
   return late;
+}
+
+std::string short_name(const EffectInstance& effect) {
+  const int joint = effect.link > 0 ? effect.link : effect.joint + 1;
+  if (effect.law.scope == EffectScope::kPair) {
+    return fmt::format("{} {}<-{}", effect.law.name, joint, effect.other + 1);
+  }
+  return joint == 0 ? effect.law.name : fmt::format("{} {}", effect.law.name, joint);
 }
 
 std::vector<int> joints_of(const EffectInstance& effect, int joints) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "runtime/effects/effect_law.h"
@@ -48,6 +49,9 @@ struct Alignment {
   Eigen::VectorXd lag;    ///< (n) s
 };
 Alignment alignment_of(const std::vector<EffectInstance>& effects, int joints);
+
+/// "stribeck 2", "motor_coupling 6<-5", "base_tilt"; joints from 1.
+std::string short_name(const EffectInstance& effect);
 
 /// Joints on which an effect acts, ascending; of a pair `joint` and then `other`.
 std::vector<int> joints_of(const EffectInstance& effect, int joints);

@@ -19,8 +19,8 @@ Whitening Whitening::by_weights(const VectorXd& weights) {
   return whitening;
 }
 
-EquationStack::EquationStack(const EffectRecordings& data, Whitening whitening)
-    : data_(data), whitening_(std::move(whitening)) {
+EquationStack::EquationStack(const EffectRecordings& data, const Whitening& whitening)
+    : data_(data), whiteners_(whitening.joints.begin(), whitening.joints.end()) {
   for (const EffectRun& run : data.runs) {
     run_starts_.push_back(of_joint_);
     of_joint_ += run.rows.Y.rows();
@@ -29,19 +29,8 @@ EquationStack::EquationStack(const EffectRecordings& data, Whitening whitening)
 }
 
 void EquationStack::whiten(Eigen::Ref<MatrixXd> columns, std::size_t run, int joint) const {
-  const AutoregressiveNoise& noise = whitening_.joints[static_cast<std::size_t>(joint)];
-  const auto counted = data_.runs[run].rows.counted.col(joint);
-  const Index order = noise.coefficients.size();
-  for (Index c = 0; c < columns.cols(); ++c) {
-    if (columns.col(c).isZero(0)) continue;
-    columns.col(c) = columns.col(c).cwiseProduct(counted) / noise.innovation;
-    // from the last sample on, so that each still finds those before it
-    for (Index t = columns.rows() - 1; t >= 0; --t) {
-      for (Index k = 0; k < std::min(order, t); ++k) {
-        columns(t, c) -= noise.coefficients[k] * columns(t - 1 - k, c);
-      }
-    }
-  }
+  whiteners_[static_cast<std::size_t>(joint)].apply(columns,
+                                                    data_.runs[run].rows.counted.col(joint));
 }
 
 MatrixXd EquationStack::stacked(const EffectEquations& equations) const {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "runtime/effects/effect_rows.h"
-#include "runtime/estimation/noise_model.h"
+#include "runtime/estimation/whitener.h"
 
 namespace dyngen::runtime {
 
@@ -20,7 +20,7 @@ struct Whitening {
 /// Equations of all joints and runs as one system: joint by joint, in each run by run.
 class EquationStack {
  public:
-  EquationStack(const EffectRecordings& data, Whitening whitening);
+  EquationStack(const EffectRecordings& data, const Whitening& whitening);
 
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
   /// Of one joint over all runs: the first row and how many there are.
@@ -39,7 +39,7 @@ class EquationStack {
   void whiten(Eigen::Ref<Eigen::MatrixXd> columns, std::size_t run, int joint) const;
 
   const EffectRecordings& data_;
-  Whitening whitening_;
+  std::vector<Whitener> whiteners_;  // of each joint
   std::vector<Eigen::Index> run_starts_;
   Eigen::Index of_joint_ = 0, rows_ = 0;
 };

@@ -50,7 +50,7 @@ Score score_of(const Products& products, bool surrogates) {
 
 EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals& residuals,
                                const TorqueNoiseModel& noise, const Options& options)
-    : data_(data), model_(noise), rows_(data.equations()) {
+    : data_(data), whiteners_(noise.joints.begin(), noise.joints.end()), rows_(data.equations()) {
   const int n = data.joints();
   const Index size = data.model.size();
   rest_.resize(n * rows_);
@@ -78,27 +78,26 @@ EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals&
   std::normal_distribution<double> normal;
   noise_.resize(n * rows_, options.surrogates);
   for (Index i = 0; i < noise_.size(); ++i) noise_.data()[i] = normal(random);
+  VectorXd counted(n * rows_);
+  Index place = 0;
+  for (int j = 0; j < n; ++j) {
+    for (const EffectRun& run : data.runs) {
+      counted.segment(place, run.rows.counted.rows()) = run.rows.counted.col(j);
+      place += run.rows.counted.rows();
+    }
+  }
+  noise_.array().colwise() *= counted.array();
   basis_.resize(n * rows_, 0);
   if (options.with_regressor) project(orthonormal(W));
 }
 
 void EvidenceSystem::whiten(Eigen::Ref<MatrixXd> rows, int joint) const {
-  const AutoregressiveNoise& noise = model_.joints[static_cast<std::size_t>(joint)];
-  const Index order = noise.coefficients.size();
-  for (Index c = 0; c < rows.cols(); ++c) {
-    double* x = rows.col(c).data();
-    Index end = rows.rows();
-    // from the last sample on, so that each still finds those before it
-    for (std::size_t run = data_.runs.size(); run-- > 0;) {
-      const Index start = end - data_.runs[run].rows.Y.rows();
-      for (Index t = end - 1; t >= start; --t) {
-        double sum = x[t];
-        const Index inside = std::min(order, t - start);
-        for (Index k = 0; k < inside; ++k) sum -= noise.coefficients[k] * x[t - 1 - k];
-        x[t] = sum / noise.innovation;
-      }
-      end = start;
-    }
+  Index start = 0;
+  for (const EffectRun& run : data_.runs) {
+    const Index count = run.rows.Y.rows();
+    whiteners_[static_cast<std::size_t>(joint)].apply(rows.middleRows(start, count),
+                                                      run.rows.counted.col(joint));
+    start += count;
   }
 }
 

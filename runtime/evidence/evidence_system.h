@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/estimation/whitener.h"
 #include "runtime/evidence/joint_columns.h"
 #include "runtime/evidence/torque_noise_model.h"
 
@@ -79,11 +80,11 @@ class EvidenceSystem {
   void project(const Eigen::MatrixXd& columns);
 
   const EffectRecordings& data_;
-  TorqueNoiseModel model_;
-  Eigen::Index rows_ = 0;  // of one joint
-  Eigen::MatrixXd basis_;  // (n rows x rank) orthonormal
-  Eigen::VectorXd rest_;   // (n rows)
-  Eigen::MatrixXd noise_;  // (n rows x m)
+  std::vector<Whitener> whiteners_;  // of each joint
+  Eigen::Index rows_ = 0;            // of one joint
+  Eigen::MatrixXd basis_;            // (n rows x rank) orthonormal
+  Eigen::VectorXd rest_;             // (n rows)
+  Eigen::MatrixXd noise_;            // (n rows x m)
 };
 
 }  // namespace dyngen::runtime

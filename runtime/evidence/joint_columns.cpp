@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "runtime/effects/effect_rows.h"
 
@@ -41,55 +40,34 @@ JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals
   return columns;
 }
 
-EffectRecordings at_equations(const EffectRecordings& data) {
-  EffectRecordings coarse = data;
-  for (EffectRun& run : coarse.runs) {
-    const Index first = first_sample(run.decimator), factor = run.decimator.factor;
-    const auto places = Eigen::seqN(first, run.rows.Y.rows(), factor);
+EffectRecordings thinned(const EffectRecordings& data) {
+  EffectRecordings thin = data;
+  for (EffectRun& run : thin.runs) {
+    const Index factor = run.decimator.factor;
+    if (factor % kThinnedSamples != 0 || factor == kThinnedSamples) continue;
+    const Index stride = factor / kThinnedSamples;
+    const Decimator decimator = design_decimator(kThinnedSamples);
+    const Index lead = first_sample(decimator);
+    const Index origin = first_sample(run.decimator) - lead * stride;
+    const Index count =
+        lead + (run.rows.Y.rows() - 1) * kThinnedSamples + decimator.taps.size() / 2 + 1;
     Motion& motion = run.motion;
-    motion.sample_time *= static_cast<double>(factor);
+    // the filters' ends differ by less than a stride
+    const Index last = motion.samples() - 1;
+    std::vector<Index> places;
+    for (Index k = 0; k < count; ++k) {
+      places.push_back(std::clamp<Index>(origin + k * stride, 0, last));
+    }
+    motion.sample_time *= static_cast<double>(stride);
     motion.time = motion.time(places).eval();
     run.time = run.time(places).eval();
     for (MatrixXd* signal :
          {&motion.q, &motion.dq, &motion.ddq, &motion.tau, &motion.temperature}) {
       if (signal->size() != 0) *signal = (*signal)(places, Eigen::all).eval();
     }
-    run.decimator = design_decimator(1);
+    run.decimator = decimator;
   }
-  return coarse;
-}
-
-JointColumns selected(const JointColumns& all, const std::vector<int>& places) {
-  JointColumns result{all.joints, {}};
-  for (const MatrixXd& part : all.parts) {
-    MatrixXd some(part.rows(), static_cast<Index>(places.size()));
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      some.col(static_cast<Index>(i)) = part.col(places[i]);
-    }
-    result.parts.push_back(std::move(some));
-  }
-  return result;
-}
-
-JointColumns joined(const JointColumns& first, const JointColumns& second) {
-  if (first.parts.empty()) return second;
-  if (second.parts.empty()) return first;
-  std::set<int> joints(first.joints.begin(), first.joints.end());
-  joints.insert(second.joints.begin(), second.joints.end());
-  const Index rows = first.parts.front().rows();
-  JointColumns result;
-  for (const int joint : joints) {
-    MatrixXd part = MatrixXd::Zero(rows, first.columns() + second.columns());
-    for (std::size_t i = 0; i < first.joints.size(); ++i) {
-      if (first.joints[i] == joint) part.leftCols(first.columns()) = first.parts[i];
-    }
-    for (std::size_t i = 0; i < second.joints.size(); ++i) {
-      if (second.joints[i] == joint) part.rightCols(second.columns()) = second.parts[i];
-    }
-    result.joints.push_back(joint);
-    result.parts.push_back(std::move(part));
-  }
-  return result;
+  return thin;
 }
 
 }  // namespace dyngen::runtime

@@ -26,14 +26,12 @@ JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals
                             const EffectInstance& effect, const std::vector<int>& wanted,
                             bool states_held = false);
 
-/// The recordings with the motion at the equations alone and no filter: what a first look at an
-/// effect without memory needs. Equations stay as they are.
-EffectRecordings at_equations(const EffectRecordings& data);
+/// Samples for one equation in thinned().
+inline constexpr Eigen::Index kThinnedSamples = 4;
 
-/// Some of the columns. @param places  of columns
-JointColumns selected(const JointColumns& all, const std::vector<int>& places);
-
-/// All columns of `first`, then those of `second`.
-JointColumns joined(const JointColumns& first, const JointColumns& second);
+/// The recordings with fewer samples of the motion for an equation, and the parallel filter that
+/// belongs to them: what a first look at an effect without memory needs. Equations stay as they
+/// are. Runs whose decimation is not a multiple of kThinnedSamples keep all samples.
+EffectRecordings thinned(const EffectRecordings& data);
 
 }  // namespace dyngen::runtime

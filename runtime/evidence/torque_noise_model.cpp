@@ -20,23 +20,27 @@ using Eigen::VectorXd;
 constexpr Index kLags = 40;
 constexpr double kLeastPart = 0.6;  // of the equations that differences between periods must give
 
-/// Sums of products at all lags, and how many samples they come from.
-struct Products {
+/// Sums of products at all lags, and of how many pairs of samples.
+struct LagProducts {
   VectorXd sums = VectorXd::Zero(kLags + 1);
-  double samples = 0;
+  VectorXd pairs = VectorXd::Zero(kLags + 1);
 
-  /// Samples that do not count are 0 in `counted`.
+  /// @param e  0 where `counted` is
   void add(const VectorXd& e, const VectorXd& counted) {
     for (Index lag = 0; lag <= std::min(kLags, e.size() - 1); ++lag) {
-      sums[lag] += e.tail(e.size() - lag).dot(e.head(e.size() - lag));
+      const Index rows = e.size() - lag;
+      sums[lag] += e.tail(rows).dot(e.head(rows));
+      pairs[lag] += counted.tail(rows).dot(counted.head(rows));
     }
-    samples += counted.sum();
   }
+
+  [[nodiscard]] double samples() const { return pairs[0]; }
+  [[nodiscard]] VectorXd covariance() const { return sums.cwiseQuotient(pairs.cwiseMax(1)); }
 };
 
 /// (e_t - e_(t - P)) / sqrt(2) of whole runs, and where both count.
 void difference_of_periods(const VectorXd& e, const VectorXd& counted, double period,
-                           Products& products) {
+                           LagProducts& products) {
   const auto whole = static_cast<Index>(std::llround(period));
   if (whole < 1 || 2 * whole > e.size() + whole / 2) return;
   const VectorXd moved = shifted(e, static_cast<double>(whole) - period);
@@ -67,7 +71,7 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   TorqueNoiseModel model;
   const int n = data.joints();
   model.worth.resize(n);
-  std::vector<Products> repeated(static_cast<std::size_t>(n)), all(static_cast<std::size_t>(n));
+  std::vector<LagProducts> repeated(static_cast<std::size_t>(n)), all(static_cast<std::size_t>(n));
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     for (int j = 0; j < n; ++j) {
       const VectorXd e = residuals[run].col(j), counted = data.runs[run].rows.counted.col(j);
@@ -79,14 +83,14 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   }
   model.from_periods = true;
   for (std::size_t j = 0; j < all.size(); ++j) {
-    model.from_periods = model.from_periods && repeated[j].samples >= kLeastPart * all[j].samples &&
-                         all[j].samples > 0;
+    model.from_periods = model.from_periods &&
+                         repeated[j].samples() >= kLeastPart * all[j].samples() &&
+                         all[j].samples() > 0;
   }
   for (std::size_t j = 0; j < all.size(); ++j) {
-    const Products& products = model.from_periods ? repeated[j] : all[j];
-    const double samples = std::max(products.samples, 1.0);
-    VectorXd covariance = products.sums / samples;
-    AutoregressiveNoise noise = fit_autoregression(covariance, samples);
+    const LagProducts& products = model.from_periods ? repeated[j] : all[j];
+    const double samples = std::max(products.samples(), 1.0);
+    AutoregressiveNoise noise = fit_autoregression(products.covariance(), samples);
     if (!model.from_periods) {
       // the fit takes what lies in its span: as many independent samples as it has parameters
       const double independent = samples / std::max(1.0, noise.correlation_time);
@@ -101,7 +105,7 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
                       "judge by; expected a recording of a real measurement",
                       j + 1));
     }
-    model.worth[static_cast<Index>(j)] = all[j].samples / std::max(1.0, noise.correlation_time);
+    model.worth[static_cast<Index>(j)] = all[j].samples() / std::max(1.0, noise.correlation_time);
     model.joints.push_back(std::move(noise));
   }
   return model;

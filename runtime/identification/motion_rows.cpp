@@ -124,8 +124,10 @@ RowPlan plan_rows(const MotionSource& source, const RowOptions& options) {
   RowPlan plan;
   plan.decimation = options.decimation;
   if (plan.decimation <= 0) {
-    const double wanted = source.cutoff.hz > 0 ? 0.4 / (source.cutoff.hz * source.sample_time) : 1;
+    const double wanted =
+        source.cutoff.hz > 0 ? 0.5 / (options.band * source.cutoff.hz * source.sample_time) : 1;
     plan.decimation = std::max<Index>(1, static_cast<Index>(std::floor(wanted)));
+    if (plan.decimation > options.multiple) plan.decimation -= plan.decimation % options.multiple;
   }
   plan.row_time = source.sample_time * static_cast<double>(plan.decimation);
   // white position noise has the density 2 sigma^2 T up to the Nyquist frequency

@@ -12,8 +12,10 @@ namespace dyngen::runtime {
 
 struct RowOptions {
   /// Samples for one equation, behind the parallel filter; 0: so that the new Nyquist frequency is
-  /// 1.25 times the cut-off; 1: no parallel filter, every sample is an equation.
+  /// `band` times the cut-off; 1: no parallel filter, every sample is an equation.
   Eigen::Index decimation = 0;
+  double band = 1.25;  ///< > 0; above about 0.6 the joint state is damped, and equations with it
+  Eigen::Index multiple = 1;  ///< a decimation that is chosen and larger is a multiple of this
   /// rad/s or m/s: a joint that moves slower has no equation, since there friction is not Coulomb's
   /// and its sign is not known; negative: a hundredth of the joint's largest speed, and at least
   /// three standard deviations of the velocity's noise.

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/diagnosis/screening.h"
+#include "runtime/effects/effect_fit.h"
+
+namespace dyngen::runtime {
+
+/// An effect that won a round.
+struct Winner {
+  std::size_t hypothesis = 0;  ///< its place
+  TrialScore trial;            ///< beside the model of its round
+  double surprise = 0;         ///< in its round
+  double heldout_before = 0;   ///< whitened squares of held-out residuals of its joints
+  double heldout_after = 0;
+  std::vector<NamedResult> others;  ///< its round's results, its own among them
+};
+
+/// Structure that no effect explains.
+struct Nameless {
+  GenericStructure structure;
+  Score score;
+  double surprise = 0;
+  double rms = 0;  ///< N m or N, of what the columns explain of the joint's equations
+};
+
+/// How a competition ended.
+struct CompetitionResult {
+  std::vector<Winner> winners;
+  std::vector<Nameless> nameless;
+  std::vector<int> resting;  ///< joints that friction holds for an instant where they turn
+  EffectFit base;            ///< of the model alone
+  EffectFit fit;             ///< of the model with the winners
+  TorqueNoiseModel noise;    ///< of the last round
+  Screening first, last;     ///< of the model alone, and with everything that was found
+};
+
+/// The model with what is given beside it: regressor, and effects at their estimates with the
+/// columns of all their unknown parameters.
+EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
+                         const EffectPoint& point, const std::vector<Hypothesis>& beside,
+                         const TorqueNoiseModel& noise, const EvidenceSystem::Options& options);
+
+/// A point without one of its effects.
+EffectPoint without(EffectPoint point, std::size_t place);
+
+/// What was found and has no name becomes part of a model: structures, and impulses of joints that
+/// rest.
+void add_nameless(const EffectRecordings& data, EffectSignals& signals,
+                  const CompetitionResult& result, EvidenceSystem& system);
+
+/// The model with all that was found but one winner.
+EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signals,
+                              const std::vector<Hypothesis>& hypotheses,
+                              const CompetitionResult& result, std::size_t winner,
+                              const EvidenceSystem::Options& options);
+
+/// What a score costs in the currency of squares: its parameters, at the information that the
+/// equations hold (Schwarz 1978 with the number of independent samples).
+double price_of(const Hypothesis& hypothesis, int degrees, const TorqueNoiseModel& noise);
+
+}  // namespace dyngen::runtime
