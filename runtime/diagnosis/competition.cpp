@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <set>
 
 #include "runtime/diagnosis/heldout.h"
 
@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kRefined = 12;     // candidates whose shapes are refined in a round
 constexpr double kLeastExplained = 0.5;  // part of a joint's structure that a name must explain
-constexpr int kAttempts = 4;             // effects that are fitted in a round before it gives up
+constexpr std::size_t kAttempts = 4;     // effects that are fitted in a round before it gives up
 constexpr double kTie = 0.5;             // squares that decide nothing
 constexpr std::size_t kRivals = 5;       // that are compared again once the winner is fitted
 constexpr double kHeldoutGain = 2;       // by which held-out squares must fall
@@ -150,20 +150,47 @@ class Competition {
       named.surprise = surprise_of(named.best.score.squares, named.best.score.degrees);
     }
     std::stable_sort(order.begin(), order.end(), best_first);
-    int attempts = 0;
+    std::set<std::size_t> attempted;
     for (const std::size_t place : order) {
       const NamedResult& named = screening.named[place];
-      if (attempts == kAttempts) break;
+      if (attempted.size() == kAttempts) break;
       if (screening.family_wise(named.surprise) > options_.false_alarm || net(named) <= 0) continue;
       double structure = 0;
       for (const int joint : joints_of_hypothesis(place)) {
         structure = std::max(structure, structure_of(screening, joint));
       }
       if (named.best.score.squares < kLeastExplained * structure) continue;
-      ++attempts;
-      if (accept(settled(named, order, screening), screening)) return true;
+      if (attempted.contains(place) || lives_at_stops(system, screening, named)) continue;
+      const NamedResult best = settled(named, order, screening);
+      attempted.insert(place);
+      if (best.hypothesis != place && !attempted.insert(best.hypothesis).second) continue;
+      if (accept(best, screening)) return true;
     }
     return false;
+  }
+
+  /// Whether a joint's stops explain what an effect does: beside the impulses there nothing is left
+  /// of it, and beside the effect much is left of them.
+  [[nodiscard]] bool lives_at_stops(const EvidenceSystem& system, const Screening& screening,
+                                    const NamedResult& named) {
+    const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
+    EvidenceSystem beside = system, beside_effect = system;
+    bool any = false, much_left = false;
+    const JointColumns white = hypothesis_columns(train_, signals_, system,
+                                                  hypotheses_[named.hypothesis], named.best.effect);
+    for (const int joint : joints) {
+      if (rests(joint) || !significant(impulses_of(screening, joint))) continue;
+      const JointColumns impulses =
+          system.whitened(generic_columns(train_, signals_, impulses_at_reversals(joint)));
+      if (!any) beside_effect.add(white);
+      any = true;
+      const Score left = score_of(beside_effect.products(impulses, false), false);
+      much_left = much_left || significant(surprise_of(left.squares, left.degrees));
+      beside.add(impulses);
+    }
+    if (!any || !much_left) return false;
+    const Score left = score_of(beside.products(white, false), false);
+    return screening.family_wise(surprise_of(left.squares, left.degrees)) > options_.false_alarm;
   }
 
   [[nodiscard]] bool already(std::size_t hypothesis) const {
@@ -327,7 +354,7 @@ class Competition {
 
   /// A winner that the others made superfluous leaves.
   void drop_superfluous() {
-    for (std::size_t i = 0; i < result_.winners.size() && result_.winners.size() > 1;) {
+    for (std::size_t i = 0; i < result_.winners.size();) {
       const EvidenceSystem system =
           system_without(train_, signals_, hypotheses_, result_, i, system_options());
       const Hypothesis& hypothesis = hypotheses_[result_.winners[i].hypothesis];

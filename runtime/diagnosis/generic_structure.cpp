@@ -67,15 +67,6 @@ VectorXd distance_since_reversal(const VectorXd& q, const VectorXd& sign) {
   return distance;
 }
 
-/// Samples at which the travel of a joint turns.
-std::vector<Index> turns_of(const VectorXd& sign) {
-  std::vector<Index> turns;
-  for (Index k = 1; k < sign.size(); ++k) {
-    if (sign[k] * sign[k - 1] < 0) turns.push_back(k);
-  }
-  return turns;
-}
-
 VectorXd sign_of(const EffectRecordings& data, std::size_t run, int joint) {
   const EffectRun& here = data.runs[run];
   return travelled_sign(here.motion.q.col(joint), here.motion.dq.col(joint),
@@ -172,25 +163,65 @@ VectorXd variable_values(const EffectRecordings& data, EffectSignals& signals, s
 
 namespace {
 
-/// An impulse at each reversal, short beside the filter.
+constexpr double kResting = 0.015;  // of the largest speed: below it a joint may have stopped
+
+double fastest(const EffectRecordings& data, int joint) {
+  double speed = 0;
+  for (const EffectRun& run : data.runs) {
+    speed = std::max(speed, run.motion.dq.col(joint).cwiseAbs().maxCoeff());
+  }
+  return speed;
+}
+
+/// Samples in the middle of the impulses of a run: some apart from one another over each stretch in
+/// which the joint may have stopped, two or more of each.
+std::vector<Index> impulses_of(const EffectRun& run, int joint, double still, Index apart) {
+  const auto dq = run.motion.dq.col(joint);
+  const auto stops = [&](Index k) {
+    return std::abs(dq[k]) < still || (k > 0 && dq[k] * dq[k - 1] < 0);
+  };
+  std::vector<Index> middles;
+  Index end = -1;  // of the last stretch
+  for (Index k = 0; k < dq.size(); ++k) {
+    if (!stops(k)) continue;
+    const Index from = k;
+    Index to = k;
+    for (Index i = k; i < std::min(dq.size(), to + apart); ++i) {
+      if (stops(i)) to = i;
+    }
+    const Index length = to - from, count = std::max<Index>(2, 1 + (length + apart) / apart);
+    const Index first = (from + to) / 2 - (count - 1) * apart / 2;
+    for (Index i = 0; i < count; ++i) {
+      const Index middle = first + i * apart;
+      if (middle > end) middles.push_back(middle);
+    }
+    end = middles.empty() ? -1 : middles.back();
+    k = to;
+  }
+  return middles;
+}
+
+/// Impulses where the joint turns or stops, short beside the filter.
 JointColumns impulse_columns(const EffectRecordings& data, int joint) {
-  std::vector<std::vector<Index>> turns;
+  const double still = kResting * fastest(data, joint);
+  std::vector<std::vector<Index>> middles;
   Index count = 0;
-  for (std::size_t run = 0; run < data.runs.size(); ++run) {
-    turns.push_back(turns_of(sign_of(data, run, joint)));
-    count += static_cast<Index>(turns.back().size());
+  for (const EffectRun& run : data.runs) {
+    middles.push_back(impulses_of(run, joint, still, std::max<Index>(1, run.decimator.factor / 2)));
+    count += static_cast<Index>(middles.back().size());
   }
   JointColumns columns{{joint}, {MatrixXd::Zero(data.equations(), count)}};
   Index start = 0, column = 0;
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     const EffectRun& here = data.runs[run];
-    const Index samples = here.motion.samples();
-    const Index width = std::max<Index>(1, here.decimator.factor / 4);
-    MatrixXd impulses = MatrixXd::Zero(samples, static_cast<Index>(turns[run].size()));
+    const Index width = std::max<Index>(1, here.decimator.factor / 2);
+    MatrixXd impulses =
+        MatrixXd::Zero(here.motion.samples(), static_cast<Index>(middles[run].size()));
     for (Index c = 0; c < impulses.cols(); ++c) {
-      const Index turn = turns[run][static_cast<std::size_t>(c)];
-      for (Index k = std::max<Index>(0, turn - width); k < std::min(samples, turn + width); ++k) {
-        impulses(k, c) = 1 - std::abs(static_cast<double>(k - turn)) / static_cast<double>(width);
+      const Index middle = middles[run][static_cast<std::size_t>(c)];
+      const Index end = std::min(impulses.rows(), middle + width);
+      for (Index k = std::max<Index>(0, middle - width); k < end; ++k) {
+        impulses(k, c) = 1 - std::abs(static_cast<double>(k - middle)) / static_cast<double>(width);
       }
     }
     columns.parts[0].block(start, column, here.rows.Y.rows(), impulses.cols()) =

@@ -29,9 +29,9 @@ struct StructureVariable {
 std::string variable_name(const StructureVariable& variable);
 
 /// Torque of a joint as any smooth function of one or two variables: piecewise linear between
-/// quantiles of the recordings, for two variables the products of coarser ones. Or an impulse of
-/// its own at each reversal: a joint that rests there for an instant is held by friction of any
-/// size up to its own, which no function of the motion is.
+/// quantiles of the recordings, for two variables the products of coarser ones. Or impulses of
+/// their own wherever the joint turns or stops: for that instant it is held by friction of any size
+/// up to its own, which no function of the motion is.
 struct GenericStructure {
   int joint = 0;  ///< coordinate, from 0
   std::vector<StructureVariable> variables;
@@ -46,7 +46,7 @@ struct GenericStructure {
 /// depends on these, pairs of positions and of a velocity with a position, impulses at reversals.
 std::vector<GenericStructure> generic_structures(int joints);
 
-/// An impulse at each reversal of a joint.
+/// Impulses at each reversal of a joint.
 GenericStructure impulses_at_reversals(int joint);
 
 /// A variable at all samples of a run. @return (N)

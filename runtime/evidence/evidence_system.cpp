@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/evidence/evidence_system.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -32,18 +32,17 @@ Score score_of(const Products& products, bool surrogates) {
   VectorXd scale = products.whole.diagonal().cwiseSqrt();
   for (double& s : scale) s = s > 0 ? 1 / s : 0;
   const MatrixXd A = scale.asDiagonal() * products.left * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
-  for (Index i = 0; i < k; ++i) {
-    const double value = eigen.eigenvalues()[i];
-    if (!(value > kAbsorbed)) continue;
-    const VectorXd direction = scale.cwiseProduct(eigen.eigenvectors().col(i));
-    const double along = direction.dot(products.rest);
-    score.squares += along * along / value;
-    score.coefficients += direction * (along / value);
-    ++score.degrees;
-    if (surrogates) {
-      score.surrogates += (products.noise.transpose() * direction).cwiseAbs2() / value;
-    }
+  Eigen::ColPivHouseholderQR<MatrixXd> factor(k, k);
+  factor.setThreshold(kAbsorbed);
+  factor.compute(A);
+  score.degrees = static_cast<int>(factor.rank());
+  const VectorXd rest = scale.cwiseProduct(products.rest);
+  const VectorXd solved = factor.solve(rest);
+  score.squares = std::max(0.0, rest.dot(solved));
+  score.coefficients = scale.cwiseProduct(solved);
+  if (surrogates) {
+    const MatrixXd noise = scale.asDiagonal() * products.noise;
+    score.surrogates = noise.cwiseProduct(factor.solve(noise)).colwise().sum().transpose();
   }
   return score;
 }
