@@ -58,6 +58,14 @@ DiagnosedMotions read_motions(const std::vector<std::string>& paths, const std::
   return motions;
 }
 
+std::vector<MotionSource> joined_sources(const DiagnosisInput& input) {
+  std::vector<MotionSource> all = input.train;
+  for (const auto* sources : {&input.heldout, &input.reference}) {
+    all.insert(all.end(), sources->begin(), sources->end());
+  }
+  return all;
+}
+
 void write_outputs(const ToolOptions& options, const DescribedRobot& robot,
                    DiagnosisReport& report) {
   const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
@@ -87,30 +95,28 @@ int run_diagnose(const ToolOptions& options) {
   const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAbsentRows);
   const KnownEffects known = known_effects(options.robot, catalogue);
   const ToolOptions how = reading(options);
-  DiagnosedMotions train = read_motions(options.recordings, "fitted", how, known, progress);
-  DiagnosedMotions heldout = read_motions(options.heldout, "held out", how, known, progress);
-  DiagnosedMotions reference =
-      read_motions(options.diagnose.reference, "reference", how, known, progress);
-  std::vector<MotionSource> all = train.sources;
-  std::vector<DiagnosedRecording> recordings = train.recordings;
-  for (const DiagnosedMotions* motions : {&heldout, &reference}) {
-    all.insert(all.end(), motions->sources.begin(), motions->sources.end());
-    recordings.insert(recordings.end(), motions->recordings.begin(), motions->recordings.end());
-  }
+  std::vector<DiagnosedRecording> recordings;
+  const auto read = [&](const std::vector<std::string>& paths, const std::string& use) {
+    DiagnosedMotions motions = read_motions(paths, use, how, known, progress);
+    recordings.insert(recordings.end(), motions.recordings.begin(), motions.recordings.end());
+    return std::move(motions.sources);
+  };
   DiagnosisInput input;
   input.model = robot.linear;
   input.robot = effect_robot(robot);
-  input.train = std::move(train.sources);
-  input.heldout = std::move(heldout.sources);
-  input.reference = std::move(reference.sources);
-  input.hypotheses = competing_effects(robot, catalogue, all);
-
-  DiagnosisReport report =
-      diagnosis_report(diagnose(input, settings,
-                                [&](const std::string& stage, double done) {
-                                  progress.show(stage, static_cast<std::size_t>(100 * done), 100);
-                                }),
-                       robot, catalogue);
+  Diagnosis diagnosis;
+  try {
+    input.train = read(options.recordings, "fitted");
+    input.heldout = read(options.heldout, "held out");
+    input.reference = read(options.diagnose.reference, "reference");
+    input.hypotheses = competing_effects(robot, catalogue, joined_sources(input));
+    diagnosis = diagnose(input, settings, [&](const std::string& stage, double done) {
+      progress.show(stage, static_cast<std::size_t>(100 * done), 100);
+    });
+  } catch (const TooShortError& error) {
+    diagnosis.sentence = error.what();
+  }
+  DiagnosisReport report = diagnosis_report(std::move(diagnosis), robot, catalogue);
   report.recordings = std::move(recordings);
   report.residual_only = settings.residual_only;
   report.false_alarm = settings.false_alarm;
