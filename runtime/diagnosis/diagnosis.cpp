@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "runtime/diagnosis/heldout.h"
+#include "runtime/diagnosis/name_tests.h"
 #include "runtime/diagnosis/naming.h"
 #include "runtime/diagnosis/next_experiment.h"
 #include "runtime/diagnosis/raw_residual.h"
@@ -215,6 +216,7 @@ class Diagnostician {
     }
     const EvidenceSystem system =
         system_at(train_, signals, without, beside, result_.noise, options);
+    finding.tests = name_tests(train_, signals, system, finding.effect);
     finding.where = whereabouts_of(train_, signals, system, hypothesis, finding.effect);
     finding.evidence.heldout_gain =
         1 - std::sqrt(winner.heldout_after / std::max(winner.heldout_before, 1e-300));
@@ -222,7 +224,7 @@ class Diagnostician {
       if (remark.effect != static_cast<int>(place)) continue;
       finding.tests.push_back(
           {remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound", false,
-           remark.text});
+           remark.text, true});
     }
     finding.why = why(finding, naming);
     return finding;

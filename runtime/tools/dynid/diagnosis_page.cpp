@@ -141,9 +141,10 @@ std::string tests_of(const Finding& finding) {
   if (finding.tests.empty()) return {};
   std::string text = small_heading("Tests of the name") + "<ul>\n";
   for (const FalsifierOutcome& test : finding.tests) {
+    const char* outcome = !test.known ? "open" : test.passed ? "passed" : "failed";
     text += fmt::format("<li><span class=\"{}\">{}</span> <code>{}</code>{}</li>\n",
-                        test.passed ? "passed" : "failed", test.passed ? "passed" : "failed",
-                        html_text(test.test), test.text.empty() ? "" : ": " + html_text(test.text));
+                        test.known ? outcome : "quiet", outcome, html_text(test.test),
+                        test.text.empty() ? "" : ": " + html_text(test.text));
   }
   return text + "</ul>\n";
 }

@@ -52,6 +52,11 @@ std::string finding_line(const DiagnosisReport& report, std::size_t place) {
   if (finding.evidence.heldout_gain > 0) {
     text += fmt::format("; held-out rms {:.0f} % lower", 100 * finding.evidence.heldout_gain);
   }
+  std::vector<std::string> failed;
+  for (const FalsifierOutcome& test : finding.tests) {
+    if (test.known && !test.passed) failed.push_back(test.test);
+  }
+  if (!failed.empty()) text += fmt::format("; fails {}", fmt::join(failed, ", "));
   std::vector<std::string> others;
   for (const std::string& family : finding.aliases) {
     if (family != finding.effect.law.family) others.push_back(family);
