@@ -11,11 +11,13 @@
 
 #include "runtime/diagnosis/competition.h"
 #include "runtime/diagnosis/heldout.h"
+#include "runtime/diagnosis/name_tests.h"
 #include "runtime/diagnosis/naming.h"
 #include "runtime/diagnosis/next_experiment.h"
 #include "runtime/diagnosis/raw_residual.h"
 #include "runtime/diagnosis/reference.h"
 #include "runtime/diagnosis/standstill.h"
+#include "runtime/diagnosis/sufficiency.h"
 #include "runtime/diagnosis/undecidable.h"
 #include "runtime/diagnosis/whereabouts.h"
 #include "runtime/effects/absorption.h"
@@ -26,8 +28,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kHeldPart = 0.2;         // of every recording, where none is held out
-constexpr double kLeastWorth = 30;        // independent samples of a joint beyond its parameters
 constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise's correlation
 constexpr double kBand = 0.6;  // of the cut-off: acceleration there is within 2 % of the true one
 constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
@@ -62,6 +62,14 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
   return data;
 }
 
+std::vector<ConditionLine> conditions_of(const DiagnosisInput& input) {
+  std::vector<ConditionLine> lines;
+  for (const MotionSource& source : input.train) {
+    lines.push_back({source.name, source.condition.messages});
+  }
+  return lines;
+}
+
 std::string where_it_acts(const EffectInstance& effect) {
   if (effect.joint < 0) return "the whole robot";
   if (effect.other >= 0) {
@@ -83,7 +91,7 @@ class Diagnostician {
         heldout_(equations_of(input, parts_.heldout, options)) {}
 
   Diagnosis run() {
-    describe_condition();
+    answer_.condition = conditions_of(input_);
     if (!enough()) return std::move(answer_);
     CompetitionOptions settings;
     settings.false_alarm = options_.false_alarm;
@@ -98,6 +106,7 @@ class Diagnostician {
     result_ = compete(train_, heldout_, hypotheses_, settings, progress_);
     describe_noise();
     describe_tests();
+    if (!worth_enough()) return std::move(answer_);
     describe_findings();
     describe_changes();
     describe_unexplained();
@@ -115,33 +124,15 @@ class Diagnostician {
     if (progress_) progress_(stage, done);
   }
 
-  void describe_condition() {
-    for (const MotionSource& source : input_.train) {
-      answer_.condition.push_back({source.name, source.condition.messages});
-    }
-  }
-
   /// Whether there are samples enough to test anything.
   bool enough() {
-    for (int j = 0; j < input_.model.joints(); ++j) {
-      double rows = 0;
-      for (const EffectRun& run : train_.runs) rows += run.rows.counted.col(j).sum();
-      const auto parameters =
-          static_cast<double>(input_.model.columns[static_cast<std::size_t>(j)].size());
-      if (rows >= kLeastWorth + 2 * parameters) continue;
-      answer_.verdict = Verdict::kInsufficientData;
-      answer_.sentence = fmt::format(
-          "The recordings hold {:.0f} equations of joint {} for {:.0f} parameters: too few to test "
-          "what the model leaves.",
-          rows, j + 1, parameters);
-      return false;
-    }
-    return true;
+    answer_.sentence = why_insufficient(train_, heldout_, !options_.residual_only);
+    return answer_.sentence.empty();
   }
 
-  /// Whether slow noise leaves independent samples enough to call recordings clean.
+  /// Whether slow noise leaves independent samples enough to call recordings clean or explained.
   bool worth_enough() {
-    if (!result_.winners.empty() || !result_.nameless.empty()) return true;
+    if (!result_.nameless.empty()) return true;
     Index joint = 0;
     const double least = result_.noise.worth.minCoeff(&joint);
     if (least >= kLeastIndependent) return true;
@@ -228,6 +219,7 @@ class Diagnostician {
     finding.evidence = {naming.lambda, naming.delta_bic, 0};
     const EvidenceSystem system =
         system_without(train_, signals, hypotheses_, result_, place, options);
+    finding.tests = name_tests(train_, signals, system, finding.effect);
     finding.where = whereabouts_of(train_, signals, system, hypothesis, finding.effect);
     finding.evidence.heldout_gain =
         1 - std::sqrt(winner.heldout_after / std::max(winner.heldout_before, 1e-300));
@@ -235,7 +227,7 @@ class Diagnostician {
       if (remark.effect != static_cast<int>(place)) continue;
       finding.tests.push_back(
           {remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound", false,
-           remark.text});
+           remark.text, true});
     }
     finding.why = why(finding, naming);
     return finding;
@@ -334,7 +326,6 @@ class Diagnostician {
   }
 
   void conclude() {
-    if (!worth_enough()) return;
     const bool open = std::any_of(
         result_.nameless.begin(), result_.nameless.end(),
         [&](const Nameless& nameless) { return nameless_part(nameless) > kUnexplainedPart; });
@@ -381,7 +372,14 @@ void DiagnosisOptions::validate() const {
 Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,
                    const DiagnosisProgress& progress) {
   options.validate();
-  return Diagnostician(input, options, progress).run();
+  try {
+    return Diagnostician(input, options, progress).run();
+  } catch (const TooShortError& error) {
+    Diagnosis answer;
+    answer.condition = conditions_of(input);
+    answer.sentence = error.what();
+    return answer;
+  }
 }
 
 }  // namespace dyngen::runtime

@@ -14,6 +14,9 @@
 
 namespace dyngen::runtime {
 
+/// Of every recording, at its end: what is held out where no recording is.
+constexpr double kHeldPart = 0.2;
+
 /// What a diagnosis looks at.
 struct DiagnosisInput {
   LinearModel model;

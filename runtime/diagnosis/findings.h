@@ -39,7 +39,8 @@ struct Evidence {
 struct FalsifierOutcome {
   std::string test;  ///< "vs <= 0.25*v90", "slow_steady"
   bool passed = true;
-  std::string text;  ///< a sentence
+  std::string text;   ///< what was found, or what is needed
+  bool known = true;  ///< false: these recordings cannot answer it
 };
 
 /// Physics that the model left out.

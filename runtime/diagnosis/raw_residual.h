@@ -9,7 +9,9 @@
 
 namespace dyngen::runtime {
 
-/// Recorded torque less the model with its effects, at every sample and without any filter.
+/// Recorded torque less the model with its effects, at every sample and without any filter. What
+/// makes torque late moves the model's: a delay to the motion some time before, a lag by the rate
+/// of what the parallel filter passes of it.
 /// @return  run by run, (N x n) N m or N
 RunResiduals raw_residuals(const EffectRecordings& data, const EffectPoint& point);
 

@@ -73,6 +73,12 @@ double ninth_decile(const EffectRecordings& data, int joint) {
   return *place;
 }
 
+std::string names_of(const std::vector<MotionSource>& sources) {
+  std::string names;
+  for (const MotionSource& source : sources) names += (names.empty() ? "" : ", ") + source.name;
+  return names;
+}
+
 EffectScales larger(const EffectScales& a, const EffectScales& b) {
   EffectScales most;
   for (double EffectScales::*scale :
@@ -97,6 +103,7 @@ EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
                                    const RowOptions& options,
                                    const std::vector<bool>& remembering) {
   EffectRecordings data{std::move(model), std::move(robot), {}, 0};
+  double longest = 0, filter = 0;  // s
   for (const MotionSource& source : sources) {
     if (source.joints() != data.joints()) {
       throw std::invalid_argument(fmt::format("{}: {} joints, but {} has {} that move", source.name,
@@ -116,6 +123,8 @@ EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
         run.position_step[static_cast<Index>(j)] = source.condition.position_step[j];
       }
       run.decimator = decimator;
+      longest = std::max(longest, run.motion.sample_time * static_cast<double>(run.time.size()));
+      filter = run.motion.sample_time * static_cast<double>(decimator.taps.size());
       if (decimated_samples(decimator, run.motion.samples()) == 0) continue;
       run.rows = rows_of_run(data.model, source, run.motion, plan);
       const double count = static_cast<double>(run.rows.Y.rows());
@@ -124,7 +133,10 @@ EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
     }
   }
   if (data.runs.empty()) {
-    throw std::invalid_argument("effects: no run is longer than the parallel filter");
+    throw TooShortError(
+        fmt::format("No run{} is longer than the parallel filter: the longest has {:.3g} s, the "
+                    "filter {:.3g} s.",
+                    sources.empty() ? "" : " of " + names_of(sources), longest, filter));
   }
   data.row_time /= static_cast<double>(data.equations());
   return data;

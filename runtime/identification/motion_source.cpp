@@ -96,7 +96,7 @@ void check_runs(const JointStates& states, const std::string& name) {
   if (!states.runs.empty()) return;
   std::string reason;
   for (const std::string& message : states.messages) reason += "; " + message;
-  throw std::invalid_argument(fmt::format("{}: no run is long enough{}", name, reason));
+  throw TooShortError(fmt::format("{}: no run is long enough{}", name, reason));
 }
 
 MotionSource motion_in_memory(Recording recording, RecordingCondition condition,

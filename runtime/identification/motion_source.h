@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,12 @@
 #include "runtime/signals/joint_state.h"
 
 namespace dyngen::runtime {
+
+/// A recording that is too short for what is asked of it; what() is a sentence.
+class TooShortError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
 
 /// What is done to a recording before a model sees it.
 struct MotionOptions {
@@ -55,11 +62,12 @@ struct MotionSource {
 
 /// Joint state of a recording in memory, after its time base, quantisation, clipping and periods
 /// were looked at.
-/// @throws std::invalid_argument  if options are not valid or nothing is left
+/// @throws std::invalid_argument  if options are not valid
+/// @throws TooShortError          if nothing is left
 MotionSource motion_of(Recording recording, const MotionOptions& options);
 
 /// The same of a file; a large one is read again each time it is gone through, in constant memory.
-/// @throws RecordingError; std::invalid_argument
+/// @throws RecordingError; std::invalid_argument; TooShortError
 MotionSource motion_of_file(const std::string& path, const MotionOptions& options);
 
 /// A part of every run: [from, to) of its samples as fractions of its length. For held-out checks.

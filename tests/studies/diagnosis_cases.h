@@ -9,6 +9,7 @@
 #include "runtime/diagnosis/diagnosis.h"
 #include "runtime/effects/absorption.h"
 #include "tests/studies/diagnosis_motion.h"
+#include "tests/studies/diagnosis_truth.h"
 #include "tests/studies/foreign_torque.h"
 
 namespace dyngen::test {
@@ -38,20 +39,6 @@ struct CaseRequest {
   std::string family;              ///< of the first effect; empty: any
 };
 
-/// An effect that is in the data.
-struct TrueEffect {
-  runtime::EffectInstance effect;  ///< with its numbers
-  double lambda = 0;               ///< noncentrality of what a refit of the model leaves
-  double absorbed = 0;             ///< part of its squares that a refit takes up
-  int recording = -1;              ///< training recording that it is in; -1: all, and the held-out
-  /// Largest part of its squares that an effect of another family can imitate, and which.
-  double likeness = 0;
-  std::string likest;
-
-  /// No other family comes so near that it could not be told apart.
-  [[nodiscard]] bool separable() const { return lambda * (1 - likeness) >= 20; }
-};
-
 /// Recordings of a machine, and the truth of them.
 struct DiagnosisCase {
   CaseRequest request;
@@ -67,20 +54,6 @@ struct DiagnosisCase {
   /// "stribeck 2 + dahl 1", "null", ...
   [[nodiscard]] std::string truth_text() const;
 };
-
-/// The laws of the catalogue, made once.
-const std::vector<runtime::EffectLaw>& all_laws();
-
-/// Every effect where it can be: what the diagnosis is asked about. Given parameters stand at their
-/// typical values, all others are NaN.
-std::vector<runtime::EffectInstance> all_hypotheses(const CaseRobot& robot,
-                                                    const runtime::EffectScales& scales);
-
-/// Families that no motion shows beside the base model.
-const std::vector<std::string>& theorem_laws();
-
-/// Options with which recordings become motions; those of the tool for effects.
-runtime::MotionOptions case_motion_options();
 
 /// @param with_likeness  whether the truth's nearest other family is looked for (some seconds)
 /// @throws std::runtime_error  if no effect can be given the strength in 60 tries

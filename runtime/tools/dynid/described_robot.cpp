@@ -8,6 +8,7 @@
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "gen/base_parameters/base_parameters.h"
 #include "gen/diagnostic/diagnostic.h"
@@ -246,8 +247,12 @@ void add_regressor_gradient(LinearModel& linear, CodeModel& code) {
 
 DescribedRobot describe_robot(const std::string& path, OpenParameters open,
                               const DescribeOptions& options) {
+  return describe_robot(read_robot_file(path), open, options);
+}
+
+DescribedRobot describe_robot(RobotFile file, OpenParameters open, const DescribeOptions& options) {
   DescribedRobot robot;
-  robot.file = read_robot_file(path);
+  robot.file = std::move(file);
   refuse_unknown_geometry(robot.file);
   robot.model = opened(build_model(robot.file), open);
   robot.standard = standard_values(robot.model);

@@ -45,5 +45,8 @@ struct DescribeOptions {
 /// @throws ModelError  positioned; a length or gravity component that is '*' among them
 DescribedRobot describe_robot(const std::string& path, OpenParameters open,
                               const DescribeOptions& options = {});
+/// The same of a file that was read.
+DescribedRobot describe_robot(RobotFile file, OpenParameters open,
+                              const DescribeOptions& options = {});
 
 }  // namespace dyngen::runtime

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <iostream>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "gen/tool/output_files.h"
@@ -9,6 +12,7 @@
 #include "runtime/tools/dynid/diagnosis_report.h"
 #include "runtime/tools/dynid/effect_hypotheses.h"
 #include "runtime/tools/dynid/effect_laws.h"
+#include "runtime/tools/dynid/forward_simulation.h"
 #include "runtime/tools/dynid/improved_file.h"
 #include "runtime/tools/dynid/loading.h"
 #include "runtime/tools/dynid/robot_tangents.h"
@@ -18,7 +22,8 @@ namespace {
 
 /// Recordings as a diagnosis sees them, and what each is for.
 struct DiagnosedMotions {
-  std::vector<MotionSource> sources;
+  std::vector<MotionSource> sources;   ///< without the effects that the file has already
+  std::vector<MotionSource> recorded;  ///< with them
   std::vector<DiagnosedRecording> recordings;
 };
 
@@ -53,9 +58,54 @@ DiagnosedMotions read_motions(const std::vector<std::string>& paths, const std::
   DiagnosedMotions motions;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     motions.sources.push_back(without_effects(loaded.sources[i], known));
+    motions.recorded.push_back(loaded.sources[i]);
     motions.recordings.push_back({paths[i], use, loaded.lines[i].seconds});
   }
   return motions;
+}
+
+std::vector<MotionSource> joined_sources(const DiagnosisInput& input) {
+  std::vector<MotionSource> all = input.train;
+  for (const auto* sources : {&input.heldout, &input.reference}) {
+    all.insert(all.end(), sources->begin(), sources->end());
+  }
+  return all;
+}
+
+/// What --controller asks for. @throws std::invalid_argument
+void check_simulation(const ToolOptions& options) {
+  const DiagnoseOptions& own = options.diagnose;
+  if (own.loop.controller.empty()) return;
+  if (own.diagnosis.residual_only) {
+    throw std::invalid_argument(
+        "--controller: found --residual-only too, expected a model whose parameters are fitted: "
+        "what another simulator leaves is no robot");
+  }
+  if (!own.commanded.empty() && own.commanded.size() != options.heldout.size()) {
+    throw std::invalid_argument(
+        fmt::format("--commanded: found {} motions, expected {}, one for each --holdout",
+                    own.commanded.size(), options.heldout.size()));
+  }
+}
+
+/// Simulates what was held out.
+ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& report,
+                            const DescribedRobot& robot, const EffectCatalogue& catalogue,
+                            std::vector<MotionSource> heldout, ProgressLine& progress) {
+#ifdef DYNGEN_WITH_SIMULATION
+  ForwardTask task{
+      options.diagnose.loop, options.diagnose.controller_model, std::move(heldout), {}};
+  for (const std::string& path : options.diagnose.commanded) {
+    task.commanded.push_back(read_trajectory(path));
+  }
+  return compare_forward(report, robot, catalogue, task, [&](double done) {
+    progress.show("simulation", static_cast<std::size_t>(1000 * done), 1000);
+  });
+#else
+  (void)options, (void)report, (void)robot, (void)catalogue, (void)heldout, (void)progress;
+  throw std::invalid_argument(
+      "--controller: simulation is left out of this dynid (it needs libboost-dev)");
+#endif
 }
 
 void write_outputs(const ToolOptions& options, const DescribedRobot& robot,
@@ -83,44 +133,54 @@ int run_diagnose(const ToolOptions& options) {
   DiagnosisOptions settings = options.diagnose.diagnosis;
   settings.decimation = options.rows.decimation;
   settings.validate();
+  check_simulation(options);
   const EffectCatalogue catalogue = effect_catalogue(options.effects);
   const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAbsentRows);
   const KnownEffects known = known_effects(options.robot, catalogue);
   const ToolOptions how = reading(options);
-  DiagnosedMotions train = read_motions(options.recordings, "fitted", how, known, progress);
-  DiagnosedMotions heldout = read_motions(options.heldout, "held out", how, known, progress);
-  DiagnosedMotions reference =
-      read_motions(options.diagnose.reference, "reference", how, known, progress);
-  std::vector<MotionSource> all = train.sources;
-  std::vector<DiagnosedRecording> recordings = train.recordings;
-  for (const DiagnosedMotions* motions : {&heldout, &reference}) {
-    all.insert(all.end(), motions->sources.begin(), motions->sources.end());
-    recordings.insert(recordings.end(), motions->recordings.begin(), motions->recordings.end());
-  }
+  std::vector<DiagnosedRecording> recordings;
+  std::vector<MotionSource> proof;  // with the torque of all effects
+  const auto read = [&](const std::vector<std::string>& paths, const std::string& use) {
+    DiagnosedMotions motions = read_motions(paths, use, how, known, progress);
+    recordings.insert(recordings.end(), motions.recordings.begin(), motions.recordings.end());
+    for (const MotionSource& source : motions.recorded) {
+      if (use == "held out") proof.push_back(source);
+      if (use == "fitted" && options.heldout.empty()) {
+        proof.push_back(part_of(source, 1 - kHeldPart, 1));
+      }
+    }
+    return std::move(motions.sources);
+  };
   DiagnosisInput input;
   input.model = robot.linear;
   input.robot = effect_robot(robot);
-  input.train = std::move(train.sources);
-  input.heldout = std::move(heldout.sources);
-  input.reference = std::move(reference.sources);
-  input.hypotheses = competing_effects(robot, catalogue, all);
-
-  DiagnosisReport report =
-      diagnosis_report(diagnose(input, settings,
-                                [&](const std::string& stage, double done) {
-                                  progress.show(stage, static_cast<std::size_t>(100 * done), 100);
-                                }),
-                       robot, catalogue);
+  Diagnosis diagnosis;
+  try {
+    input.train = read(options.recordings, "fitted");
+    input.heldout = read(options.heldout, "held out");
+    input.reference = read(options.diagnose.reference, "reference");
+    input.hypotheses = competing_effects(robot, catalogue, joined_sources(input));
+    diagnosis = diagnose(input, settings, [&](const std::string& stage, double done) {
+      progress.show(stage, static_cast<std::size_t>(100 * done), 100);
+    });
+  } catch (const TooShortError& error) {
+    diagnosis.sentence = error.what();
+  }
+  DiagnosisReport report = diagnosis_report(std::move(diagnosis), robot, catalogue);
   report.recordings = std::move(recordings);
   report.residual_only = settings.residual_only;
   report.false_alarm = settings.false_alarm;
   report.seed = settings.seed;
   report.command = options.diagnose.command;
   report.version = DYNGEN_VERSION;
+  const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
+  if (answered && !options.diagnose.loop.controller.empty()) {
+    report.forward = simulated(options, report, robot, catalogue, std::move(proof), progress);
+  }
   progress.clear();
   write_outputs(options, robot, report);
   std::cout << diagnosis_text(report);
-  if (report.diagnosis.verdict != Verdict::kInsufficientData) return kDone;
+  if (answered) return kDone;
   std::cerr << "dynid: " << report.diagnosis.sentence << "\n";
   return kCannotAnswer;
 }

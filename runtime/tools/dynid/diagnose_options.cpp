@@ -20,6 +20,28 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+/// The controller under which held-out motions are simulated.
+void add_simulation(CLI::App& command, DiagnoseOptions& options) {
+  options.loop.controller.clear();
+  const std::vector<CLI::Option*> loop = add_loop_settings(command, options.loop);
+  CLI::Option* controller = loop.front();
+  controller->description(
+      "simulate the held-out motions under this controller, the model alone and with the "
+      "findings, and compare with the recordings: " +
+      controller->get_description());
+  for (std::size_t i = 1; i < loop.size(); ++i) loop[i]->needs(controller);
+  command
+      .add_option("--controller-model", options.controller_model,
+                  "robot file of the controller's model; default: the model alone, fitted")
+      ->needs(controller);
+  command
+      .add_option("--commanded", options.commanded,
+                  "CSV: what was commanded in a --holdout, one for each in their order; default: "
+                  "the motion that was recorded")
+      ->allow_extra_args(false)
+      ->needs(controller);
+}
+
 }  // namespace
 
 void add_diagnose_options(CLI::App& command, DiagnoseOptions& options) {
@@ -38,6 +60,7 @@ void add_diagnose_options(CLI::App& command, DiagnoseOptions& options) {
       ->capture_default_str();
   command.add_option("--seed", options.diagnosis.seed, "of the random numbers")
       ->capture_default_str();
+  add_simulation(command, options);
 }
 
 std::string command_text(int argc, const char* const* argv) {

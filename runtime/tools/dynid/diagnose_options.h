@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/diagnosis/diagnosis.h"
+#include "runtime/tools/dynid/loop_settings.h"
 
 namespace CLI {
 class App;
@@ -18,7 +19,11 @@ struct DiagnoseOptions {
   std::vector<std::string> reference;  ///< recordings of the robot before it changed
   std::string report;                  ///< the page; empty: none
   DiagnosisOptions diagnosis;
-  std::string command;  ///< as it was called, for the report
+  /// Under which held-out motions are simulated before and after; no controller: they are not.
+  LoopSettings loop;
+  std::string controller_model;        ///< robot file of the controller; empty: the fitted model
+  std::vector<std::string> commanded;  ///< motions that --holdout were asked for, in their order
+  std::string command;                 ///< as it was called, for the report
 };
 
 void add_diagnose_options(CLI::App& command, DiagnoseOptions& options);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gen/effects/effect_catalogue.h"
 #include "runtime/diagnosis/findings.h"
 #include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/forward_comparison.h"
 
 namespace dyngen::runtime {
 
@@ -38,7 +40,8 @@ struct DiagnosisReport {
   double false_alarm = 0;
   std::uint64_t seed = 0;
   std::string command, version;
-  std::vector<std::string> written;  ///< files
+  std::optional<ForwardComparison> forward;  ///< where a controller is given
+  std::vector<std::string> written;          ///< files
 
   [[nodiscard]] int joints() const { return static_cast<int>(revolute.size()); }
   /// Unit of a joint's torque: "N m" or "N".

@@ -52,6 +52,11 @@ std::string finding_line(const DiagnosisReport& report, std::size_t place) {
   if (finding.evidence.heldout_gain > 0) {
     text += fmt::format("; held-out rms {:.0f} % lower", 100 * finding.evidence.heldout_gain);
   }
+  std::vector<std::string> failed;
+  for (const FalsifierOutcome& test : finding.tests) {
+    if (test.known && !test.passed) failed.push_back(test.test);
+  }
+  if (!failed.empty()) text += fmt::format("; fails {}", fmt::join(failed, ", "));
   std::vector<std::string> others;
   for (const std::string& family : finding.aliases) {
     if (family != finding.effect.law.family) others.push_back(family);
@@ -77,6 +82,27 @@ std::string heldout_table(const DiagnosisReport& report) {
   row("with the findings", rms.after);
   row("floor of the noise", rms.floor);
   return text + "\n";
+}
+
+/// A row a candidate and quantity, a column a joint.
+std::string forward_table(const DiagnosisReport& report) {
+  if (!report.forward) return {};
+  const ForwardComparison& forward = *report.forward;
+  std::string text = fmt::format("simulated: {}; rms of simulated less recorded\n", forward.how);
+  for (const SimulatedError* error : {&forward.before, &forward.after}) {
+    if (!error->why_not.empty()) text += "  " + error->why_not + "\n";
+  }
+  const auto row = [&](const char* name, const Eigen::VectorXd& values) {
+    if (values.size() == 0) return;
+    text += fmt::format("  {:<18}", name);
+    for (const double value : values) text += fmt::format("{:>10}", fmt::format("{:.3g}", value));
+    text += "\n";
+  };
+  row("position, alone", forward.before.position);
+  row("position, findings", forward.after.position);
+  row("torque, alone", forward.before.torque);
+  row("torque, findings", forward.after.torque);
+  return text;
 }
 
 /// Lines of a list, the first ones only.
@@ -136,7 +162,7 @@ std::string diagnosis_text(const DiagnosisReport& report) {
   const Diagnosis& diagnosis = report.diagnosis;
   std::string text = fmt::format("{}: {}\n", report.robot, diagnosis.sentence);
   for (std::size_t i = 0; i < diagnosis.findings.size(); ++i) text += finding_line(report, i);
-  text += heldout_table(report);
+  text += heldout_table(report) + forward_table(report);
   if (!diagnosis.noise.how.empty()) text += "noise: " + diagnosis.noise.how + "\n";
   text += list_text("unexplained:", unexplained_lines(report));
   text += list_text("cannot be decided:", undecidable_lines(diagnosis));

@@ -316,6 +316,7 @@ EffectLaw effect_law(const EffectFile& effect) {
                               .grid = parameter.grid});
   }
   for (const auto& state : effect.states) law.states.push_back(state.name);
+  for (const auto& test : effect.tests) law.tests.push_back(test.test);
   for (const auto& alias : effect.aliases) law.aliases.push_back(alias.family);
   for (const auto& condition : effect.requirements) {
     law.requirements.push_back(condition_of(condition, effect.parameters));

@@ -4,7 +4,6 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -18,6 +17,7 @@
 #include "runtime/tools/dynid/effect_laws.h"
 #include "runtime/tools/dynid/recorded_effects.h"
 #include "runtime/tools/dynid/simulate_picture.h"
+#include "runtime/tools/dynid/simulated_loop.h"
 #include "runtime/tools/dynid/simulated_robot.h"
 
 namespace dyngen::runtime {
@@ -25,74 +25,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-/// One value for all joints, or one a joint.
-VectorXd per_joint(const char* option, const std::vector<double>& values, int joints) {
-  if (values.size() == 1) return VectorXd::Constant(joints, values[0]);
-  if (values.size() != static_cast<std::size_t>(joints)) {
-    throw std::invalid_argument(fmt::format("{}: found {} values, expected 1 or {}, one a joint",
-                                            option, values.size(), joints));
-  }
-  return Eigen::Map<const VectorXd>(values.data(), joints);
-}
-
-ControlLaw law_of(const std::string& name) {
-  for (const ControlLaw law : {ControlLaw::kPd, ControlLaw::kGravity, ControlLaw::kFeedforward}) {
-    if (law_name(law) == name) return law;
-  }
-  return ControlLaw::kComputedTorque;
-}
-
-Eigen::MatrixXd mass_matrix_of(const SimulatedRobot& robot, const VectorXd& q) {
-  Eigen::MatrixXd M(robot.joints(), robot.joints());
-  robot.plant.mass_matrix(q.data(), M.data());
-  return M;
-}
-
-/// The diagonal of the plant's mass matrix: gains are tuned on the machine, whatever the model
-/// says.
-VectorXd inertia_at(const SimulatedRobot& robot, const VectorXd& q) {
-  const VectorXd inertia = mass_matrix_of(robot, q).diagonal();
-  for (Index j = 0; j < inertia.size(); ++j) {
-    if (inertia[j] > 0) continue;
-    throw std::invalid_argument(
-        fmt::format("{}: the inertia about joint {} is {}, expected a positive one: gains of pd, "
-                    "gravity and ff come from it",
-                    robot.name, j + 1, inertia[j]));
-  }
-  return inertia;
-}
-
-ControllerOptions controller_options(const SimulateOptions& options, const SimulatedRobot& plant,
-                                     const VectorXd& posture) {
-  ControllerOptions result;
-  result.law = law_of(options.controller);
-  result.gains = result.law == ControlLaw::kComputedTorque
-                     ? acceleration_gains(plant.joints(), options.bandwidth, options.damping)
-                     : torque_gains(inertia_at(plant, posture), options.bandwidth, options.damping);
-  const bool has_motion_model =
-      result.law == ControlLaw::kFeedforward || result.law == ControlLaw::kComputedTorque;
-  result.friction = options.friction == "on" || (options.friction == "auto" && has_motion_model);
-  if (options.friction_velocity == "measured") {
-    result.friction_velocity = FrictionVelocity::kMeasured;
-  }
-  result.friction_band = per_joint("--friction-band", options.friction_band, plant.joints());
-  return result;
-}
-
-ClosedLoopOptions loop_options(const SimulateOptions& options, int joints) {
-  ClosedLoopOptions loop;
-  loop.continuous = options.rate == 0;
-  loop.rate = loop.continuous ? SimulateOptions::kContinuousRecordRate : options.rate;
-  loop.delay = options.delay;
-  loop.duration = options.duration;
-  loop.encoder_step = per_joint("--encoder", options.encoder, joints);
-  loop.velocity_cutoff_hz = options.velocity_cutoff;
-  loop.torque_noise.deviation = per_joint("--torque-noise", options.torque_noise, joints);
-  loop.seed = options.seed;
-  loop.integration.tolerance = options.tolerance;
-  return loop;
-}
 
 void check_joints(const std::string& what, int found, const SimulatedRobot& robot) {
   if (found == robot.joints()) return;
@@ -124,10 +56,11 @@ std::string conditions(const SimulateOptions& options, const Controller& control
   const Index samples = run.measured.samples();
   std::string text = fmt::format(
       "{}: {} joints, controller {}, bandwidth {:.6g} Hz, damping {:.6g}, {}\n", plant.name,
-      plant.joints(), options.controller, options.bandwidth, options.damping,
-      options.rate > 0 ? fmt::format("{:.6g} Hz", options.rate) : "continuous");
-  text += fmt::format("friction compensation {}, delay {:.6g} s, seed {}\n",
-                      controller.options().friction ? "on" : "off", options.delay, options.seed);
+      plant.joints(), options.loop.controller, options.loop.bandwidth, options.loop.damping,
+      options.loop.rate > 0 ? fmt::format("{:.6g} Hz", options.loop.rate) : "continuous");
+  text +=
+      fmt::format("friction compensation {}, delay {:.6g} s, seed {}\n",
+                  controller.options().friction ? "on" : "off", options.loop.delay, options.seed);
   text += fmt::format(
       "{} samples, {:.6g} s; {} integration steps, {} reversals and {} releases located\n", samples,
       run.measured.time[samples - 1] - run.measured.time[0], run.counts.steps, run.counts.reversals,
@@ -186,11 +119,8 @@ int run_simulate(const SimulateOptions& options) {
   check_joints("the plant " + plant.name, plant.joints(), model);
 
   // limits are the drive's: of the plant's file
-  const VectorXd limit =
-      options.saturate == "on"
-          ? plant.torque_limit
-          : VectorXd::Constant(plant.joints(), std::numeric_limits<double>::infinity());
-  ControllerOptions chosen = controller_options(options, plant, trajectory.q.row(0));
+  const VectorXd limit = torque_limit_of(options.loop, plant);
+  ControllerOptions chosen = controller_options(options.loop, plant, trajectory.q.row(0));
   chosen.torque_limit = limit;
   Controller controller(model.control, chosen);
   std::optional<StartState> start;
@@ -198,12 +128,15 @@ int run_simulate(const SimulateOptions& options) {
     start = StartState{per_joint("--start", options.start, plant.joints()),
                        VectorXd::Zero(plant.joints())};
   }
+  ClosedLoopOptions loop = loop_options(options.loop, plant.joints());
+  loop.duration = options.duration;
+  loop.torque_noise.deviation = per_joint("--torque-noise", options.torque_noise, plant.joints());
+  loop.seed = options.seed;
   ClosedLoopRun run;
   try {
-    run = simulate(plant.plant, controller, trajectory, loop_options(options, plant.joints()),
-                   start, [&](double share) {
-                     progress.show("simulation", static_cast<std::size_t>(1000 * share), 1000);
-                   });
+    run = simulate(plant.plant, controller, trajectory, loop, start, [&](double share) {
+      progress.show("simulation", static_cast<std::size_t>(1000 * share), 1000);
+    });
   } catch (const std::runtime_error& error) {
     progress.clear();
     std::cerr << "dynid: " << error.what() << "\n";
@@ -226,7 +159,8 @@ int run_simulate(const SimulateOptions& options) {
             << table(plant, run, limit) << "\nwritten: " << options.output
             << (options.truth.empty() ? "" : ", " + options.truth) << "\n";
   if (!options.picture.empty()) {
-    draw(picture_of(run, plant, fmt::format("{}, controller {}", plant.name, options.controller)),
+    draw(picture_of(run, plant,
+                    fmt::format("{}, controller {}", plant.name, options.loop.controller)),
          options.picture);
     std::cout << "written: " << options.picture << "\n";
   }

@@ -20,32 +20,7 @@ void add_simulate(CLI::App& tool, SimulateOptions& options) {
                        "the true motion and torque, without encoder and noise");
   simulate->add_option("--picture", options.picture,
                        "motion, error and torque as .svg or .png (needs gnuplot)");
-  simulate
-      ->add_option("--controller", options.controller,
-                   "pd, gravity (pd and gravity), ff (pd and feedforward), ct (computed torque)")
-      ->check(CLI::IsMember({"pd", "gravity", "ff", "ct"}))
-      ->capture_default_str();
-  simulate
-      ->add_option("--rate", options.rate,
-                   "Hz, of controller and recording; 0: a continuous controller")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  simulate->add_option("--bandwidth", options.bandwidth, "Hz, natural frequency of the loop")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  simulate->add_option("--damping", options.damping, "damping ratio of the loop")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  simulate->add_option("--encoder", options.encoder, "rad or m: step of the positions; 0: exact")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  simulate
-      ->add_option("--velocity-cutoff", options.velocity_cutoff,
-                   "Hz: velocity is the encoder's difference behind this low-pass; 0: exact")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_loop_settings(*simulate, options.loop);
   simulate
       ->add_option("--torque-noise", options.torque_noise,
                    "N m or N: standard deviation of the recorded torque's noise")
@@ -53,32 +28,10 @@ void add_simulate(CLI::App& tool, SimulateOptions& options) {
       ->allow_extra_args(false)
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  simulate->add_option("--delay", options.delay, "s, from a sample to its torque")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
   simulate->add_option("--duration", options.duration, "s; 0: as long as the trajectory")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   simulate->add_option("--seed", options.seed, "of the noise")->capture_default_str();
-  simulate
-      ->add_option("--friction-compensation", options.friction, "on, off; auto: on with ff and ct")
-      ->check(CLI::IsMember({"on", "off", "auto"}))
-      ->capture_default_str();
-  simulate
-      ->add_option("--friction-velocity", options.friction_velocity,
-                   "the velocity at which friction is compensated")
-      ->check(CLI::IsMember({"reference", "measured"}))
-      ->capture_default_str();
-  simulate
-      ->add_option("--friction-band", options.friction_band,
-                   "rad/s or m/s: below, compensation is linear in velocity")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  simulate->add_option("--saturate", options.saturate, "on: torque is limited by taumax")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->capture_default_str();
   simulate
       ->add_option("--start", options.start,
                    "rad or m: start at rest there; default: the trajectory's first sample")
@@ -92,9 +45,6 @@ void add_simulate(CLI::App& tool, SimulateOptions& options) {
       ->expected(1, 2);
   simulate->add_option("--effects", options.effects, "a folder of effects of your own")
       ->allow_extra_args(false);
-  simulate->add_option("--tolerance", options.tolerance, "of the integration")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
 }
 
 }  // namespace dyngen::runtime

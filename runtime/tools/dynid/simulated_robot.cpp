@@ -138,7 +138,12 @@ auto one(ProgramEvaluator program) {
 SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use,
                                     const EffectCatalogue& catalogue,
                                     const SimulatedTemperature& temperature) {
-  const RobotFile file = read_robot_file(path);
+  return simulated_robot(read_robot_file(path), use, catalogue, temperature);
+}
+
+SimulatedRobot simulated_robot(const RobotFile& file, RobotUse use,
+                               const EffectCatalogue& catalogue,
+                               const SimulatedTemperature& temperature) {
   refuse_what_is_no_number(file);
   const RobotModel whole = build_model(file);
   refuse_missing_parameters(file, whole, catalogue);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gen/effects/effect_catalogue.h"
+#include "gen/robot_file/robot_file.h"
 #include "runtime/control/control_model.h"
 #include "runtime/effects/effect_law.h"
 #include "runtime/simulation/plant_model.h"
@@ -47,5 +48,9 @@ struct SimulatedTemperature {
 SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use,
                                     const EffectCatalogue& catalogue = {},
                                     const SimulatedTemperature& temperature = {});
+/// The same of a file that was read.
+SimulatedRobot simulated_robot(const RobotFile& file, RobotUse use,
+                               const EffectCatalogue& catalogue = {},
+                               const SimulatedTemperature& temperature = {});
 
 }  // namespace dyngen::runtime

@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "runtime/diagnosis/sufficiency.h"
 #include "tests/runtime/effects/effect_arm.h"
 
 namespace dyngen::runtime {
@@ -153,6 +154,53 @@ TEST(Diagnosis, OfAFewSamplesIsRefused) {
   const Diagnosis diagnosis = diagnose(input, every_sample());
   EXPECT_EQ(diagnosis.verdict, Verdict::kInsufficientData);
   EXPECT_FALSE(diagnosis.sentence.empty());
+}
+
+/// The whole arm has 13 parameters. On the motion of the fit the variances of all predictions add
+/// up to those of 13 residuals; on a motion that the fit has not seen there is no such bound.
+TEST(PredictedVariance, IsThatOfTheParametersOverTheEquations) {
+  const auto equations = [](double seconds, double phase) {
+    return effect_recordings(test::planar_arm(), test::planar_arm_tangents(),
+                             test::measured({test::sines(seconds, 0.01, phase)},
+                                            test::planar_arm_values(), {}, 0.1, 0, 3),
+                             {1, -1});
+  };
+  const EffectRecordings data = equations(30, 0.3);
+  const VectorXd own = predicted_variance(data, data);
+  EXPECT_NEAR(own.sum() * static_cast<double>(data.equations()), 13, 3);
+  const VectorXd other = predicted_variance(equations(0.7, 0.3), data);
+  EXPECT_GT(other.maxCoeff(), 1);
+}
+
+TEST(Diagnosis, OfAMotionTooShortForItsParametersIsRefused) {
+  DiagnosisInput input = input_with({test::known(test::spring_law(), 1, {0.4})}, 9);
+  for (const double seconds : {0.8, 1.2}) {
+    input.train =
+        test::measured({test::sines(seconds, 0.01)}, test::planar_arm_values(), {}, 0.1, 0.5, 1);
+    const Diagnosis diagnosis = diagnose(input, every_sample());
+    EXPECT_EQ(diagnosis.verdict, Verdict::kInsufficientData) << seconds;
+    EXPECT_NE(diagnosis.sentence.find("too little motion"), std::string::npos)
+        << diagnosis.sentence;
+    EXPECT_TRUE(diagnosis.findings.empty());
+  }
+}
+
+TEST(Diagnosis, OfARunShorterThanTheFilterSaysSo) {
+  DiagnosisOptions options;
+  options.decimation = 20;
+  DiagnosisInput input = input_with({}, 9);
+  const std::vector<MotionSource> brief =
+      test::measured({test::sines(0.5, 0.01)}, test::planar_arm_values(), {}, 0.1, 0, 1);
+  for (std::vector<MotionSource> DiagnosisInput::*part :
+       {&DiagnosisInput::heldout, &DiagnosisInput::train}) {
+    input.*part = brief;
+    const Diagnosis diagnosis = diagnose(input, options);
+    EXPECT_EQ(diagnosis.verdict, Verdict::kInsufficientData);
+    EXPECT_NE(diagnosis.sentence.find("is longer than the parallel filter: the longest has 0.5 s"),
+              std::string::npos)
+        << diagnosis.sentence;
+    EXPECT_EQ(diagnosis.condition.size(), input.train.size());
+  }
 }
 
 TEST(DiagnosisOptions, AreCheckedByName) {

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "runtime/recordings/writer.h"
 #include "runtime/tools/dynid/effect_laws.h"
@@ -183,6 +185,27 @@ TEST_F(Diagnose, RefusesToAnswerFromTooLittle) {
   EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
   EXPECT_EQ(test::markup_fault(content(path("d.html"))), "");
   EXPECT_FALSE(fs::exists(path("d.robot")));
+}
+
+TEST_F(Diagnose, RefusesToAnswerFromASecondOrTwo) {
+  const std::string whole = record("whole.csv", "", 9, 20);
+  std::istringstream lines(content(whole));
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(lines, line);) rows.push_back(line);
+  // too short for a joint state, for the parallel filter of the held-out fifth, for the parameters
+  for (const std::size_t samples : {20U, 100U, 400U}) {
+    std::ofstream file(path("part.csv"));
+    file << rows[0] << "\n";
+    for (std::size_t k = 0; k < samples; ++k) file << rows[1000 + k] << "\n";
+    file.close();
+    const Outcome run = diagnose(path("part.csv") + " --cutoff 8");
+    EXPECT_EQ(run.exit_code, 3) << samples << ": " << run.out;
+    EXPECT_EQ(json()["verdict"], "insufficient_data");
+    EXPECT_EQ(json()["findings"].size(), 0u);
+    EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
+    EXPECT_EQ(test::markup_fault(content(path("d.html"))), "");
+    EXPECT_FALSE(fs::exists(path("d.robot")));
+  }
 }
 
 }  // namespace

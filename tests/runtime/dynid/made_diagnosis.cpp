@@ -55,7 +55,8 @@ Diagnosis made_diagnosis() {
                     std::numeric_limits<double>::quiet_NaN(),
                     0.75};
   stribeck.evidence = {130, -95, 0.21};
-  stribeck.tests = {{"vs <= 0.25*v90", true, "narrow enough"}, {"slow_steady", false, "no <data>"}};
+  stribeck.tests = {{"vs <= 0.25*v90", true, "narrow enough", true},
+                    {"slow_steady", false, "no <data>", true}};
   stribeck.why = "friction falls as joint 2 begins to slide";
   Finding coupling;
   coupling.effect = made_effect("viscous_coupling", 2, 1, {0.5, 1});
