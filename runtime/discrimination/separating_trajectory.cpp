@@ -290,13 +290,11 @@ SeparatingTrajectory separate(const SeparationProblem& problem, const MotionLimi
   options.validate();
   problem.validate();
   limits.validate(problem.model);
-  const PlannedMotion usual = random_motion(problem.model, limits, options.duration, options.seed);
-  if (usual.duration == 0) {
-    SeparatingTrajectory none;
-    none.message =
-        "no random trajectory keeps the limits of torque and the box, however small its motion";
-    return none;
-  }
+  // sizes and speeds that are usual within the limits of motion, whatever torque it takes
+  MotionLimits free = limits;
+  free.torque.setConstant(std::numeric_limits<double>::infinity());
+  free.box.reset();
+  const PlannedMotion usual = random_motion(problem.model, free, options.duration, options.seed);
   return Designer(problem, limits, options, usual).run();
 }
 

@@ -20,7 +20,7 @@ struct SeparatingOptions {
   int evaluations = 0;        ///< at most; above 0 the clock ends nothing
   double check_rate = 10000;  ///< Hz, at which limits must be kept
   /// Told now and then what is being done.
-  std::function<void(const std::string& what, std::size_t place, std::size_t all)> progress;
+  std::function<void(const std::string& what, std::size_t place, std::size_t all)> progress{};
 
   /// @throws std::invalid_argument  naming what was found and what was expected
   void validate() const;
@@ -40,8 +40,9 @@ struct SeparatingTrajectory {
   PlannedMotion motion;
   Archetype archetype = Archetype::kAllJoints;
   int joint = -1;
-  Separation separation;               ///< of one period, shapes tried finely
-  Separation random;                   ///< of the random motion in the middle of five
+  Separation separation;  ///< of one period, shapes tried finely
+  /// Of the random motion in the middle of five; without rivals if none keeps the limits.
+  Separation random;
   std::vector<ArchetypeScore> scores;  ///< falling
   std::vector<std::string> left_out;   ///< rivals that a motion alone says nothing about
   LimitShares shares;                  ///< at the check rate

@@ -18,7 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kFiner = 3;  // times as many values of each shape
+constexpr int kFiner = 3;  // times as many steps between values of a shape
 
 /// Every joint's equations that count, one joint after the other, over its noise.
 class CountedRows {
@@ -159,8 +159,9 @@ SeparationCriterion::SeparationCriterion(SeparationProblem problem, const Planne
       continue;
     }
     rival.trials = trials_of(rival.hypothesis, scales, problem_.shape_values, problem_.most_shapes);
-    rival.fine_trials = trials_of(rival.hypothesis, scales, kFiner * problem_.shape_values,
-                                  kFiner * problem_.most_shapes);
+    rival.fine_trials =
+        trials_of(rival.hypothesis, scales, kFiner * (problem_.shape_values - 1) + 1,
+                  kFiner * problem_.most_shapes);
     rivals_.push_back(std::move(rival));
   }
   if (rivals_.empty()) {

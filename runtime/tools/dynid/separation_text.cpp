@@ -57,8 +57,12 @@ std::string menu(const SeparationReport& report) {
   const auto row = [&](double least, const std::string& what) {
     text += fmt::format("{:>12.4g}  {}\n", report.options.periods * least, what);
   };
-  row(report.designed.random.least,
-      fmt::format("random motion, the middle one of five (seed {})", report.designed.random_seed));
+  if (report.designed.random.rivals.empty()) {
+    text += fmt::format("{:>12}  random motions do not keep the limits\n", "-");
+  } else {
+    row(report.designed.random.least, fmt::format("random motion, the middle one of five (seed {})",
+                                                  report.designed.random_seed));
+  }
   for (const ArchetypeScore& score : report.designed.scores) {
     row(score.least,
         fmt::format("{}: {}", joint_text(score.joint), words_of(score.archetype).motion));
@@ -139,24 +143,26 @@ std::string separation_json(const SeparationReport& report, const std::string& t
     parameters[report.effect.law.parameters[static_cast<std::size_t>(p)].name] =
         number(report.effect.parameters[p]);
   }
-  Json json = {{"schema", "dynid.separation/1"},
-               {"robot", report.robot.linear.name},
-               {"joints", report.robot.linear.joints()},
-               {"found", designed.found},
-               {"message", designed.message},
-               {"notes", report.notes},
-               {"findings", report.options.findings},
-               {"finding",
-                {{"effect", report.effect.law.name},
-                 {"family", report.finding.family},
-                 {"joint", report.finding.joint},
-                 {"parameters", std::move(parameters)}}},
-               {"rivals", report.rivals},
-               {"noise", {{"from", report.noise_from}, {"std", numbers(report.noise)}}},
-               {"seed", report.options.seed},
-               {"evaluations", designed.evaluations},
-               {"archetypes", std::move(archetypes)},
-               {"random", number(periods * designed.random.least)}};
+  Json json = {
+      {"schema", "dynid.separation/1"},
+      {"robot", report.robot.linear.name},
+      {"joints", report.robot.linear.joints()},
+      {"found", designed.found},
+      {"message", designed.message},
+      {"notes", report.notes},
+      {"findings", report.options.findings},
+      {"finding",
+       {{"effect", report.effect.law.name},
+        {"family", report.finding.family},
+        {"joint", report.finding.joint},
+        {"parameters", std::move(parameters)}}},
+      {"rivals", report.rivals},
+      {"noise", {{"from", report.noise_from}, {"std", numbers(report.noise)}}},
+      {"seed", report.options.seed},
+      {"evaluations", designed.evaluations},
+      {"archetypes", std::move(archetypes)},
+      {"random",
+       designed.random.rivals.empty() ? Json(nullptr) : number(periods * designed.random.least)}};
   if (designed.found) {
     Json rivals = Json::array();
     for (const RivalSeparation& rival : designed.separation.rivals) {
