@@ -64,8 +64,9 @@ std::string menu(const SeparationReport& report) {
                                                   report.designed.random_seed));
   }
   for (const ArchetypeScore& score : report.designed.scores) {
-    row(score.least,
-        fmt::format("{}: {}", joint_text(score.joint), words_of(score.archetype).motion));
+    const std::string& motion = words_of(score.archetype).motion;
+    const bool all = score.archetype == Archetype::kAllJoints;
+    row(score.least, all ? motion : fmt::format("{}: {}", joint_text(score.joint), motion));
   }
   return text;
 }
