@@ -65,11 +65,11 @@ class Laboratory {
         plant_(describe_robot(folder_.written("plant.robot", robot_text(asked.effect + "\n")),
                               OpenParameters::kAsWritten)) {}
 
-  Recording multisine_of(std::uint64_t seed) const {
+  Recording multisine_of(std::uint64_t seed, double seconds) const {
     return multisine(plant_.linear, plant_.grouping * plant_.standard,
-                     {.seconds = kSeconds,
+                     {.seconds = seconds,
                       .sample_time = kSampleTime,
-                      .period = kSeconds,
+                      .period = seconds,
                       .size = asked_.size,
                       .seed = seed});
   }
@@ -103,6 +103,7 @@ class Laboratory {
     options.findings = folder_.written(
         "findings.json", diagnosis_json(diagnosis_report(diagnosis, robot_, catalogue_)));
     options.periods = 2;
+    options.duration = asked_.next / options.periods;
     options.evaluations = asked_.evaluations;
     return make_separation_report(robot_path_, options, {});
   }
@@ -128,7 +129,7 @@ AliasFigures alias_figures(const AliasCase& asked) {
   std::vector<double> gains;
   for (int i = 1; i <= asked.seeds; ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
-    const MotionSource first = laboratory.recorded(laboratory.multisine_of(seed), seed);
+    const MotionSource first = laboratory.recorded(laboratory.multisine_of(seed, kSeconds), seed);
     const Diagnosis before = laboratory.diagnosed({first});
     if (before.findings.size() != 1) continue;
     const std::vector<std::string>& names = before.findings.front().aliases;
@@ -148,7 +149,8 @@ AliasFigures alias_figures(const AliasCase& asked) {
     figures.designed += names_alone(
         laboratory.diagnosed({first, laboratory.recorded(std::move(motion), again)}), asked.family);
     figures.another += names_alone(
-        laboratory.diagnosed({first, laboratory.recorded(laboratory.multisine_of(again), again)}),
+        laboratory.diagnosed(
+            {first, laboratory.recorded(laboratory.multisine_of(again, asked.next), again)}),
         asked.family);
   }
   std::sort(gains.begin(), gains.end());

@@ -91,16 +91,18 @@ void print_estimates() {
 
 void print_names() {
   fmt::print(
-      "| effect | noise [N m] | several names, of seeds | wrong one first | true name alone after "
+      "| effect | noise [N m] | second recording [s] | several names, of seeds | wrong one first | "
+      "true name alone after "
       "the designed motion | after another one like the first | separation, designed / random |\n"
-      "|---|---|---|---|---|---|---|\n");
+      "|---|---|---|---|---|---|---|---|\n");
   const AliasCase cases[] = {
       {.effect = "effect stribeck joint=2 Fs=10 vs=0.1 delta=2",
        .family = "stribeck",
        .noise = 0.9},
-      {.effect = "effect tanh_viscous joint=2 A=3 vt=0.2",
-       .family = "nonlinear_viscous",
-       .noise = 0.9},
+      {.effect = "effect stribeck joint=2 Fs=10 vs=0.1 delta=2",
+       .family = "stribeck",
+       .noise = 0.9,
+       .next = 8},
       {.effect = "effect torque_saturation joint=2 c=5e-6",
        .family = "torque_saturation",
        .noise = 1.1},
@@ -115,9 +117,9 @@ void print_names() {
   };
   for (const AliasCase& asked : cases) {
     const AliasFigures figures = alias_figures(asked);
-    fmt::print("| `{}` | {} | {} of {} | {} | {} | {} | {:.1f} |\n", asked.effect, asked.noise,
-               figures.several, asked.seeds, figures.wrong_first, figures.designed, figures.another,
-               figures.median_gain);
+    fmt::print("| `{}` | {} | {} | {} of {} | {} | {} | {} | {:.2g} |\n", asked.effect, asked.noise,
+               asked.next, figures.several, asked.seeds, figures.wrong_first, figures.designed,
+               figures.another, figures.median_gain);
     std::fflush(stdout);
   }
 }
