@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The figures of docs/excitation.md: excitation_study conditions | thesis | estimates
+// The figures of docs/excitation.md: excitation_study conditions | thesis | estimates | names
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "tests/studies/alias_figures.h"
 #include "tests/studies/excitation_claims.h"
 
 namespace dyngen::test {
@@ -88,6 +89,41 @@ void print_estimates() {
   }
 }
 
+void print_names() {
+  fmt::print(
+      "| effect | noise [N m] | second recording [s] | several names, of seeds | wrong one first | "
+      "true name alone after "
+      "the designed motion | after another one like the first | separation, designed / random |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  const AliasCase cases[] = {
+      {.effect = "effect stribeck joint=2 Fs=10 vs=0.1 delta=2",
+       .family = "stribeck",
+       .noise = 0.9},
+      {.effect = "effect stribeck joint=2 Fs=10 vs=0.1 delta=2",
+       .family = "stribeck",
+       .noise = 0.9,
+       .next = 8},
+      {.effect = "effect torque_saturation joint=2 c=5e-6",
+       .family = "torque_saturation",
+       .noise = 1.1},
+      {.effect = "effect load_friction joint=3 mu=0.03",
+       .family = "load_friction",
+       .noise = 0.4,
+       .size = 0.4},
+      {.effect = "effect joint_elasticity joint=2 c=1e-4",
+       .family = "joint_elasticity",
+       .noise = 0.3,
+       .size = 0.8},
+  };
+  for (const AliasCase& asked : cases) {
+    const AliasFigures figures = alias_figures(asked);
+    fmt::print("| `{}` | {} | {} | {} of {} | {} | {} | {} | {:.2g} |\n", asked.effect, asked.noise,
+               asked.next, figures.several, asked.seeds, figures.wrong_first, figures.designed,
+               figures.another, figures.median_gain);
+    std::fflush(stdout);
+  }
+}
+
 int run(int argc, char** argv) {
   const std::string what = argc == 2 ? argv[1] : "";
   if (what == "conditions") {
@@ -96,8 +132,10 @@ int run(int argc, char** argv) {
     print_thesis();
   } else if (what == "estimates") {
     print_estimates();
+  } else if (what == "names") {
+    print_names();
   } else {
-    fmt::print(stderr, "usage: excitation_study conditions|thesis|estimates\n");
+    fmt::print(stderr, "usage: excitation_study conditions|thesis|estimates|names\n");
     return 2;
   }
   return 0;

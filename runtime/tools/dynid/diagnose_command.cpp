@@ -172,6 +172,8 @@ int run_diagnose(const ToolOptions& options) {
   report.false_alarm = settings.false_alarm;
   report.seed = settings.seed;
   report.command = options.diagnose.command;
+  report.robot_path = options.robot;
+  report.json_path = options.json;
   report.version = DYNGEN_VERSION;
   const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
   if (answered && !options.diagnose.loop.controller.empty()) {

@@ -337,6 +337,9 @@ std::string next_section(const DiagnosisReport& report) {
   if (next.purpose.empty()) return {};
   std::string text = heading("Next experiment") + html_paragraph("To " + next.purpose + ".");
   if (!next.archetype.empty()) text += html_paragraph("Motion: " + next.archetype + ".");
+  text += html_paragraph(report.json_path.empty() ? "A trajectory of it, with the file of --json:"
+                                                  : "A trajectory of it:") +
+          "<pre>" + html_text(next_command(report)) + "</pre>\n";
   if (!report.trajectory.empty()) text += html_paragraph("Trajectory: " + report.trajectory);
   return text;
 }

@@ -66,6 +66,12 @@ std::string verdict_name(Verdict verdict) {
 
 int answer_joint(const EffectInstance& effect) { return effect.joint + 1; }
 
+std::string next_command(const DiagnosisReport& report) {
+  return fmt::format("dynid excite {} --for {} -o trajectory.csv",
+                     report.robot_path.empty() ? "ROBOT" : report.robot_path,
+                     report.json_path.empty() ? "FINDINGS.json" : report.json_path);
+}
+
 std::string answer_place(const EffectInstance& effect) {
   if (effect.joint < 0) return "the whole robot";
   if (effect.other < 0) return fmt::format("joint {}", effect.joint + 1);

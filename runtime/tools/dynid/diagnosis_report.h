@@ -35,6 +35,7 @@ struct DiagnosisReport {
   std::vector<EffectWords> words;              ///< of each finding
   std::vector<std::string> certificate_units;  ///< of each line; "" where no parameter is named
   std::string trajectory;                      ///< file of the next experiment; empty: none
+  std::string robot_path, json_path;           ///< files of this diagnosis; empty: none
   std::vector<DiagnosedRecording> recordings;
   bool residual_only = false;
   double false_alarm = 0;
@@ -67,6 +68,9 @@ std::string variable_unit(const std::string& variable, const std::vector<bool>& 
 
 /// How an effect's parameter is known: "13.2 +- 0.3", "2 (given)"; intervals of 95 %.
 std::string parameter_text(const EffectParameterFit& parameter, double interval);
+
+/// The command that makes a file of the next experiment, of the findings in the JSON.
+std::string next_command(const DiagnosisReport& report);
 
 /// Schema dynid.diagnosis/1, docs/diagnosis.md.
 std::string diagnosis_json(const DiagnosisReport& report);

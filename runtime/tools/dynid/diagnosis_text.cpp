@@ -169,6 +169,9 @@ std::string diagnosis_text(const DiagnosisReport& report) {
   if (!diagnosis.next.purpose.empty()) {
     text += fmt::format("next: {}{}\n", diagnosis.next.purpose,
                         diagnosis.next.archetype.empty() ? "" : ", by " + diagnosis.next.archetype);
+    text += fmt::format("  a trajectory of it{}: {}\n",
+                        report.json_path.empty() ? ", with the file of --json" : "",
+                        next_command(report));
   }
   if (!diagnosis.certificate.empty()) {
     const auto found = [](const CertificateLine& line) { return std::isfinite(line.smallest); };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <functional>
 #include <iostream>
-#include <stdexcept>
+#include <string>
 
 #include "runtime/tools/dynid/commands.h"
 
@@ -11,6 +12,7 @@
 #include "gen/tool/progress_line.h"
 #include "runtime/tools/dynid/excite_picture.h"
 #include "runtime/tools/dynid/excite_report.h"
+#include "runtime/tools/dynid/separation_report.h"
 #endif
 
 namespace dyngen::runtime {
@@ -24,19 +26,39 @@ int run_excite(const ToolOptions& /*options*/) {
 
 #else
 
-int run_excite(const ToolOptions& options) {
-  if (!options.excite.findings.empty()) {
-    throw std::invalid_argument(fmt::format(
-        "--for: {}: trajectories that tell findings apart cannot be made yet; expected the command "
-        "without --for, which designs one for the parameters",
-        options.excite.findings));
+namespace {
+
+using Progress = std::function<void(const std::string&, std::size_t, std::size_t)>;
+
+int run_separate(const ToolOptions& options, ProgressLine& progress, const Progress& tell) {
+  const SeparationReport report = make_separation_report(options.robot, options.excite, tell);
+  progress.clear();
+  if (!options.json.empty()) {
+    write_files({{options.json, separation_json(report, options.output)}});
   }
+  std::cout << separation_text(report);
+  if (!report.designed.found) return kCannotAnswer;
+  write_trajectory(report.trajectory, options.output);
+  std::cout << fmt::format("written: {}, {} rows\n", options.output, report.trajectory.samples());
+  if (!options.excite.picture.empty()) {
+    draw(motion_picture(report.robot.linear, report.limits, report.trajectory, report.samples + 1,
+                        fmt::format("{}: {} apart from {}", report.robot.linear.name,
+                                    report.finding.family, fmt::join(report.rivals, ", "))),
+         options.excite.picture);
+    std::cout << fmt::format("written: {}\n", options.excite.picture);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+int run_excite(const ToolOptions& options) {
   ProgressLine progress("dynid");
-  const ExciteReport report =
-      make_excite_report(options.robot, options.excite,
-                         [&](const std::string& what, std::size_t place, std::size_t all) {
-                           progress.show(what, place, all);
-                         });
+  const Progress tell = [&](const std::string& what, std::size_t place, std::size_t all) {
+    progress.show(what, place, all);
+  };
+  if (!options.excite.findings.empty()) return run_separate(options, progress, tell);
+  const ExciteReport report = make_excite_report(options.robot, options.excite, tell);
   progress.clear();
   if (!options.json.empty()) {
     write_files({{options.json, json_of(report, options.output)}});

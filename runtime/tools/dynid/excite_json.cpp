@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tools/dynid/excite_report.h"
+#include "runtime/tools/dynid/excite_values.h"
 #include "runtime/tools/dynid/json_numbers.h"
 
 namespace dyngen::runtime {
@@ -7,15 +8,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-Json limits(const ExciteReport& report) {
-  return {{"check_rate", kCheckRate},
-          {"position", numbers(report.shares.position)},
-          {"speed", numbers(report.shares.speed)},
-          {"acceleration", numbers(report.shares.acceleration)},
-          {"torque", report.limits.limits_torque() ? numbers(report.shares.torque) : Json(nullptr)},
-          {"box_distance", number(report.shares.distance)}};
-}
 
 Json parameters(const ExciteReport& report) {
   Json array = Json::array();
@@ -63,7 +55,7 @@ std::string json_of(const ExciteReport& report, const std::string& trajectory_pa
                          {"optimised", number(report.worth.condition)},
                          {"random_unit_columns", number(report.random.unit_condition)},
                          {"optimised_unit_columns", number(report.worth.unit_condition)}};
-    json["largest_share_of_limits"] = limits(report);
+    json["largest_share_of_limits"] = shares_json(report.limits, report.shares);
     json["parameters"] = parameters(report);
   }
   return json.dump(2) + "\n";

@@ -40,23 +40,35 @@ void add_excite(CLI::App& tool, std::string& robot, std::string& output, std::st
   excite->add_option("--json", json, "all results for programs");
   excite->add_option("--picture", options.picture,
                      "the trajectory as .svg or .png (needs gnuplot)");
-  excite->add_option("--for", options.findings,
-                     "findings of a diagnosis to be told apart: reserved, not possible yet");
+  auto* findings =
+      excite->add_option("--for", options.findings,
+                         "the JSON of a diagnosis: a motion that tells the names of its first "
+                         "finding with several apart");
+  excite
+      ->add_option("--effects", options.effects,
+                   "with --for: a folder of effects of your own; may be given again")
+      ->allow_extra_args(false)
+      ->needs(findings);
   excite
       ->add_option("--criterion", options.criterion,
                    "condition number of the regressor (default); d: determinant, a: sum of "
                    "variances, sigma: smallest singular value (default of multistage)")
-      ->check(CLI::IsMember({"condition", "d", "a", "sigma"}));
-  excite->add_flag("--unit-columns", options.unit_columns,
-                   "of the regressor with columns of length 1, instead of SI units");
+      ->check(CLI::IsMember({"condition", "d", "a", "sigma"}))
+      ->excludes(findings);
+  excite
+      ->add_flag("--unit-columns", options.unit_columns,
+                 "of the regressor with columns of length 1, instead of SI units")
+      ->excludes(findings);
   excite->add_option("--form", options.form, "fourier, spline or multistage")
       ->check(CLI::IsMember({"fourier", "spline", "multistage"}))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(findings);
   excite
       ->add_option("--harmonics", options.harmonics,
                    "of a Fourier series; a spline has twice as many inner control points")
       ->check(CLI::Range(2, 100))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(findings);
   auto* duration = excite->add_option("--duration", options.duration, "of one period, s")
                        ->check(CLI::PositiveNumber)
                        ->capture_default_str();
@@ -71,7 +83,8 @@ void add_excite(CLI::App& tool, std::string& robot, std::string& output, std::st
       ->capture_default_str();
   excite->add_option("--starts", options.starts, "random trajectories to begin from")
       ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(findings);
   excite->add_option("--seed", options.seed, "of the first start")->capture_default_str();
   excite->add_option("--seconds", options.seconds, "to look for the best")
       ->check(CLI::PositiveNumber)
@@ -85,13 +98,16 @@ void add_excite(CLI::App& tool, std::string& robot, std::string& output, std::st
                    "standard deviation of a torque sample, N m: one for all joints or one each")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
-  excite->add_option("--prior", options.prior,
-                     "a .qr file of earlier recordings, to which this one shall add most");
+  excite
+      ->add_option("--prior", options.prior,
+                   "a .qr file of earlier recordings, to which this one shall add most")
+      ->excludes(findings);
   excite
       ->add_option("--parameters", options.parameters,
                    "names, or inertial, rotor, viscous, coulomb, offset; the others are taken as "
                    "known")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->excludes(findings);
   excite
       ->add_option("--keep-out", options.keep_out,
                    "xmin,xmax,ymin,ymax,zmin,zmax in m, in the base frame: the tool's point stays "

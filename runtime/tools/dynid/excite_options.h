@@ -13,9 +13,10 @@ namespace dyngen::runtime {
 
 /// The command line of `dynid excite`, as it is written.
 struct ExciteOptions {
-  std::string findings;          ///< of --for; empty: none
-  std::string criterion;         ///< condition, d, a, sigma; empty: the form's own
-  std::string form = "fourier";  ///< fourier, spline, multistage
+  std::string findings;              ///< of --for; empty: none
+  std::vector<std::string> effects;  ///< folders of --effects, besides the program's own
+  std::string criterion;             ///< condition, d, a, sigma; empty: the form's own
+  std::string form = "fourier";      ///< fourier, spline, multistage
   bool unit_columns = false;
   int harmonics = 5;
   double duration = 10;       ///< s, one period

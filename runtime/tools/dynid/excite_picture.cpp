@@ -32,18 +32,16 @@ Panel panel_of(const std::string& title, const LinearModel& model, const VectorX
 
 }  // namespace
 
-Figure picture_of(const ExciteReport& report) {
-  const LinearModel& model = report.robot.linear;
-  const MotionLimits& limits = report.limits;
-  const Index rows = report.repeats ? Index{report.samples} + 1 : report.trajectory.samples();
-  const VectorXd time = report.trajectory.time.head(rows);
+Figure motion_picture(const LinearModel& model, const MotionLimits& limits,
+                      const Trajectory& trajectory, Index rows, const std::string& title) {
+  const VectorXd time = trajectory.time.head(rows);
   const VectorXd half = 0.5 * (limits.upper - limits.lower);
   const VectorXd middle = 0.5 * (limits.upper + limits.lower);
-  const MatrixXd q = report.trajectory.q.topRows(rows);
-  const MatrixXd dq = report.trajectory.dq.topRows(rows);
-  const MatrixXd ddq = report.trajectory.ddq.topRows(rows);
+  const MatrixXd q = trajectory.q.topRows(rows);
+  const MatrixXd dq = trajectory.dq.topRows(rows);
+  const MatrixXd ddq = trajectory.ddq.topRows(rows);
   Figure figure;
-  figure.title = fmt::format("{}: condition number {:.1f}", model.name, report.worth.condition);
+  figure.title = title;
   figure.panels = {panel_of("position", model, time, q.rowwise() - middle.transpose(), half),
                    panel_of("speed", model, time, dq, limits.speed),
                    panel_of("acceleration", model, time, ddq, limits.acceleration)};
@@ -53,6 +51,14 @@ Figure picture_of(const ExciteReport& report) {
   }
   std::erase_if(figure.panels, [](const Panel& panel) { return panel.series.empty(); });
   return figure;
+}
+
+Figure picture_of(const ExciteReport& report) {
+  const LinearModel& model = report.robot.linear;
+  const Index rows = report.repeats ? Index{report.samples} + 1 : report.trajectory.samples();
+  return motion_picture(
+      model, report.limits, report.trajectory, rows,
+      fmt::format("{}: condition number {:.1f}", model.name, report.worth.condition));
 }
 
 }  // namespace dyngen::runtime

@@ -13,6 +13,7 @@
 #include "runtime/excitation/chosen_points.h"
 #include "runtime/excitation/multistage.h"
 #include "runtime/identification/summary_file.h"
+#include "runtime/tools/dynid/excite_values.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -53,14 +54,6 @@ std::vector<int> asked_parameters(const LinearModel& model, const std::vector<st
     throw std::invalid_argument(fmt::format("--parameters: {} has none of these", model.name));
   }
   return places;
-}
-
-VectorXd one_or_each(const std::vector<double>& values, Index joints, const char* option) {
-  const Index given = static_cast<Index>(values.size());
-  if (given == 1) return VectorXd::Constant(joints, values[0]);
-  if (given == joints) return Eigen::Map<const VectorXd>(values.data(), given);
-  throw std::invalid_argument(
-      fmt::format("{}: {} values, expected one or {}", option, given, joints));
 }
 
 TorqueFactor earlier_equations(const LinearModel& model, const std::string& path) {
@@ -127,22 +120,6 @@ MotionWorth worth_of(const ExciteReport& report, const JointMotion& motion, cons
 /// One period at the rate of the file, its end left out.
 JointMotion one_period(const TrajectoryFamily& family, const MatrixXd& x, Index samples) {
   return basis_at(family, period_times(family, samples)).motion(x);
-}
-
-Trajectory repeated(const JointMotion& period, int periods, double duration) {
-  const Index samples = period.q.rows(), rows = samples * periods + 1;
-  Trajectory all;
-  all.time = VectorXd::LinSpaced(rows, 0, static_cast<double>(rows - 1)) * duration /
-             static_cast<double>(samples);
-  const auto whole = [&](const MatrixXd& one) {
-    MatrixXd many(rows, one.cols());
-    for (Index k = 0; k < rows; ++k) many.row(k) = one.row(k % samples);
-    return many;
-  };
-  all.q = whole(period.q);
-  all.dq = whole(period.dq);
-  all.ddq = whole(period.ddq);
-  return all;
 }
 
 void find_periodic(ExciteReport& report, const Progress& progress) {
@@ -249,30 +226,14 @@ ExciteReport make_excite_report(const std::string& robot, const ExciteOptions& o
   report.options = options;
   const Progress tell = progress ? progress : [](const std::string&, std::size_t, std::size_t) {};
   report.robot = describe_robot(robot, OpenParameters::kAbsentRows, {.gradient = true});
-  LimitOptions wanted;
-  wanted.share = options.limits;
-  wanted.acceleration = options.acceleration;
-  if (!options.keep_out.empty()) {
-    std::copy_n(options.keep_out.begin(), 6, wanted.keep_out.emplace().begin());
-  }
-  std::copy(options.tool.begin(), options.tool.end(), wanted.tool.begin());
-  RobotLimits limits = limits_of(report.robot, wanted);
+  RobotLimits limits = limits_of(report.robot, asked_limits(options));
   report.limits = std::move(limits.limits);
   report.notes = std::move(limits.notes);
   report.parameters = asked_parameters(report.robot.linear, options.parameters);
-  report.duration = options.base_frequency > 0 ? 1 / options.base_frequency : options.duration;
-  report.samples = static_cast<int>(std::lround(report.duration * options.rate));
-  if (report.samples < 10) {
-    throw std::invalid_argument(
-        fmt::format("--rate: {} rows in a period of {} s, expected at least 10", report.samples,
-                    report.duration));
-  }
-  const double rate = report.samples / report.duration;
-  if (std::abs(rate - options.rate) > 1e-9 * rate) {
-    report.notes.push_back(
-        fmt::format("--rate: {:.9g} Hz instead of {:.9g}, so that a period is {} whole samples",
-                    rate, options.rate, report.samples));
-  }
+  const PeriodOfRows period = period_of_rows(options);
+  report.duration = period.duration;
+  report.samples = period.samples;
+  if (!period.note.empty()) report.notes.push_back(period.note);
   if (options.form == "multistage") {
     find_multistage(report, tell);
   } else {

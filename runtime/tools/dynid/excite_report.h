@@ -52,6 +52,10 @@ ExciteReport make_excite_report(
     const std::string& robot, const ExciteOptions& options,
     const std::function<void(const std::string&, std::size_t, std::size_t)>& progress);
 
+/// A table of the largest share of every limit.
+std::string limits_table(const LinearModel& model, const MotionLimits& limits,
+                         const LimitShares& shares);
+
 /// What the command prints.
 std::string text_of(const ExciteReport& report);
 

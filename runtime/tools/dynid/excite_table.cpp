@@ -35,29 +35,6 @@ std::string share_text(double share, double limit) {
   return std::isfinite(limit) ? fmt::format("{:>14.3f}", share) : fmt::format("{:>14}", "no limit");
 }
 
-std::string limits_table(const ExciteReport& report) {
-  const LinearModel& model = report.robot.linear;
-  const LimitShares& shares = report.shares;
-  std::string text =
-      fmt::format("\nlargest share of each limit, looked at {:.0f} times a second\n", kCheckRate);
-  text += fmt::format("{:<14}{:>14}{:>14}{:>14}{:>14}\n", "joint", "position", "speed",
-                      "acceleration", "torque");
-  for (Index j = 0; j < model.joints(); ++j) {
-    const bool torque = report.limits.limits_torque();
-    text += fmt::format("{:<14}{:>14.3f}", model.joint_names[static_cast<std::size_t>(j)],
-                        shares.position[j]);
-    text += share_text(shares.speed[j], report.limits.speed[j]);
-    text += share_text(shares.acceleration[j], report.limits.acceleration[j]);
-    text += share_text(shares.torque[j],
-                       torque ? report.limits.torque[j] : std::numeric_limits<double>::infinity());
-    text += "\n";
-  }
-  if (report.limits.box) {
-    text += fmt::format("tool's point: never nearer than {:.4f} m to the box\n", shares.distance);
-  }
-  return text;
-}
-
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values.empty() ? 0 : values[values.size() / 2];
@@ -110,7 +87,30 @@ std::string advice(const ExciteReport& report) {
 
 }  // namespace
 
+std::string limits_table(const LinearModel& model, const MotionLimits& limits,
+                         const LimitShares& shares) {
+  std::string text =
+      fmt::format("\nlargest share of each limit, looked at {:.0f} times a second\n", kCheckRate);
+  text += fmt::format("{:<14}{:>14}{:>14}{:>14}{:>14}\n", "joint", "position", "speed",
+                      "acceleration", "torque");
+  for (Index j = 0; j < model.joints(); ++j) {
+    const bool torque = limits.limits_torque();
+    text += fmt::format("{:<14}{:>14.3f}", model.joint_names[static_cast<std::size_t>(j)],
+                        shares.position[j]);
+    text += share_text(shares.speed[j], limits.speed[j]);
+    text += share_text(shares.acceleration[j], limits.acceleration[j]);
+    text += share_text(shares.torque[j],
+                       torque ? limits.torque[j] : std::numeric_limits<double>::infinity());
+    text += "\n";
+  }
+  if (limits.box) {
+    text += fmt::format("tool's point: never nearer than {:.4f} m to the box\n", shares.distance);
+  }
+  return text;
+}
+
 std::string text_of(const ExciteReport& report) {
+  const LinearModel& model = report.robot.linear;
   std::string text = head(report);
   if (!report.starts.empty()) text += starts_table(report);
   if (!report.found) return text + "\nno trajectory: " + report.message + "\n";
@@ -121,7 +121,8 @@ std::string text_of(const ExciteReport& report) {
                       report.worth.condition);
   text += fmt::format("{:<34}{:>12.1f}{:>12.2f}\n", "  columns of length 1",
                       report.random.unit_condition, report.worth.unit_condition);
-  return text + limits_table(report) + deviations_table(report) + advice(report);
+  return text + limits_table(model, report.limits, report.shares) + deviations_table(report) +
+         advice(report);
 }
 
 }  // namespace dyngen::runtime

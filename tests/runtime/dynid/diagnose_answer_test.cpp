@@ -198,6 +198,7 @@ TEST(DiagnosisText, FitsATerminal) {
         "torque_offset, coulomb_asymmetry of joints 1, 2, 3: identical",
         "payload of the whole robot: the last",
         "next: separate stribeck from presliding on joint 2, by slow both ways",
+        "dynid excite arm.robot --for d.json -o trajectory.csv",
         "not found: 4 effects, 3 of which", "written: report.html"}) {
     EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
   }

@@ -202,9 +202,6 @@ TEST(Excite, SaysWhatIsWrong) {
   EXPECT_EQ(dynid("excite " + kRobot + out + " --form multistage --criterion d").exit_code, 2);
   EXPECT_EQ(dynid("excite " + kRobot + out + " --keep-out 1,2").exit_code, 2);
   EXPECT_EQ(dynid("excite " + kRobot + out + " --duration 5 --base-frequency 1").exit_code, 2);
-  const Outcome reserved = dynid("excite " + kRobot + out + " --for findings.json");
-  EXPECT_EQ(reserved.exit_code, 1);
-  EXPECT_NE(reserved.out.find("--for"), std::string::npos);
   const Outcome unknown = dynid("excite " + kRobot + out + " --parameters ZZ9");
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_NE(unknown.out.find("ZZ9"), std::string::npos);

@@ -102,6 +102,8 @@ DiagnosisReport made_report() {
   report.false_alarm = 0.01;
   report.seed = 7;
   report.command = "dynid diagnose arm.robot 'run \"1\".csv'";
+  report.robot_path = "arm.robot";
+  report.json_path = "d.json";
   report.version = "0.1.0";
   report.written = {"report.html"};
   return report;
