@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <stdexcept>
 
 #include "runtime/diagnosis/heldout.h"
+#include "runtime/diagnosis/likelihood.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -19,6 +22,7 @@ constexpr double kLeastExplained = 0.5;  // part of a joint's structure that a n
 constexpr std::size_t kAttempts = 4;     // effects that are fitted in a round before it gives up
 constexpr double kTie = 0.5;             // squares that decide nothing
 constexpr std::size_t kRivals = 5;       // that are compared again once the winner is fitted
+constexpr std::size_t kLikely = 3;       // families of a joint whose likelihoods are compared
 constexpr double kHeldoutGain = 2;       // by which held-out squares must fall
 
 /// One competition's data and what was found so far.
@@ -52,7 +56,9 @@ class Competition {
       if (round == 0) result_.first = screening;
       result_.last = screening;
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
-      if (!next_winner(system, screening) && !next_nameless(system, screening)) break;
+      const bool named = result_.noise.from_periods ? next_winner(system, screening)
+                                                    : next_likely(system, screening);
+      if (!named && !next_nameless(system, screening)) break;
     }
     drop_superfluous();
     return std::move(result_);
@@ -76,12 +82,7 @@ class Competition {
 
   void measure_noise() {
     const RunResiduals residuals = residuals_of(train_, result_.fit.point);
-    VectorXd fitted(train_.joints());
-    for (int j = 0; j < train_.joints(); ++j) {
-      fitted[j] = static_cast<double>(train_.model.columns[static_cast<std::size_t>(j)].size());
-    }
-    if (!options_.with_regressor) fitted.setZero();
-    result_.noise = torque_noise_model(train_, residuals, repeats_, fitted);
+    result_.noise = torque_noise_model(train_, residuals, repeats_, options_.with_regressor);
   }
 
   [[nodiscard]] EvidenceSystem::Options system_options() const {
@@ -169,6 +170,92 @@ class Competition {
     return false;
   }
 
+  /// Where no motion repeats, noise is known from what the model leaves alone, and an effect that
+  /// is most of that has made it seem slow and large. So the strongest effects of each joint are
+  /// fitted, and compared by their likelihoods, each with a noise of its own.
+  bool next_likely(const EvidenceSystem& system, const Screening& screening) {
+    const LikelihoodRatio ratio(train_, residuals_of(train_, result_.fit.point));
+    for (auto& [place, likely] : likely_) likely.fresh = false;
+    for (int joint = 0; joint < train_.joints(); ++joint) {
+      tell("likelihoods", static_cast<double>(joint) / train_.joints());
+      for (const std::size_t place : strongest_of(screening, joint)) {
+        if (!likely_.contains(place)) likely_[place] = compared(place, ratio, system, screening);
+      }
+    }
+    // what an earlier round said of other joints orders them; the best is asked again
+    for (;;) {
+      const auto best = std::max_element(
+          likely_.begin(), likely_.end(),
+          [](const auto& a, const auto& b) { return a.second.net < b.second.net; });
+      if (best == likely_.end() || best->second.net <= 0) return false;
+      if (!best->second.fresh) {
+        best->second = compared(best->first, ratio, system, screening);
+        continue;
+      }
+      const Likely likely = best->second;
+      likely_.erase(best);
+      if (screening.family_wise(likely.named.surprise) > options_.false_alarm) continue;
+      if (accept(likely.named, screening, likely.fit)) {
+        const std::vector<int> joints = joints_of_hypothesis(likely.named.hypothesis);
+        std::erase_if(likely_, [&](const auto& entry) {
+          const std::vector<int> others = joints_of_hypothesis(entry.first);
+          return std::any_of(others.begin(), others.end(), [&](int joint) {
+            return std::find(joints.begin(), joints.end(), joint) != joints.end();
+          });
+        });
+        return true;
+      }
+    }
+  }
+
+  /// An effect that was fitted with all that was found before.
+  struct Likely {
+    NamedResult named;  ///< surprise: of the likelihoods' ratio
+    EffectFit fit;
+    double net = 0;  ///< the ratio less its price; 0: there is no such fit
+    bool fresh = true;
+  };
+
+  Likely compared(std::size_t place, const LikelihoodRatio& ratio, const EvidenceSystem& system,
+                  const Screening& screening) {
+    Likely likely{screening.named[place], {}};
+    NamedResult& named = likely.named;
+    const Hypothesis& hypothesis = hypotheses_[place];
+    named.best = refined(train_, signals_, system, hypothesis, named.best,
+                         scales_.of(result_.fit.point.beta, hypothesis.effect));
+    try {
+      likely.fit = with(named.best.effect);
+    } catch (const std::invalid_argument&) {
+      return likely;  // no finite torque at the shapes that were tried
+    }
+    const double squares = ratio.of(residuals_of(train_, likely.fit.point));
+    const auto degrees = named.best.score.degrees + static_cast<int>(hypothesis.shapes.size());
+    named.surprise = surprise_of(squares, degrees);
+    likely.net = squares - price_of(hypothesis, named.best.score.degrees, result_.noise);
+    return likely;
+  }
+
+  /// Admissible effects on a joint with the largest score, a few, one of each family.
+  [[nodiscard]] std::vector<std::size_t> strongest_of(const Screening& screening, int joint) const {
+    std::vector<std::size_t> places;
+    for (const NamedResult& named : screening.named) {
+      if (!named.seen || !named.best.admissible || already(named.hypothesis)) continue;
+      const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
+      if (std::find(joints.begin(), joints.end(), joint) == joints.end()) continue;
+      places.push_back(named.hypothesis);
+    }
+    std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+      return net(screening.named[a]) > net(screening.named[b]);
+    });
+    std::set<std::string> families;
+    std::vector<std::size_t> few;
+    for (const std::size_t place : places) {
+      if (few.size() == kLikely) break;
+      if (families.insert(hypotheses_[place].effect.law.family).second) few.push_back(place);
+    }
+    return few;
+  }
+
   /// Whether a joint's stops explain what an effect does: beside the impulses there nothing is left
   /// of it, and beside the effect much is left of them.
   [[nodiscard]] bool lives_at_stops(const EvidenceSystem& system, const Screening& screening,
@@ -242,13 +329,20 @@ class Competition {
   /// Fits the model with one more effect, and keeps it if held-out recordings agree.
   bool accept(const NamedResult& named, const Screening& screening) {
     if (screening.family_wise(named.surprise) > options_.false_alarm) return false;
-    tell("the model with " + short_name(named.best.effect), 0);
+    return accept(named, screening, with(named.best.effect));
+  }
+
+  EffectFit with(const EffectInstance& effect) {
+    tell("the model with " + short_name(effect), 0);
     std::vector<EffectInstance> all = effects();
-    all.push_back(named.best.effect);
-    EffectFit next = fit(all);
+    all.push_back(effect);
+    return fit(all);
+  }
+
+  bool accept(const NamedResult& named, const Screening& screening, EffectFit next) {
     // a bound that holds the estimate, a falsifier, or a parameter that the data do not determine
     // speak against the name
-    const int own = static_cast<int>(all.size()) - 1;
+    const int own = static_cast<int>(next.point.effects.size()) - 1;
     const bool doubtful =
         std::any_of(next.remarks.begin(), next.remarks.end(),
                     [&](const EffectRemark& remark) { return remark.effect == own; });
@@ -383,6 +477,7 @@ class Competition {
   EffectSignals signals_;
   ScreeningData screening_data_;
   std::vector<double> repeats_;
+  std::map<std::size_t, Likely> likely_;  // by hypothesis; of this round or an earlier one
   CompetitionResult result_;
 };
 

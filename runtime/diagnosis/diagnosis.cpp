@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "runtime/diagnosis/competition.h"
+#include "runtime/diagnosis/division.h"
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/name_tests.h"
 #include "runtime/diagnosis/naming.h"
@@ -30,21 +31,10 @@ using Eigen::VectorXd;
 
 constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise's correlation
 constexpr double kBand = 0.6;  // of the cut-off: acceleration there is within 2 % of the true one
+constexpr double kPass =
+    0.5;  // of the parallel filter: a short one, that standstill cuts less from
+constexpr double kLongestSample = 1e-3;   // s, of a motion that is recorded faster
 constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
-
-struct Divided {
-  std::vector<MotionSource> train, heldout;
-};
-
-Divided divided(const DiagnosisInput& input) {
-  if (!input.heldout.empty()) return {input.train, input.heldout};
-  Divided parts;
-  for (const MotionSource& source : input.train) {
-    parts.train.push_back(part_of(source, 0, 1 - kHeldPart));
-    parts.heldout.push_back(part_of(source, 1 - kHeldPart, 1));
-  }
-  return parts;
-}
 
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
                               const DiagnosisOptions& options) {
@@ -52,6 +42,7 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
   rows.decimation = options.decimation;
   rows.band = kBand;
   rows.multiple = kThinnedSamples;
+  rows.pass = kPass;
   const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
   EffectRecordings data = effect_recordings(input.model, input.robot, sources, rows, all);
   VectorXd still = VectorXd::Zero(data.joints());
@@ -86,8 +77,8 @@ class Diagnostician {
       : input_(input),
         options_(options),
         progress_(progress),
-        parts_(divided(input)),
-        train_(equations_of(input, parts_.train, options)),
+        parts_(input.heldout.empty() ? divided(input.train) : Division{input.train, input.heldout}),
+        train_(thinned(equations_of(input, parts_.train, options), kLongestSample)),
         heldout_(equations_of(input, parts_.heldout, options)) {}
 
   Diagnosis run() {
@@ -130,9 +121,9 @@ class Diagnostician {
     return answer_.sentence.empty();
   }
 
-  /// Whether slow noise leaves independent samples enough to call recordings clean or explained.
+  /// Whether slow noise leaves independent samples enough to call recordings clean.
   bool worth_enough() {
-    if (!result_.nameless.empty()) return true;
+    if (!result_.winners.empty() || !result_.nameless.empty()) return true;
     Index joint = 0;
     const double least = result_.noise.worth.minCoeff(&joint);
     if (least >= kLeastIndependent) return true;
@@ -349,7 +340,7 @@ class Diagnostician {
   const DiagnosisInput& input_;
   const DiagnosisOptions& options_;
   const DiagnosisProgress& progress_;
-  Divided parts_;
+  Division parts_;
   EffectRecordings train_, heldout_;
   std::vector<Hypothesis> hypotheses_;
   CompetitionResult result_;

@@ -14,15 +14,12 @@
 
 namespace dyngen::runtime {
 
-/// Of every recording, at its end: what is held out where no recording is.
-constexpr double kHeldPart = 0.2;
-
 /// What a diagnosis looks at.
 struct DiagnosisInput {
   LinearModel model;
   EffectRobot robot;
   std::vector<MotionSource> train;
-  std::vector<MotionSource> heldout;    ///< may be empty: then the last fifth of every run of train
+  std::vector<MotionSource> heldout;    ///< may be empty: then a fifth of every recording of train
   std::vector<MotionSource> reference;  ///< of the same robot before a change; may be empty
   /// Effects that compete, each on one joint, pair or the whole robot, with `link` set. Parameters
   /// that have numbers are taken as given; others are NaN.
@@ -31,7 +28,7 @@ struct DiagnosisInput {
 
 struct DiagnosisOptions {
   double false_alarm = 0.01;  ///< of the whole diagnosis, 0 .. 0.5
-  int most_findings = 6;
+  int most_findings = 8;
   /// The regressor's parameters are not fitted: torque is what another simulator left unexplained.
   bool residual_only = false;
   Eigen::Index decimation = 0;  ///< as RowOptions

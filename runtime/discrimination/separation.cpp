@@ -155,7 +155,7 @@ SeparationCriterion::SeparationCriterion(SeparationProblem problem, const Planne
       effect_columns(data, signals, rival.hypothesis.effect, wanted_columns(rival.hypothesis),
                      rival.hypothesis.held);
     } catch (const std::invalid_argument& error) {
-      left_out_.push_back(fmt::format("{}: {}", hypothesis_name(effect), error.what()));
+      left_out_.push_back(fmt::format("{}: {}", short_name(effect), error.what()));
       continue;
     }
     rival.trials = trials_of(rival.hypothesis, scales, problem_.shape_values, problem_.most_shapes);
@@ -195,8 +195,8 @@ Separation SeparationCriterion::of(const PlannedMotion& motion, bool fine) const
   const VectorXd left =
       projection.rest(rows.stacked(effect_columns(data, signals, problem_.finding, {0})));
   if (!left.allFinite()) {
-    throw std::invalid_argument(fmt::format("separation: the torque of {} is not finite",
-                                            hypothesis_name(problem_.finding)));
+    throw std::invalid_argument(
+        fmt::format("separation: the torque of {} is not finite", short_name(problem_.finding)));
   }
   result.visible = worth * left.squaredNorm();
   result.least = result.visible;

@@ -40,34 +40,54 @@ JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals
   return columns;
 }
 
-EffectRecordings thinned(const EffectRecordings& data) {
-  EffectRecordings thin = data;
-  for (EffectRun& run : thin.runs) {
-    const Index factor = run.decimator.factor;
-    if (factor % kThinnedSamples != 0 || factor == kThinnedSamples) continue;
-    const Index stride = factor / kThinnedSamples;
-    const Decimator decimator = design_decimator(kThinnedSamples);
-    const Index lead = first_sample(decimator);
-    const Index origin = first_sample(run.decimator) - lead * stride;
-    const Index count =
-        lead + (run.rows.Y.rows() - 1) * kThinnedSamples + decimator.taps.size() / 2 + 1;
-    Motion& motion = run.motion;
-    // the filters' ends differ by less than a stride
-    const Index last = motion.samples() - 1;
-    std::vector<Index> places;
-    for (Index k = 0; k < count; ++k) {
-      places.push_back(std::clamp<Index>(origin + k * stride, 0, last));
-    }
-    motion.sample_time *= static_cast<double>(stride);
-    motion.time = motion.time(places).eval();
-    run.time = run.time(places).eval();
-    for (MatrixXd* signal :
-         {&motion.q, &motion.dq, &motion.ddq, &motion.tau, &motion.temperature}) {
-      if (signal->size() != 0) *signal = (*signal)(places, Eigen::all).eval();
-    }
-    run.decimator = decimator;
+namespace {
+
+/// Every `stride`th sample of a run; a divisor of its decimation.
+void thin(EffectRun& run, Index stride) {
+  if (stride <= 1) return;
+  const Index factor = run.decimator.factor / stride;
+  const Decimator decimator = design_decimator(factor, run.decimator.pass);
+  const Index origin = first_sample(run.decimator) - first_sample(decimator) * stride;
+  const Index count =
+      first_sample(decimator) + (run.rows.Y.rows() - 1) * factor + decimator.taps.size() / 2 + 1;
+  Motion& motion = run.motion;
+  // the filters' ends differ by less than a stride
+  const Index last = motion.samples() - 1;
+  std::vector<Index> places;
+  for (Index k = 0; k < count; ++k)
+    places.push_back(std::clamp<Index>(origin + k * stride, 0, last));
+  motion.sample_time *= static_cast<double>(stride);
+  motion.time = motion.time(places).eval();
+  run.time = run.time(places).eval();
+  for (MatrixXd* signal : {&motion.q, &motion.dq, &motion.ddq, &motion.tau, &motion.temperature}) {
+    if (signal->size() != 0) *signal = (*signal)(places, Eigen::all).eval();
   }
-  return thin;
+  run.decimator = decimator;
+}
+
+}  // namespace
+
+EffectRecordings thinned(EffectRecordings data, double longest) {
+  for (EffectRun& run : data.runs) {
+    const Index factor = run.decimator.factor;
+    const double most = longest / run.motion.sample_time * (1 + 1e-9);
+    Index stride = 1;
+    for (Index s = 2; s <= factor && static_cast<double>(s) <= most; ++s) {
+      if (factor % s == 0) stride = s;
+    }
+    thin(run, stride);
+  }
+  return data;
+}
+
+EffectRecordings thinned(const EffectRecordings& data) {
+  EffectRecordings thin_data = data;
+  for (EffectRun& run : thin_data.runs) {
+    if (run.decimator.factor % kThinnedSamples == 0) {
+      thin(run, run.decimator.factor / kThinnedSamples);
+    }
+  }
+  return thin_data;
 }
 
 }  // namespace dyngen::runtime

@@ -26,12 +26,16 @@ JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals
                             const EffectInstance& effect, const std::vector<int>& wanted,
                             bool states_held = false);
 
-/// Samples for one equation in thinned().
+/// Samples for one equation where a first look is enough.
 inline constexpr Eigen::Index kThinnedSamples = 4;
 
-/// The recordings with fewer samples of the motion for an equation, and the parallel filter that
-/// belongs to them: what a first look at an effect without memory needs. Equations stay as they
-/// are. Runs whose decimation is not a multiple of kThinnedSamples keep all samples.
+/// The recordings with fewer samples of the motion, and the parallel filter that belongs to them.
+/// Equations stay as they are.
+/// @param longest  s: samples of a run become as long as the decimation divides into parts of one
+///                 length, and no longer
+EffectRecordings thinned(EffectRecordings data, double longest);
+/// With kThinnedSamples for an equation, where the decimation is a multiple of that: what a first
+/// look at an effect without memory needs.
 EffectRecordings thinned(const EffectRecordings& data);
 
 }  // namespace dyngen::runtime

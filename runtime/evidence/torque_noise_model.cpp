@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 #include "runtime/effects/effect_rows.h"
+#include "runtime/effects/equation_stack.h"
 #include "runtime/recordings/periods.h"
 
 namespace dyngen::runtime {
@@ -66,47 +68,161 @@ std::vector<double> repeats_of(const EffectRecordings& data) {
   return repeats;
 }
 
-TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResiduals& residuals,
-                                    const std::vector<double>& repeats, const VectorXd& fitted) {
-  TorqueNoiseModel model;
-  const int n = data.joints();
-  model.worth.resize(n);
-  std::vector<LagProducts> repeated(static_cast<std::size_t>(n)), all(static_cast<std::size_t>(n));
+namespace {
+
+constexpr int kRounds = 3;  // of the search for the noise before the fit
+constexpr int kDraws = 8;   // of simulated noise in each
+constexpr unsigned kSeed = 20261121;
+
+using OfJoints = std::vector<LagProducts>;
+
+OfJoints lag_products(const EffectRecordings& data, const RunResiduals& residuals) {
+  OfJoints products(static_cast<std::size_t>(data.joints()));
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
-    for (int j = 0; j < n; ++j) {
-      const VectorXd e = residuals[run].col(j), counted = data.runs[run].rows.counted.col(j);
-      all[static_cast<std::size_t>(j)].add(e, counted);
-      if (repeats[run] > 0) {
-        difference_of_periods(e, counted, repeats[run], repeated[static_cast<std::size_t>(j)]);
+    for (int j = 0; j < data.joints(); ++j) {
+      products[static_cast<std::size_t>(j)].add(residuals[run].col(j),
+                                                data.runs[run].rows.counted.col(j));
+    }
+  }
+  return products;
+}
+
+/// Noise of all joints, 0 where equations do not count.
+RunResiduals simulated(const EffectRecordings& data, const std::vector<AutoregressiveNoise>& joints,
+                       std::mt19937_64& random) {
+  constexpr Index kRunIn = 200;
+  std::normal_distribution<double> normal;
+  RunResiduals noise;
+  for (const EffectRun& run : data.runs) {
+    const Index rows = run.rows.Y.rows();
+    noise.emplace_back(rows, data.joints());
+    for (Index j = 0; j < data.joints(); ++j) {
+      const AutoregressiveNoise& process = joints[static_cast<std::size_t>(j)];
+      const Index order = process.coefficients.size();
+      VectorXd x = VectorXd::Zero(kRunIn + rows);
+      for (Index t = 0; t < x.size(); ++t) {
+        x[t] = process.innovation * normal(random);
+        for (Index k = 0; k < std::min(order, t); ++k)
+          x[t] += process.coefficients[k] * x[t - 1 - k];
       }
+      noise.back().col(j) = x.tail(rows).cwiseProduct(run.rows.counted.col(j));
+    }
+  }
+  return noise;
+}
+
+/// What a fit of the model takes of residuals, joints weighted by their noise.
+class FittedPart {
+ public:
+  FittedPart(const EffectRecordings& data, const std::vector<AutoregressiveNoise>& joints)
+      : data_(data), weights_(data.joints()) {
+    for (Index j = 0; j < weights_.size(); ++j) {
+      weights_[j] = 1 / joints[static_cast<std::size_t>(j)].deviation;
+    }
+    const Index size = data.model.size();
+    MatrixXd W = MatrixXd::Zero(data.equations() * data.joints(), size);
+    Index start = 0;
+    for (const EffectRun& run : data.runs) {
+      for (Index j = 0; j < data.joints(); ++j) {
+        for (const int c : data.model.columns[static_cast<std::size_t>(j)]) {
+          W.col(c).segment(start, run.rows.Y.rows()) =
+              weights_[j] * run.rows.Y.col(j * size + c).cwiseProduct(run.rows.counted.col(j));
+        }
+        start += run.rows.Y.rows();
+      }
+    }
+    basis_ = orthonormal(W);
+  }
+
+  void take_out_of(RunResiduals& residuals) const {
+    VectorXd all(basis_.rows());
+    each(residuals,
+         [&](auto part, double weight, Index at) { all.segment(at, part.size()) = weight * part; });
+    all -= basis_ * (basis_.transpose() * all);
+    each(residuals,
+         [&](auto part, double weight, Index at) { part = all.segment(at, part.size()) / weight; });
+  }
+
+ private:
+  template <class Visit>
+  void each(RunResiduals& residuals, const Visit& visit) const {
+    Index at = 0;
+    for (MatrixXd& run : residuals) {
+      for (Index j = 0; j < run.cols(); ++j) {
+        visit(run.col(j), weights_[j], at);
+        at += run.rows();
+      }
+    }
+  }
+
+  const EffectRecordings& data_;
+  VectorXd weights_;
+  MatrixXd basis_;
+};
+
+/// Processes whose noise, behind a fit, has the autocovariances that were observed.
+std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
+                                                const OfJoints& observed,
+                                                std::vector<AutoregressiveNoise> joints) {
+  const FittedPart fit(data, joints);
+  std::mt19937_64 random(kSeed);
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<VectorXd> taken(joints.size(), VectorXd::Zero(kLags + 1));
+    for (int draw = 0; draw < kDraws; ++draw) {
+      RunResiduals noise = simulated(data, joints, random);
+      const OfJoints before = lag_products(data, noise);
+      fit.take_out_of(noise);
+      const OfJoints after = lag_products(data, noise);
+      for (std::size_t j = 0; j < joints.size(); ++j) {
+        taken[j] += (before[j].covariance() - after[j].covariance()) / kDraws;
+      }
+    }
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const double samples = std::max(1.0, observed[j].samples());
+      joints[j] = fit_autoregression(observed[j].covariance() + taken[j], samples);
+    }
+  }
+  return joints;
+}
+
+}  // namespace
+
+TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResiduals& residuals,
+                                    const std::vector<double>& repeats, bool fitted) {
+  TorqueNoiseModel model;
+  model.worth.resize(data.joints());
+  const OfJoints all = lag_products(data, residuals);
+  OfJoints repeated(all.size());
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    if (!(repeats[run] > 0)) continue;
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      const auto column = static_cast<Index>(j);
+      difference_of_periods(residuals[run].col(column), data.runs[run].rows.counted.col(column),
+                            repeats[run], repeated[j]);
     }
   }
   model.from_periods = true;
   for (std::size_t j = 0; j < all.size(); ++j) {
-    model.from_periods = model.from_periods &&
-                         repeated[j].samples() >= kLeastPart * all[j].samples() &&
-                         all[j].samples() > 0;
+    model.from_periods = model.from_periods && all[j].samples() > 0 &&
+                         repeated[j].samples() >= kLeastPart * all[j].samples();
   }
   for (std::size_t j = 0; j < all.size(); ++j) {
     const LagProducts& products = model.from_periods ? repeated[j] : all[j];
     const double samples = std::max(products.samples(), 1.0);
-    AutoregressiveNoise noise = fit_autoregression(products.covariance(), samples);
-    if (!model.from_periods) {
-      // the fit takes what lies in its span: as many independent samples as it has parameters
-      const double independent = samples / std::max(1.0, noise.correlation_time);
-      const double left =
-          std::max(0.2, 1 - fitted[static_cast<Index>(j)] / std::max(independent, 1.0));
-      noise.innovation /= std::sqrt(left);
-      noise.deviation /= std::sqrt(left);
-    }
-    if (!(noise.innovation > 0)) {
+    model.joints.push_back(fit_autoregression(products.covariance(), samples));
+    if (!(model.joints.back().innovation > 0)) {
       throw std::invalid_argument(
           fmt::format("the model explains the torque of joint {} exactly: there is no noise to "
                       "judge by; expected a recording of a real measurement",
                       j + 1));
     }
-    model.worth[static_cast<Index>(j)] = all[j].samples() / std::max(1.0, noise.correlation_time);
-    model.joints.push_back(std::move(noise));
+  }
+  if (!model.from_periods && fitted) {
+    model.joints = before_the_fit(data, all, std::move(model.joints));
+  }
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    model.worth[static_cast<Index>(j)] =
+        all[j].samples() / std::max(1.0, model.joints[j].correlation_time);
   }
   return model;
 }

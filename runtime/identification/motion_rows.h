@@ -16,6 +16,7 @@ struct RowOptions {
   Eigen::Index decimation = 0;
   double band = 1.25;  ///< > 0; above about 0.6 the joint state is damped, and equations with it
   Eigen::Index multiple = 1;  ///< a decimation that is chosen and larger is a multiple of this
+  double pass = 0.8;          ///< of the parallel filter, as design_decimator()
   /// rad/s or m/s: a joint that moves slower has no equation, since there friction is not Coulomb's
   /// and its sign is not known; negative: a hundredth of the joint's largest speed, and at least
   /// three standard deviations of the velocity's noise.
@@ -25,6 +26,7 @@ struct RowOptions {
 /// How the equations of a recording are made.
 struct RowPlan {
   Eigen::Index decimation = 1;
+  double pass = 0.8;                   ///< of the parallel filter
   double row_time = 0;                 ///< s, between equations of a run
   Eigen::VectorXd still_speed;         ///< (n) negative: joints that stand still keep equations
   Eigen::VectorXd acceleration_noise;  ///< (n) standard deviation behind all filters

@@ -11,6 +11,7 @@ namespace dyngen::runtime {
 struct Decimator {
   Eigen::VectorXd taps;     ///< odd number, symmetric, sum 1
   Eigen::Index factor = 1;  ///< samples in for one out
+  double pass = 0.8;        ///< of the new Nyquist frequency: up to there the gain is 1
 };
 
 /// Windowed sinc (Kaiser's window), -6 dB at the new Nyquist frequency.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gen/tool/output_files.h"
+#include "runtime/diagnosis/division.h"
 #include "runtime/tools/dynid/commands.h"
 #include "runtime/tools/dynid/diagnosis_recordings.h"
 #include "runtime/tools/dynid/diagnosis_report.h"
@@ -146,7 +147,7 @@ int run_diagnose(const ToolOptions& options) {
     for (const MotionSource& source : motions.recorded) {
       if (use == "held out") proof.push_back(source);
       if (use == "fitted" && options.heldout.empty()) {
-        proof.push_back(part_of(source, 1 - kHeldPart, 1));
+        proof.push_back(divided({source}).heldout.front());
       }
     }
     return std::move(motions.sources);

@@ -41,7 +41,7 @@ std::string joint_text(int joint) {
 std::string head(const SeparationReport& report) {
   std::string text = fmt::format("{}: separate {} from {} ({}:{})\n", report.robot.linear.name,
                                  report.finding.family, fmt::join(report.rivals, " and "),
-                                 hypothesis_name(report.effect), numbers_text(report.effect));
+                                 short_name(report.effect), numbers_text(report.effect));
   for (const std::string& note : report.notes) text += "  " + note + "\n";
   for (const std::string& rival : report.designed.left_out) {
     text += fmt::format("  left out, since a planned motion does not say: {}\n", rival);
@@ -88,7 +88,7 @@ std::string outcome(const SeparationReport& report) {
     const auto own = before.find(family);
     text += fmt::format("{:<22}{:>12.4g}{:>12.4g}  {}\n", family,
                         own == before.end() ? 0 : periods * own->second.lambda,
-                        periods * rival.lambda, hypothesis_name(rival.rival));
+                        periods * rival.lambda, short_name(rival.rival));
   }
   text += fmt::format("the finding itself, beside the model alone: {:.4g}\n",
                       periods * designed.separation.visible);

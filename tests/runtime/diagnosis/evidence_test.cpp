@@ -50,9 +50,9 @@ TEST(TorqueNoiseModel, OfPeriodsDoesNotSeeWhatRepeats) {
   }
   const VectorXd fitted = VectorXd::Zero(2);
   const TorqueNoiseModel repeated =
-      torque_noise_model(data, {e}, {static_cast<double>(period)}, fitted);
+      torque_noise_model(data, {e}, {static_cast<double>(period)}, false);
   EXPECT_TRUE(repeated.from_periods);
-  const TorqueNoiseModel plain = torque_noise_model(data, {e}, {0}, fitted);
+  const TorqueNoiseModel plain = torque_noise_model(data, {e}, {0}, false);
   EXPECT_FALSE(plain.from_periods);
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_NEAR(repeated.joints[j].deviation, 0.1, 0.01);
