@@ -162,9 +162,8 @@ class Competition {
       }
       if (named.best.score.squares < kLeastExplained * structure) continue;
       if (attempted.contains(place) || lives_at_stops(system, screening, named)) continue;
-      const NamedResult best = settled(named, order, screening);
-      attempted.insert(place);
-      if (best.hypothesis != place && !attempted.insert(best.hypothesis).second) continue;
+      const NamedResult best = settled(named, order, attempted, screening);
+      attempted.insert(best.hypothesis);
       if (accept(best, screening)) return true;
     }
     return false;
@@ -288,7 +287,9 @@ class Competition {
   /// What effects read of the model (the load on a gear) is wrong as long as the model has taken up
   /// a part of the effect: the winner and its rivals are compared again beside the model as it is
   /// together with the winner.
+  /// @param refused  those that were fitted in this round and turned down
   [[nodiscard]] NamedResult settled(const NamedResult& named, const std::vector<std::size_t>& order,
+                                    const std::set<std::size_t>& refused,
                                     const Screening& screening) {
     tell("rivals of " + short_name(named.best.effect), 0);
     std::vector<EffectInstance> all = effects();
@@ -306,6 +307,7 @@ class Competition {
     for (const std::size_t place : order) {
       if (tried++ == kRivals) break;
       const NamedResult& rival = screening.named[place];
+      if (refused.contains(place)) continue;
       if (rival.best.score.squares < kLeastExplained * named.best.score.squares) continue;
       const Hypothesis& hypothesis = hypotheses_[place];
       const EffectScales scales = scales_.of(beside.beta, hypothesis.effect);

@@ -30,7 +30,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise's correlation
-constexpr double kBand = 0.6;  // of the cut-off: acceleration there is within 2 % of the true one
+constexpr double kBand = 0.9;  // of the cut-off: what is faster is damped in the joint state
 constexpr double kPass =
     0.5;  // of the parallel filter: a short one, that standstill cuts less from
 constexpr double kLongestSample = 1e-3;   // s, of a motion that is recorded faster
