@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -61,6 +62,7 @@ class Competition {
       if (!named && !next_nameless(system, screening)) break;
     }
     drop_superfluous();
+    sharpen();
     return std::move(result_);
   }
 
@@ -467,6 +469,46 @@ class Competition {
       result_.fit = fit(rest.effects);
       i = 0;
     }
+  }
+
+  /// What is scanned and not fitted (a ratio, an order) was chosen beside a model that lacked the
+  /// others, and by noise that held them: it is chosen again.
+  void sharpen() {
+    bool moved = false;
+    for (std::size_t i = 0; i < result_.winners.size(); ++i) {
+      const Hypothesis& hypothesis = hypotheses_[result_.winners[i].hypothesis];
+      const bool scanned =
+          std::any_of(hypothesis.shapes.begin(), hypothesis.shapes.end(), [&](int p) {
+            return hypothesis.effect.law.parameters[static_cast<std::size_t>(p)].role ==
+                   EffectRole::kScanned;
+          });
+      if (!scanned || hypothesis.windowed) continue;
+      EvidenceSystem::Options options = system_options();
+      options.surrogates = 0;
+      const EvidenceSystem system =
+          system_without(train_, signals_, hypotheses_, result_, i, options);
+      const EffectScales scales = scales_.of(result_.fit.point.beta, hypothesis.effect);
+      std::vector<EffectInstance> trials = {result_.fit.point.effects[i]};
+      if (!hypothesis.ordered) {
+        for (const VectorXd& shapes : shape_grid(hypothesis, scales, 1)) {
+          trials.push_back(with_shapes(hypothesis, shapes));
+        }
+      }
+      for (const int p : hypothesis.linear) {
+        trials.front().parameters[p] = hypothesis.effect.parameters[p];
+      }
+      std::optional<TrialScore> best;
+      for (const TrialScore& trial :
+           try_shapes(train_, signals_, system, hypothesis, trials, scales, false)) {
+        if (trial.admissible && (!best || trial.score.squares > best->score.squares)) best = trial;
+      }
+      if (!best) continue;
+      best = refined(train_, signals_, system, hypothesis, *best, scales);
+      result_.fit.point.effects[i] = best->effect;
+      result_.winners[i].trial = std::move(*best);
+      moved = true;
+    }
+    if (moved) result_.fit = fit(effects());
   }
 
   const EffectRecordings& train_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/evidence/evidence_system.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -18,6 +17,34 @@ using Eigen::VectorXd;
 /// Below this part of a column's squares what is left of it is rounding, or as good as nothing.
 constexpr double kAbsorbed = 1e-7;
 
+/// Columns that are left once those before them are taken out, and their Cholesky triangle.
+struct PivotedTriangle {
+  std::vector<Index> columns;  // in the order of the triangle
+  MatrixXd L;
+};
+
+/// @param A  (k x k) products of columns that had unit length before projection
+PivotedTriangle pivoted_triangle(const MatrixXd& A) {
+  const Index k = A.rows();
+  PivotedTriangle result;
+  MatrixXd rows = MatrixXd::Zero(k, k);  // of all columns, by their places
+  VectorXd left = A.diagonal();
+  for (Index r = 0; r < k; ++r) {
+    Index pivot = 0;
+    if (!(left.maxCoeff(&pivot) > kAbsorbed)) break;
+    const VectorXd column =
+        (A.col(pivot) - rows.leftCols(r) * rows.row(pivot).head(r).transpose()) /
+        std::sqrt(left[pivot]);
+    rows.col(r) = column;
+    left -= column.cwiseAbs2();
+    left[pivot] = 0;
+    result.columns.push_back(pivot);
+  }
+  const auto rank = static_cast<Index>(result.columns.size());
+  result.L = rows.leftCols(rank)(result.columns, Eigen::all);
+  return result;
+}
+
 }  // namespace
 
 Score score_of(const Products& products, bool surrogates) {
@@ -32,17 +59,23 @@ Score score_of(const Products& products, bool surrogates) {
   VectorXd scale = products.whole.diagonal().cwiseSqrt();
   for (double& s : scale) s = s > 0 ? 1 / s : 0;
   const MatrixXd A = scale.asDiagonal() * products.left * scale.asDiagonal();
-  Eigen::ColPivHouseholderQR<MatrixXd> factor(k, k);
-  factor.setThreshold(kAbsorbed);
-  factor.compute(A);
-  score.degrees = static_cast<int>(factor.rank());
-  const VectorXd rest = scale.cwiseProduct(products.rest);
-  const VectorXd solved = factor.solve(rest);
-  score.squares = std::max(0.0, rest.dot(solved));
-  score.coefficients = scale.cwiseProduct(solved);
+  const PivotedTriangle independent = pivoted_triangle(A);
+  const auto L = independent.L.triangularView<Eigen::Lower>();
+  const auto innovations = [&](const MatrixXd& inner) {
+    MatrixXd x = (scale.asDiagonal() * inner)(independent.columns, Eigen::all);
+    L.solveInPlace(x);
+    return x;
+  };
+  score.degrees = static_cast<int>(independent.columns.size());
+  MatrixXd rest = innovations(products.rest);
+  score.squares = rest.squaredNorm();
+  L.adjoint().solveInPlace(rest);
+  for (std::size_t i = 0; i < independent.columns.size(); ++i) {
+    const Index c = independent.columns[i];
+    score.coefficients[c] = scale[c] * rest(static_cast<Index>(i), 0);
+  }
   if (surrogates) {
-    const MatrixXd noise = scale.asDiagonal() * products.noise;
-    score.surrogates = noise.cwiseProduct(factor.solve(noise)).colwise().sum().transpose();
+    score.surrogates = innovations(products.noise).colwise().squaredNorm().transpose();
   }
   return score;
 }
