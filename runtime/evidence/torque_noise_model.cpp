@@ -115,7 +115,7 @@ RunResiduals simulated(const EffectRecordings& data, const std::vector<Autoregre
 class FittedPart {
  public:
   FittedPart(const EffectRecordings& data, const std::vector<AutoregressiveNoise>& joints)
-      : data_(data), weights_(data.joints()) {
+      : weights_(data.joints()) {
     for (Index j = 0; j < weights_.size(); ++j) {
       weights_[j] = 1 / joints[static_cast<std::size_t>(j)].deviation;
     }
@@ -155,7 +155,6 @@ class FittedPart {
     }
   }
 
-  const EffectRecordings& data_;
   VectorXd weights_;
   MatrixXd basis_;
 };

@@ -48,7 +48,6 @@ TEST(TorqueNoiseModel, OfPeriodsDoesNotSeeWhatRepeats) {
       x = 0.8 * x + std::sqrt(1 - 0.64) * normal(random);
     }
   }
-  const VectorXd fitted = VectorXd::Zero(2);
   const TorqueNoiseModel repeated =
       torque_noise_model(data, {e}, {static_cast<double>(period)}, false);
   EXPECT_TRUE(repeated.from_periods);
