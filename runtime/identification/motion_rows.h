@@ -14,13 +14,13 @@ struct RowOptions {
   /// Samples for one equation, behind the parallel filter; 0: so that the new Nyquist frequency is
   /// `band` times the cut-off; 1: no parallel filter, every sample is an equation.
   Eigen::Index decimation = 0;
-  double band = 1.25;  ///< > 0; the joint state is damped near 1 and above, and equations with it
-  Eigen::Index multiple = 1;  ///< a decimation that is chosen and larger is a multiple of this
-  double pass = 0.8;          ///< of the parallel filter, as design_decimator()
   /// rad/s or m/s: a joint that moves slower has no equation, since there friction is not Coulomb's
   /// and its sign is not known; negative: a hundredth of the joint's largest speed, and at least
   /// three standard deviations of the velocity's noise.
   double still_speed = -1;
+  double band = 1.25;  ///< > 0; the joint state is damped near 1 and above, and equations with it
+  Eigen::Index multiple = 1;  ///< a decimation that is chosen and larger is a multiple of this
+  double pass = 0.8;          ///< of the parallel filter, as design_decimator()
 };
 
 /// How the equations of a recording are made.

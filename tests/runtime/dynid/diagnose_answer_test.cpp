@@ -188,18 +188,26 @@ TEST(DiagnosisPage, LeavesOutPartsThatAreEmpty) {
 TEST(DiagnosisText, FitsATerminal) {
   const std::string text = diagnosis_text(made_report());
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 25);
-  for (const char* part :
-       {"puma560_3dof: two effects explain most", "1. stribeck of joint 2, probability 0.97",
-        "qd2 -0.25 .. 0.25 rad/s (75 %", "Fs = 13 +- 0.49 N m", "delta = 2 (held)",
-        "held-out rms 21 % lower", "; or presliding\n",
-        "2. viscous_coupling of joint 3 with joint 2", "t 2 .. 7 s", "1 N m", "with the findings",
-        "floor of the noise", "noise: from what the last model left",
-        "joint 1: 0.4 N m over q1, qd1: smooth",
-        "torque_offset, coulomb_asymmetry of joints 1, 2, 3: identical",
-        "payload of the whole robot: the last",
-        "next: separate stribeck from presliding on joint 2, by slow both ways",
-        "dynid excite arm.robot --for d.json -o trajectory.csv",
-        "not found: 4 effects, 3 of which", "written: report.html"}) {
+  for (const char* part : {"puma560_3dof: two effects explain most",
+                           "1. stribeck of joint 2, probability 0.97",
+                           "qd2 -0.25 .. 0.25 rad/s (75 %",
+                           "Fs = 13 +- 0.49 N m",
+                           "delta = 2 (held)",
+                           "held-out rms 21 % lower",
+                           "; or presliding\n",
+                           "2. viscous_coupling of joint 3 with joint 2",
+                           "t 2 .. 7 s",
+                           "1 N m",
+                           "with the findings",
+                           "floor of the noise",
+                           "noise: from what the last model left",
+                           "joint 1: 0.4 N m over q1, qd1: smooth",
+                           "torque_offset, coulomb_asymmetry of joints 1, 2, 3: identical",
+                           "payload of the whole robot: the last",
+                           "next: separate stribeck from presliding on joint 2, by slow both ways",
+                           "dynid excite arm.robot --for d.json -o trajectory.csv",
+                           "not found: 4 effects, 3 of which",
+                           "written: report.html"}) {
     EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
   }
 }

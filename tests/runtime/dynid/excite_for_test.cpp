@@ -295,7 +295,7 @@ TEST(ExciteFor, OneRecordingOfItMakesTheSetSmaller) {
   const Json before = aliases(first);
   ASSERT_GT(before.size(), 1u) << before;
   const Outcome design = dynid("excite " + arm + " --for " + path("d.json") +
-                               " --periods 2 --evaluations 250 -o " + path("next.csv"));
+                               " --periods 4 --evaluations 250 -o " + path("next.csv"));
   ASSERT_EQ(design.exit_code, 0) << design.out;
   const Trajectory trajectory = read_trajectory(path("next.csv"));
   Recording motion;
