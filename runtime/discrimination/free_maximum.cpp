@@ -57,7 +57,7 @@ FreeMaximum free_maximum(const std::function<double(const VectorXd&)>& value, co
   nlopt_set_initial_step1(solver.get(), options.first_step);
   nlopt_set_xtol_abs1(solver.get(), options.tolerance);
   if (options.evaluations > 0) nlopt_set_maxeval(solver.get(), options.evaluations);
-  if (options.evaluations == 0) nlopt_set_maxtime(solver.get(), options.seconds);
+  nlopt_set_maxtime(solver.get(), options.seconds);
   VectorXd x = start.cwiseMax(0).cwiseMin(1);
   double found = 0;
   // what it returns says only why it ended: the best point is kept here

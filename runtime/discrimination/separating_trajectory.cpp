@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include "runtime/discrimination/archetype_motions.h"
 #include "runtime/discrimination/free_maximum.h"
 #include "runtime/excitation/limited_trajectory.h"
+#include "runtime/excitation/search_budget.h"
 #include "runtime/excitation/trajectory_basis.h"
 
 namespace dyngen::runtime {
@@ -35,43 +35,6 @@ MotionLimits tightened(MotionLimits limits, double factor) {
   return limits;
 }
 
-LimitShares larger(LimitShares a, const LimitShares& b) {
-  a.position = a.position.cwiseMax(b.position);
-  a.speed = a.speed.cwiseMax(b.speed);
-  a.acceleration = a.acceleration.cwiseMax(b.acceleration);
-  a.torque = a.torque.cwiseMax(b.torque);
-  a.distance = std::min(a.distance, b.distance);
-  return a;
-}
-
-/// What is left of the evaluations and of the time.
-class Budget {
- public:
-  explicit Budget(const SeparatingOptions& options) : options_(options) {}
-
-  [[nodiscard]] FreeMaximumOptions part(double share) const {
-    FreeMaximumOptions part;
-    if (options_.evaluations > 0) {
-      part.evaluations = std::max(1, static_cast<int>(share * (options_.evaluations - used)));
-    } else {
-      const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begin_;
-      part.seconds = std::max(0.01, share * (options_.seconds - gone.count()));
-    }
-    return part;
-  }
-  [[nodiscard]] bool spent() const {
-    if (options_.evaluations > 0) return used >= options_.evaluations;
-    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begin_;
-    return gone.count() > options_.seconds;
-  }
-
-  int used = 0;
-
- private:
-  const SeparatingOptions& options_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
 class Designer {
  public:
   Designer(const SeparationProblem& problem, const MotionLimits& limits,
@@ -81,7 +44,7 @@ class Designer {
         options_(options),
         criterion_(problem, usual),
         motions_(archetype_motions(limits, problem.finding.joint, options.duration, options.seed)),
-        budget_(options) {}
+        budget_(options.evaluations, options.seconds) {}
 
   SeparatingTrajectory run() {
     result_.left_out = criterion_.left_out();
@@ -98,7 +61,7 @@ class Designer {
       refine(best[i], 1.0 / static_cast<double>(best.size() - i));
     }
     conclude(*std::max_element(best.begin(), best.end(), better));
-    result_.evaluations = budget_.used;
+    result_.evaluations = budget_.used();
     return std::move(result_);
   }
 
@@ -122,12 +85,12 @@ class Designer {
   [[nodiscard]] double other_limits(const PlannedMotion& motion) const {
     if (!limits_.limits_torque() && !limits_.box) return 0;
     const double rate = std::min(criterion_.problem().rate, criterion_.problem().looked_at);
-    return shares_of(model(), limits_, motion, rate).largest();
+    return shares_at_rate(model(), limits_, motion.duration, motion.at, rate).largest();
   }
 
   double value(std::size_t place, const VectorXd& x) {
     constexpr double kRefused = -1000;
-    ++budget_.used;
+    budget_.use(1);
     const PlannedMotion motion = motions_[place].motion(x, within_);
     const double share = other_limits(motion);
     if (share > 1) return kRefused - share;
@@ -195,8 +158,12 @@ class Designer {
 
   void refine(Candidate& own, double share) {
     if (budget_.spent()) return;
-    const FreeMaximum found = free_maximum([&](const VectorXd& x) { return value(own.motion, x); },
-                                           own.x, budget_.part(share));
+    const SearchBudget::Part part = budget_.of_rest(share);
+    FreeMaximumOptions options;
+    options.evaluations = part.evaluations;
+    options.seconds = part.seconds;
+    const FreeMaximum found =
+        free_maximum([&](const VectorXd& x) { return value(own.motion, x); }, own.x, options);
     if (found.value <= own.value) return;
     own.x = found.x;
     own.value = found.value;
@@ -212,7 +179,8 @@ class Designer {
     double share = 0;
     for (int round = 0; round < kRounds; ++round) {
       result_.motion = motions_[own.motion].motion(own.x, tightened(limits_, factor));
-      result_.shares = shares_of(model(), limits_, result_.motion, options_.check_rate);
+      result_.shares = shares_at_rate(model(), limits_, result_.motion.duration, result_.motion.at,
+                                      options_.check_rate);
       share = result_.shares.largest();
       result_.found = share <= 1;
       if (result_.found) break;
@@ -237,7 +205,7 @@ class Designer {
   const SeparatingOptions& options_;
   SeparationCriterion criterion_;
   std::vector<ArchetypeMotion> motions_;
-  Budget budget_;
+  SearchBudget budget_;
   SeparatingTrajectory result_;
 };
 
@@ -265,24 +233,6 @@ PlannedMotion random_motion(const LinearModel& model, const MotionLimits& limits
   const Eigen::MatrixXd x = random_trajectory(model, limits, family, seed);
   if (x.size() == 0) return {};
   return {duration, [family, x](const VectorXd& time) { return basis_at(family, time).motion(x); }};
-}
-
-LimitShares shares_of(const LinearModel& model, const MotionLimits& limits,
-                      const PlannedMotion& motion, double rate) {
-  // in pieces: the regressor of all instants of a long motion would fill the memory
-  constexpr Index kPiece = 4096;
-  const auto count = static_cast<Index>(std::ceil(motion.duration * rate)) + 1;
-  LimitShares all;
-  for (Index start = 0; start < count; start += kPiece) {
-    const Index piece = std::min(kPiece, count - start);
-    const VectorXd time = ((VectorXd::LinSpaced(piece, 0, static_cast<double>(piece - 1)).array() +
-                            static_cast<double>(start)) *
-                           motion.duration / static_cast<double>(count - 1))
-                              .cwiseMin(motion.duration);
-    const LimitShares own = limit_shares(model, limits, motion.at(time));
-    all = start == 0 ? own : larger(std::move(all), own);
-  }
-  return all;
 }
 
 SeparatingTrajectory separate(const SeparationProblem& problem, const MotionLimits& limits,

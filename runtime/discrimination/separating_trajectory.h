@@ -63,8 +63,4 @@ SeparatingTrajectory separate(const SeparationProblem& problem, const MotionLimi
 PlannedMotion random_motion(const LinearModel& model, const MotionLimits& limits, double duration,
                             std::uint64_t seed);
 
-/// The largest use of every limit over one period. @param rate  Hz, of the instants
-LimitShares shares_of(const LinearModel& model, const MotionLimits& limits,
-                      const PlannedMotion& motion, double rate);
-
 }  // namespace dyngen::runtime

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "runtime/excitation/constrained_minimum.h"
+#include "runtime/excitation/search_budget.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -97,41 +96,18 @@ class Problem {
   MatrixXd units_;
 };
 
-/// What is left of the evaluations, or of the time.
-class Budget {
- public:
-  explicit Budget(const ExcitationOptions& options) : options_(options) {}
-
-  /// A share of all of it, no more than is left.
-  [[nodiscard]] MinimumOptions part(double share) const {
-    MinimumOptions part;
-    if (options_.evaluations > 0) {
-      part.evaluations = std::clamp(static_cast<int>(share * options_.evaluations), 2,
-                                    std::max(2, options_.evaluations - used));
-    } else {
-      part.evaluations = std::numeric_limits<int>::max();
-      part.seconds = std::max(0.01, std::min(share * options_.seconds, left()));
-    }
-    return part;
-  }
-
-  int used = 0;
-
- private:
-  [[nodiscard]] double left() const {
-    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begin_;
-    return options_.seconds - gone.count();
-  }
-
-  const ExcitationOptions& options_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
+MinimumOptions minimum_options(const SearchBudget::Part& part) {
+  MinimumOptions options;
+  options.evaluations = part.evaluations;
+  options.seconds = part.seconds;
+  return options;
+}
 
 VectorXd minimise(const Problem& problem, const VectorXd& start, const Sharpness& sharpness,
-                  const MinimumOptions& part, Budget& budget) {
+                  const MinimumOptions& part, SearchBudget& budget) {
   const Minimum minimum =
       constrained_minimum([&](const VectorXd& y) { return problem.at(y, sharpness); }, start, part);
-  budget.used += minimum.evaluations;
+  budget.use(minimum.evaluations);
   return minimum.x;
 }
 
@@ -142,7 +118,7 @@ class Search {
         limits_(limits),
         options_(options),
         problem_(model, limits, options),
-        budget_(options) {}
+        budget_(options.evaluations, options.seconds) {}
 
   Excitation run() {
     std::vector<Candidate> candidates;
@@ -162,7 +138,7 @@ class Search {
       sharpen(candidates[i], static_cast<double>(candidates.size()));
     }
     prove(std::min_element(candidates.begin(), candidates.end(), better)->y);
-    result_.evaluations = budget_.used;
+    result_.evaluations = budget_.used();
     return std::move(result_);
   }
 
@@ -195,7 +171,8 @@ class Search {
     constexpr double kRoom = 0.85, kSoftSlack = 0.02;
     y = problem_.from_parameters(shrunk(x, kRoom));
     const double share = kPartOfStarts / options_.starts;
-    MinimumOptions first = budget_.part(0.4 * share), second = budget_.part(0.6 * share);
+    MinimumOptions first = minimum_options(budget_.of_all(0.4 * share)),
+                   second = minimum_options(budget_.of_all(0.6 * share));
     first.violation = second.violation = kSoftSlack;
     y = minimise(problem_, y, {.power = 1, .constraint = 40}, first, budget_);
     y = minimise(problem_, y, {.power = 4, .constraint = 100}, second, budget_);
@@ -209,7 +186,7 @@ class Search {
     const std::array<double, 3> powers = {8, 16, kHardest};
     const double share = kPartOfFinalists / (finalists * powers.size());
     for (const double power : powers) {
-      MinimumOptions part = budget_.part(share);
+      MinimumOptions part = minimum_options(budget_.of_all(share));
       part.tolerance = 1e-5;
       candidate.y = minimise(problem_, candidate.y, edges(power), part, budget_);
     }
@@ -233,7 +210,7 @@ class Search {
       share = check(problem_.parameters(y));
       if (share <= 1) return;
       sharpness.factor *= 0.9995 / share;
-      y = minimise(problem_, y, sharpness, budget_.part(kPartOfRound), budget_);
+      y = minimise(problem_, y, sharpness, minimum_options(budget_.of_all(kPartOfRound)), budget_);
     }
     MatrixXd x = problem_.parameters(y);
     constexpr int kShrinks = 60;
@@ -250,7 +227,10 @@ class Search {
 
   double check(const MatrixXd& x) {
     result_.x = x;
-    result_.shares = shares_at_rate(model_, limits_, options_.family, x, options_.check_rate);
+    result_.shares = shares_at_rate(
+        model_, limits_, options_.family.duration,
+        [&](const VectorXd& time) { return basis_at(options_.family, time).motion(x); },
+        options_.check_rate);
     result_.found = result_.shares.largest() <= 1;
     return result_.shares.largest();
   }
@@ -259,7 +239,7 @@ class Search {
   const MotionLimits& limits_;
   const ExcitationOptions& options_;
   Problem problem_;
-  Budget budget_;
+  SearchBudget budget_;
   Excitation result_;
 };
 

@@ -71,19 +71,20 @@ MatrixXd random_trajectory(const LinearModel& model, const MotionLimits& limits,
   return {};
 }
 
-LimitShares shares_at_rate(const LinearModel& model, const MotionLimits& limits,
-                           const TrajectoryFamily& family, const MatrixXd& x, double rate) {
+LimitShares shares_at_rate(const LinearModel& model, const MotionLimits& limits, double duration,
+                           const std::function<JointMotion(const VectorXd& time)>& motion,
+                           double rate) {
   // in pieces: the regressor of all instants of a long motion would fill the memory
   constexpr Index kPiece = 4096;
-  const Index count = static_cast<Index>(std::ceil(family.duration * rate)) + 1;
+  const Index count = static_cast<Index>(std::ceil(duration * rate)) + 1;
   LimitShares all;
   for (Index start = 0; start < count; start += kPiece) {
     const Index piece = std::min(kPiece, count - start);
     const VectorXd time = ((VectorXd::LinSpaced(piece, 0, static_cast<double>(piece - 1)).array() +
                             static_cast<double>(start)) *
-                           family.duration / static_cast<double>(count - 1))
-                              .cwiseMin(family.duration);
-    const LimitShares own = limit_shares(model, limits, basis_at(family, time).motion(x));
+                           duration / static_cast<double>(count - 1))
+                              .cwiseMin(duration);
+    const LimitShares own = limit_shares(model, limits, motion(time));
     if (start == 0) {
       all = own;
       continue;

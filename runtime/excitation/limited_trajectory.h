@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 
 #include "runtime/excitation/motion_limits.h"
 #include "runtime/excitation/trajectory_basis.h"
@@ -25,8 +26,11 @@ Eigen::MatrixXd shrunk(Eigen::MatrixXd x, double factor);
 Eigen::MatrixXd random_trajectory(const LinearModel& model, const MotionLimits& limits,
                                   const TrajectoryFamily& family, std::uint64_t seed);
 
-/// The motion of one period at a rate, first and last instant included, and its shares of limits.
-LimitShares shares_at_rate(const LinearModel& model, const MotionLimits& limits,
-                           const TrajectoryFamily& family, const Eigen::MatrixXd& x, double rate);
+/// The largest use of every limit over a motion, first and last instant included.
+/// @param duration  s        @param motion  at given times, s        @param rate  Hz, of the
+/// instants
+LimitShares shares_at_rate(const LinearModel& model, const MotionLimits& limits, double duration,
+                           const std::function<JointMotion(const Eigen::VectorXd& time)>& motion,
+                           double rate);
 
 }  // namespace dyngen::runtime

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "runtime/discrimination/separating_trajectory.h"
+#include "runtime/excitation/limited_trajectory.h"
 #include "tests/runtime/effects/effect_arm.h"
 
 namespace dyngen::runtime {
@@ -56,7 +57,8 @@ TEST(ArchetypeMotions, KeepLimitsAndComeBackWhateverTheirNumbers) {
           const PlannedMotion motion = archetype.motion(x, within);
           EXPECT_EQ(motion.duration, 10);
           // sines may be 0.3 % higher between the instants at which they were made, and keep 2 %
-          EXPECT_LE(shares_of(model, within, motion, 777.7).largest(), 1 + 1e-12)
+          EXPECT_LE(shares_at_rate(model, within, motion.duration, motion.at, 777.7).largest(),
+                    1 + 1e-12)
               << words_of(archetype.archetype).motion << " of joint " << joint + 1;
           const JointMotion ends = motion.at(Eigen::Vector2d(0, 10));
           EXPECT_LT((ends.q.row(0) - ends.q.row(1)).norm(), 1e-9);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/discrimination/separating_trajectory.h"
+#include "runtime/excitation/limited_trajectory.h"
 #include "tests/runtime/effects/effect_arm.h"
 
 namespace dyngen::runtime {
@@ -161,7 +162,9 @@ TEST(Separate, IsFartherApartThanRandomMotionsWithinLimitsAndRepeatable) {
     EXPECT_LE(first.scores[i].least, first.scores[i - 1].least);
   }
   EXPECT_LE(first.shares.largest(), 1);
-  EXPECT_LE(shares_of(asked.model, limits(), first.motion, 33333).largest(), 1);
+  EXPECT_LE(shares_at_rate(asked.model, limits(), first.motion.duration, first.motion.at, 33333)
+                .largest(),
+            1);
   const SeparatingTrajectory second = separate(asked, limits(), options);
   const VectorXd time = VectorXd::LinSpaced(777, 0, 10);
   EXPECT_EQ(first.motion.at(time).q, second.motion.at(time).q);
@@ -178,7 +181,7 @@ TEST(Separate, HoldsTorqueLimits) {
   const LimitShares shares = [&] {
     MotionLimits unit = tight;
     unit.torque = VectorXd::Ones(2);
-    return shares_of(asked.model, unit, free.motion, 1000);
+    return shares_at_rate(asked.model, unit, free.motion.duration, free.motion.at, 1000);
   }();
   tight.torque = 0.8 * shares.torque;
   const SeparatingTrajectory held = separate(asked, tight, {.evaluations = 150});

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/excitation/limited_trajectory.h"
 #include "runtime/recordings/trajectory_file.h"
 #include "runtime/recordings/writer.h"
 #include "runtime/tools/dynid/effect_laws.h"
@@ -105,7 +106,9 @@ TEST(ExciteFor, SeparatesAliasesBetterThanARandomMotion) {
         << names;
     EXPECT_GT(report.designed.random.least, 0) << names;
     // limits at another rate than the one they were checked at, and at the rows
-    EXPECT_LE(shares_of(report.robot.linear, report.limits, report.designed.motion, 7919).largest(),
+    EXPECT_LE(shares_at_rate(report.robot.linear, report.limits, report.designed.motion.duration,
+                             report.designed.motion.at, 7919)
+                  .largest(),
               1)
         << names;
     const Trajectory& rows = report.trajectory;
