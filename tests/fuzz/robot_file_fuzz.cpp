@@ -82,9 +82,6 @@ void check_file(const dyngen::RobotFile& file) {
 
 }  // namespace
 
-/// CLN keeps a string of its own from before main() to the end.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libcln"; }
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   try {
