@@ -10,6 +10,8 @@
 
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/likelihood.h"
+#include "runtime/diagnosis/second_scan.h"
+#include "runtime/diagnosis/stops.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -41,7 +43,8 @@ class Competition {
         scales_(train),
         signals_(train),
         screening_data_(train),
-        repeats_(repeats_of(train)) {}
+        repeats_(repeats_of(train)),
+        stops_(train_, signals_, structures_, result_.resting, options_.false_alarm) {}
 
   CompetitionResult run() {
     tell("the model alone", 0);
@@ -62,7 +65,9 @@ class Competition {
       if (!named && !next_nameless(system, screening)) break;
     }
     drop_superfluous();
-    sharpen();
+    if (scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {
+      result_.fit = fit(effects());
+    }
     return std::move(result_);
   }
 
@@ -154,21 +159,52 @@ class Competition {
     }
     std::stable_sort(order.begin(), order.end(), best_first);
     std::set<std::size_t> attempted;
+    std::optional<std::size_t> costly;
     for (const std::size_t place : order) {
       const NamedResult& named = screening.named[place];
       if (attempted.size() == kAttempts) break;
-      if (screening.family_wise(named.surprise) > options_.false_alarm || net(named) <= 0) continue;
+      if (screening.family_wise(named.surprise) > options_.false_alarm) continue;
+      if (net(named) <= 0) {
+        if (!costly) costly = place;
+        continue;
+      }
       double structure = 0;
       for (const int joint : joints_of_hypothesis(place)) {
         structure = std::max(structure, structure_of(screening, joint));
       }
       if (named.best.score.squares < kLeastExplained * structure) continue;
-      if (attempted.contains(place) || lives_at_stops(system, screening, named)) continue;
+      if (attempted.contains(place) || stops_.explain(system, screening, hypotheses_[place], named))
+        continue;
       const NamedResult best = settled(named, order, attempted, screening);
       attempted.insert(best.hypothesis);
       if (accept(best, screening)) return true;
     }
-    return false;
+    return costly && keep_without_name(*costly, system, screening);
+  }
+
+  /// An effect that is more than noise and helps on held-out recordings, but has more parameters
+  /// than its squares pay for, is structure without a name.
+  bool keep_without_name(std::size_t place, const EvidenceSystem& system,
+                         const Screening& screening) {
+    const NamedResult& named = screening.named[place];
+    if (stops_.explain(system, screening, hypotheses_[place], named)) return false;
+    const GenericResult* nearest = nullptr;
+    for (const int joint : joints_of_hypothesis(place)) {
+      for (const GenericResult& generic : screening.generic) {
+        const GenericStructure& structure = structures_[generic.structure];
+        if (structure.joint != joint || structure.at_reversals || is_said(joint)) continue;
+        if (!nearest || generic.surprise > nearest->surprise) nearest = &generic;
+      }
+    }
+    if (!nearest || !helps(with(named.best.effect))) return false;
+    describe(*nearest, system);
+    result_.nameless.back().costly = short_name(named.best.effect);
+    return true;
+  }
+
+  [[nodiscard]] bool is_said(int joint) const {
+    return std::any_of(result_.nameless.begin(), result_.nameless.end(),
+                       [&](const Nameless& nameless) { return nameless.structure.joint == joint; });
   }
 
   /// Where no motion repeats, noise is known from what the model leaves alone, and an effect that
@@ -257,30 +293,6 @@ class Competition {
     return few;
   }
 
-  /// Whether a joint's stops explain what an effect does: beside the impulses there nothing is left
-  /// of it, and beside the effect much is left of them.
-  [[nodiscard]] bool lives_at_stops(const EvidenceSystem& system, const Screening& screening,
-                                    const NamedResult& named) {
-    const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
-    EvidenceSystem beside = system, beside_effect = system;
-    bool any = false, much_left = false;
-    const JointColumns white = hypothesis_columns(train_, signals_, system,
-                                                  hypotheses_[named.hypothesis], named.best.effect);
-    for (const int joint : joints) {
-      if (rests(joint) || !significant(impulses_of(screening, joint))) continue;
-      const JointColumns impulses =
-          system.whitened(generic_columns(train_, signals_, impulses_at_reversals(joint)));
-      if (!any) beside_effect.add(white);
-      any = true;
-      const Score left = score_of(beside_effect.products(impulses, false), false);
-      much_left = much_left || significant(surprise_of(left.squares, left.degrees));
-      beside.add(impulses);
-    }
-    if (!any || !much_left) return false;
-    const Score left = score_of(beside.products(white, false), false);
-    return screening.family_wise(surprise_of(left.squares, left.degrees)) > options_.false_alarm;
-  }
-
   [[nodiscard]] bool already(std::size_t hypothesis) const {
     return std::any_of(result_.winners.begin(), result_.winners.end(),
                        [&](const Winner& winner) { return winner.hypothesis == hypothesis; });
@@ -343,6 +355,16 @@ class Competition {
     return fit(all);
   }
 
+  [[nodiscard]] double heldout_squares(const EffectFit& fitted) const {
+    EffectPoint point = fitted.point;
+    point.initial.clear();
+    return whitened_squares(heldout_, residuals_of(heldout_, point), result_.noise).sum();
+  }
+
+  [[nodiscard]] bool helps(const EffectFit& next) const {
+    return heldout_squares(result_.fit) - heldout_squares(next) >= kHeldoutGain;
+  }
+
   bool accept(const NamedResult& named, const Screening& screening, EffectFit next) {
     // a bound that holds the estimate, a falsifier, or a parameter that the data do not determine
     // speak against the name
@@ -351,12 +373,7 @@ class Competition {
         std::any_of(next.remarks.begin(), next.remarks.end(),
                     [&](const EffectRemark& remark) { return remark.effect == own; });
     if (doubtful) return false;
-    const auto squares = [&](const EffectFit& fitted) {
-      EffectPoint point = fitted.point;
-      point.initial.clear();
-      return whitened_squares(heldout_, residuals_of(heldout_, point), result_.noise);
-    };
-    const double before = squares(result_.fit).sum(), after = squares(next).sum();
+    const double before = heldout_squares(result_.fit), after = heldout_squares(next);
     if (before - after < kHeldoutGain) return false;
     Winner winner;
     winner.hypothesis = named.hypothesis;
@@ -370,56 +387,6 @@ class Competition {
     return true;
   }
 
-  /// A joint that friction holds where it turns: impulses at its reversals are more than noise, and
-  /// beside them the structure is not. They become part of the model, and so do those of all other
-  /// joints where they are the strongest structure.
-  bool next_resting(const EvidenceSystem& system, const Screening& screening,
-                    const GenericStructure& structure) {
-    if (rests(structure.joint) || !significant(impulses_of(screening, structure.joint))) {
-      return false;
-    }
-    if (!structure.at_reversals) {
-      EvidenceSystem beside = system;
-      const auto white = [&](const GenericStructure& own) {
-        return system.whitened(generic_columns(train_, signals_, own));
-      };
-      beside.add(white(impulses_at_reversals(structure.joint)));
-      const Score left = score_of(beside.products(white(structure), false), false);
-      const double surprise = surprise_of(left.squares, left.degrees);
-      if (screening.family_wise(surprise) <= options_.false_alarm) return false;
-    }
-    result_.resting.push_back(structure.joint);
-    for (int j = 0; j < train_.joints(); ++j) {
-      const double impulses = impulses_of(screening, j);
-      if (rests(j) || screening.family_wise(impulses) > options_.false_alarm) continue;
-      const bool strongest = std::all_of(
-          screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
-            return structures_[generic.structure].joint != j || generic.surprise <= impulses;
-          });
-      if (strongest) result_.resting.push_back(j);
-    }
-    return true;
-  }
-
-  [[nodiscard]] bool rests(int joint) const {
-    return std::find(result_.resting.begin(), result_.resting.end(), joint) !=
-           result_.resting.end();
-  }
-
-  /// Whether a single test by itself would say so.
-  [[nodiscard]] bool significant(double surprise) const {
-    return std::exp(-surprise) < options_.false_alarm;
-  }
-
-  /// Surprise of the impulses at the reversals of a joint.
-  [[nodiscard]] double impulses_of(const Screening& screening, int joint) const {
-    for (const GenericResult& generic : screening.generic) {
-      const GenericStructure& structure = structures_[generic.structure];
-      if (structure.at_reversals && structure.joint == joint) return generic.surprise;
-    }
-    return 0;
-  }
-
   /// The strongest structure that nothing explains becomes part of the model, without a name.
   bool next_nameless(const EvidenceSystem& system, const Screening& screening) {
     const GenericResult* strongest = nullptr;
@@ -430,14 +397,22 @@ class Competition {
       return false;
     }
     const GenericStructure& structure = structures_[strongest->structure];
-    if (next_resting(system, screening, structure)) return true;
-    for (const Nameless& before : result_.nameless) {
-      if (before.structure.joint == structure.joint) return false;  // said already
+    const std::vector<int> resting = stops_.resting(system, screening, structure);
+    if (!resting.empty()) {
+      result_.resting.insert(result_.resting.end(), resting.begin(), resting.end());
+      return true;
     }
+    if (is_said(structure.joint)) return false;
+    describe(*strongest, system);
+    return true;
+  }
+
+  void describe(const GenericResult& generic, const EvidenceSystem& system) {
+    const GenericStructure& structure = structures_[generic.structure];
     Nameless nameless;
     nameless.structure = structure;
-    nameless.score = strongest->score;
-    nameless.surprise = strongest->surprise;
+    nameless.score = generic.score;
+    nameless.surprise = generic.surprise;
     const JointColumns plain = generic_columns(train_, signals_, structure);
     const JointColumns white = system.whitened(plain);
     const VectorXd explained = system.left_of(white, structure.joint) * nameless.score.coefficients;
@@ -447,7 +422,6 @@ class Competition {
     nameless.rms = noise.deviation *
                    std::sqrt(explained.squaredNorm() / static_cast<double>(explained.size()));
     result_.nameless.push_back(std::move(nameless));
-    return true;
   }
 
   /// A winner that the others made superfluous leaves.
@@ -471,46 +445,6 @@ class Competition {
     }
   }
 
-  /// What is scanned and not fitted (a ratio, an order) was chosen beside a model that lacked the
-  /// others, and by noise that held them: it is chosen again.
-  void sharpen() {
-    bool moved = false;
-    for (std::size_t i = 0; i < result_.winners.size(); ++i) {
-      const Hypothesis& hypothesis = hypotheses_[result_.winners[i].hypothesis];
-      const bool scanned =
-          std::any_of(hypothesis.shapes.begin(), hypothesis.shapes.end(), [&](int p) {
-            return hypothesis.effect.law.parameters[static_cast<std::size_t>(p)].role ==
-                   EffectRole::kScanned;
-          });
-      if (!scanned || hypothesis.windowed) continue;
-      EvidenceSystem::Options options = system_options();
-      options.surrogates = 0;
-      const EvidenceSystem system =
-          system_without(train_, signals_, hypotheses_, result_, i, options);
-      const EffectScales scales = scales_.of(result_.fit.point.beta, hypothesis.effect);
-      std::vector<EffectInstance> trials = {result_.fit.point.effects[i]};
-      if (!hypothesis.ordered) {
-        for (const VectorXd& shapes : shape_grid(hypothesis, scales, 1)) {
-          trials.push_back(with_shapes(hypothesis, shapes));
-        }
-      }
-      for (const int p : hypothesis.linear) {
-        trials.front().parameters[p] = hypothesis.effect.parameters[p];
-      }
-      std::optional<TrialScore> best;
-      for (const TrialScore& trial :
-           try_shapes(train_, signals_, system, hypothesis, trials, scales, false)) {
-        if (trial.admissible && (!best || trial.score.squares > best->score.squares)) best = trial;
-      }
-      if (!best) continue;
-      best = refined(train_, signals_, system, hypothesis, *best, scales);
-      result_.fit.point.effects[i] = best->effect;
-      result_.winners[i].trial = std::move(*best);
-      moved = true;
-    }
-    if (moved) result_.fit = fit(effects());
-  }
-
   const EffectRecordings& train_;
   const EffectRecordings& heldout_;
   const std::vector<Hypothesis>& hypotheses_;
@@ -523,6 +457,7 @@ class Competition {
   std::vector<double> repeats_;
   std::map<std::size_t, Likely> likely_;  // by hypothesis; of this round or an earlier one
   CompetitionResult result_;
+  Stops stops_;
 };
 
 }  // namespace

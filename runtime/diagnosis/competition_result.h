@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "runtime/diagnosis/screening.h"
@@ -25,6 +26,8 @@ struct Nameless {
   Score score;
   double surprise = 0;
   double rms = 0;  ///< N m or N, of what the columns explain of the joint's equations
+  /// An effect that explains it, for more parameters than the data pay for; or empty.
+  std::string costly;
 };
 
 /// How a competition ended.

@@ -38,11 +38,7 @@ constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a 
 
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
                               const DiagnosisOptions& options) {
-  RowOptions rows;
-  rows.decimation = options.decimation;
-  rows.band = kBand;
-  rows.multiple = kThinnedSamples;
-  rows.pass = kPass;
+  const RowOptions rows = diagnosis_rows(options.decimation);
   const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
   EffectRecordings data = effect_recordings(input.model, input.robot, sources, rows, all);
   VectorXd still = VectorXd::Zero(data.joints());
@@ -253,9 +249,13 @@ class Diagnostician {
       unexplained.variables = nameless.structure.names();
       unexplained.rms = nameless.rms;
       unexplained.description = fmt::format(
-          "torque of joint {} that goes with {}, rms {:.3g}, in a shape that no effect of the "
-          "catalogue has",
-          unexplained.joint + 1, fmt::join(unexplained.variables, " and "), unexplained.rms);
+          "torque of joint {} that goes with {}, rms {:.3g}, {}", unexplained.joint + 1,
+          fmt::join(unexplained.variables, " and "), unexplained.rms,
+          nameless.costly.empty()
+              ? "in a shape that no effect of the catalogue has"
+              : fmt::format("more than noise; {} would explain it, with more parameters than these "
+                            "data pay for",
+                            nameless.costly));
       answer_.unexplained.push_back(std::move(unexplained));
     }
   }
@@ -358,6 +358,15 @@ void DiagnosisOptions::validate() const {
     throw std::invalid_argument(
         fmt::format("DiagnosisOptions: most_findings is {}, expected 0 or more", most_findings));
   }
+}
+
+RowOptions diagnosis_rows(Index decimation) {
+  RowOptions rows;
+  rows.decimation = decimation;
+  rows.band = kBand;
+  rows.multiple = kThinnedSamples;
+  rows.pass = kPass;
+  return rows;
 }
 
 Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,

@@ -38,6 +38,10 @@ struct DiagnosisOptions {
   void validate() const;
 };
 
+/// Which equations a diagnosis makes of a recording: up to a part of the cut-off, above which the
+/// joint state that they are computed from is damped. @param decimation  as in DiagnosisOptions
+RowOptions diagnosis_rows(Eigen::Index decimation);
+
 /// Told the stage's name and how far it is, 0 .. 1.
 using DiagnosisProgress = std::function<void(const std::string& stage, double done)>;
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "runtime/diagnosis/diagnosis.h"
 #include "runtime/tools/dynid/robot_tangents.h"
 
 namespace dyngen::test {
@@ -42,8 +43,9 @@ EffectRecordings plain_recordings(const Bench& bench, const EffectLaw* law, int 
   if (law != nullptr && !law->states.empty() && joint >= 0) {
     remembering[static_cast<std::size_t>(joint)] = true;
   }
-  return runtime::effect_recordings(
-      bench.robot.told.linear, runtime::effect_robot(bench.robot.told), sources, {}, remembering);
+  return runtime::effect_recordings(bench.robot.told.linear,
+                                    runtime::effect_robot(bench.robot.told), sources,
+                                    runtime::diagnosis_rows(0), remembering);
 }
 
 std::vector<MatrixXd> torque_in(const Bench& bench, const EffectInstance& effect, int only) {

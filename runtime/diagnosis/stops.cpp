@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/stops.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dyngen::runtime {
+
+bool Stops::rests(int joint) const {
+  return std::find(resting_.begin(), resting_.end(), joint) != resting_.end();
+}
+
+/// Whether a single test by itself would say so.
+bool Stops::significant(double surprise) const { return std::exp(-surprise) < false_alarm_; }
+
+/// Surprise of the impulses at the reversals of a joint.
+double Stops::impulses_of(const Screening& screening, int joint) const {
+  for (const GenericResult& generic : screening.generic) {
+    const GenericStructure& structure = structures_[generic.structure];
+    if (structure.at_reversals && structure.joint == joint) return generic.surprise;
+  }
+  return 0;
+}
+
+bool Stops::explain(const EvidenceSystem& system, const Screening& screening,
+                    const Hypothesis& hypothesis, const NamedResult& named) const {
+  EvidenceSystem beside = system, beside_effect = system;
+  bool any = false, much_left = false;
+  const JointColumns white =
+      hypothesis_columns(data_, signals_, system, hypothesis, named.best.effect);
+  for (const int joint : joints_of(hypothesis.effect, data_.joints())) {
+    if (rests(joint) || !significant(impulses_of(screening, joint))) continue;
+    const JointColumns impulses =
+        system.whitened(generic_columns(data_, signals_, impulses_at_reversals(joint)));
+    if (!any) beside_effect.add(white);
+    any = true;
+    const Score left = score_of(beside_effect.products(impulses, false), false);
+    much_left = much_left || significant(surprise_of(left.squares, left.degrees));
+    beside.add(impulses);
+  }
+  if (!any || !much_left) return false;
+  const Score left = score_of(beside.products(white, false), false);
+  return screening.family_wise(surprise_of(left.squares, left.degrees)) > false_alarm_;
+}
+
+std::vector<int> Stops::resting(const EvidenceSystem& system, const Screening& screening,
+                                const GenericStructure& structure) const {
+  if (rests(structure.joint) || !significant(impulses_of(screening, structure.joint))) return {};
+  if (!structure.at_reversals) {
+    EvidenceSystem beside = system;
+    const auto white = [&](const GenericStructure& own) {
+      return system.whitened(generic_columns(data_, signals_, own));
+    };
+    beside.add(white(impulses_at_reversals(structure.joint)));
+    const Score left = score_of(beside.products(white(structure), false), false);
+    const double surprise = surprise_of(left.squares, left.degrees);
+    if (screening.family_wise(surprise) <= false_alarm_) return {};
+  }
+  std::vector<int> joints = {structure.joint};
+  for (int j = 0; j < data_.joints(); ++j) {
+    const double impulses = impulses_of(screening, j);
+    if (j == structure.joint || rests(j)) continue;
+    if (screening.family_wise(impulses) > false_alarm_) continue;
+    const bool strongest = std::all_of(
+        screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
+          return structures_[generic.structure].joint != j || generic.surprise <= impulses;
+        });
+    if (strongest) joints.push_back(j);
+  }
+  return joints;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "runtime/diagnosis/screening.h"
+
+namespace dyngen::runtime {
+
+/// What dry friction does where a joint turns or stops: it holds the joint for an instant, with any
+/// torque up to its own, and the equations have an impulse there. That is neither a name nor
+/// structure: a joint of which it is seen `rests`, and has its impulses beside the model.
+class Stops {
+ public:
+  /// All must outlive it. @param resting  coordinates, as they are found
+  Stops(const EffectRecordings& data, EffectSignals& signals,
+        const std::vector<GenericStructure>& structures, const std::vector<int>& resting,
+        double false_alarm)
+      : data_(data),
+        signals_(signals),
+        structures_(structures),
+        resting_(resting),
+        false_alarm_(false_alarm) {}
+
+  /// Whether the stops of its joints explain what an effect does: beside the impulses there nothing
+  /// is left of it, and beside the effect much is left of them.
+  [[nodiscard]] bool explain(const EvidenceSystem& system, const Screening& screening,
+                             const Hypothesis& hypothesis, const NamedResult& named) const;
+
+  /// Joints that begin to rest: the structure's, if impulses at its reversals are more than noise
+  /// and beside them the structure is not; with it all others where impulses are the strongest
+  /// structure. None if it is not so.
+  [[nodiscard]] std::vector<int> resting(const EvidenceSystem& system, const Screening& screening,
+                                         const GenericStructure& structure) const;
+
+ private:
+  [[nodiscard]] bool rests(int joint) const;
+  [[nodiscard]] double impulses_of(const Screening& screening, int joint) const;
+  [[nodiscard]] bool significant(double surprise) const;
+
+  const EffectRecordings& data_;
+  EffectSignals& signals_;
+  const std::vector<GenericStructure>& structures_;
+  const std::vector<int>& resting_;
+  double false_alarm_;
+};
+
+}  // namespace dyngen::runtime
