@@ -40,7 +40,7 @@ EffectPoint without(EffectPoint point, std::size_t place) {
 void add_nameless(const EffectRecordings& data, EffectSignals& signals,
                   const CompetitionResult& result, EvidenceSystem& system) {
   for (const int joint : result.resting) {
-    system.add(system.whitened(generic_columns(data, signals, impulses_at_reversals(joint))));
+    system.leave_out(system.whitened(generic_columns(data, signals, impulses_at_reversals(joint))));
   }
   for (const Nameless& nameless : result.nameless) {
     system.add(system.whitened(generic_columns(data, signals, nameless.structure)));

@@ -26,20 +26,21 @@ bool Stops::explain(const EvidenceSystem& system, const Screening& screening,
                     const Hypothesis& hypothesis, const NamedResult& named) const {
   EvidenceSystem beside = system, beside_effect = system;
   bool any = false, much_left = false;
-  const JointColumns white =
-      hypothesis_columns(data_, signals_, system, hypothesis, named.best.effect);
+  const auto white_beside = [&](const EvidenceSystem& model) {
+    return hypothesis_columns(data_, signals_, model, hypothesis, named.best.effect);
+  };
   for (const int joint : joints_of(hypothesis.effect, data_.joints())) {
     if (rests(joint) || !significant(impulses_of(screening, joint))) continue;
     const JointColumns impulses =
         system.whitened(generic_columns(data_, signals_, impulses_at_reversals(joint)));
-    if (!any) beside_effect.add(white);
+    if (!any) beside_effect.add(white_beside(system));
     any = true;
     const Score left = score_of(beside_effect.products(impulses, false), false);
     much_left = much_left || significant(surprise_of(left.squares, left.degrees));
-    beside.add(impulses);
+    beside.leave_out(impulses);
   }
   if (!any || !much_left) return false;
-  const Score left = score_of(beside.products(white, false), false);
+  const Score left = score_of(beside.products(white_beside(beside), false), false);
   return screening.family_wise(surprise_of(left.squares, left.degrees)) > false_alarm_;
 }
 
@@ -49,9 +50,9 @@ std::vector<int> Stops::resting(const EvidenceSystem& system, const Screening& s
   if (!structure.at_reversals) {
     EvidenceSystem beside = system;
     const auto white = [&](const GenericStructure& own) {
-      return system.whitened(generic_columns(data_, signals_, own));
+      return beside.whitened(generic_columns(data_, signals_, own));
     };
-    beside.add(white(impulses_at_reversals(structure.joint)));
+    beside.leave_out(white(impulses_at_reversals(structure.joint)));
     const Score left = score_of(beside.products(white(structure), false), false);
     const double surprise = surprise_of(left.squares, left.degrees);
     if (screening.family_wise(surprise) <= false_alarm_) return {};

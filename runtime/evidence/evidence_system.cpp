@@ -82,7 +82,10 @@ Score score_of(const Products& products, bool surrogates) {
 
 EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals& residuals,
                                const TorqueNoiseModel& noise, const Options& options)
-    : data_(data), whiteners_(noise.joints.begin(), noise.joints.end()), rows_(data.equations()) {
+    : data_(data),
+      whiteners_(noise.joints.begin(), noise.joints.end()),
+      left_out_(noise.joints.size()),
+      rows_(data.equations()) {
   const int n = data.joints();
   const Index size = data.model.size();
   rest_.resize(n * rows_);
@@ -131,6 +134,8 @@ void EvidenceSystem::whiten(Eigen::Ref<MatrixXd> rows, int joint) const {
                                                       run.rows.counted.col(joint));
     start += count;
   }
+  const auto& left_out = left_out_[static_cast<std::size_t>(joint)];
+  if (left_out) left_out->take_out_of(rows);
 }
 
 JointColumns EvidenceSystem::whitened(JointColumns columns) const {
@@ -149,23 +154,44 @@ void EvidenceSystem::project(const MatrixXd& columns) {
 }
 
 void EvidenceSystem::add(const JointColumns& whitened) {
-  MatrixXd columns = MatrixXd::Zero(basis_.rows(), whitened.columns());
+  VectorXd squares = VectorXd::Zero(whitened.columns());
+  for (const MatrixXd& part : whitened.parts) {
+    squares += part.colwise().squaredNorm().transpose();
+  }
+  std::vector<Index> present;
+  for (Index c = 0; c < squares.size(); ++c) {
+    if (squares[c] > 0) present.push_back(c);
+  }
+  if (present.empty()) return;
+  // of unit length before projection
+  const VectorXd scale = squares(present).cwiseSqrt().cwiseInverse();
+  MatrixXd columns = MatrixXd::Zero(basis_.rows(), scale.size());
   for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
-    columns.middleRows(whitened.joints[i] * rows_, rows_) = whitened.parts[i];
+    columns.middleRows(whitened.joints[i] * rows_, rows_) =
+        whitened.parts[i](Eigen::all, present) * scale.asDiagonal();
   }
-  const VectorXd before = columns.colwise().norm();
   for (int pass = 0; pass < 2; ++pass) columns -= basis_ * (basis_.transpose() * columns);
-  for (Index c = 0; c < columns.cols(); ++c) {
-    for (int pass = 0; pass < 2; ++pass) {
-      columns.col(c) -= columns.leftCols(c) * (columns.leftCols(c).transpose() * columns.col(c));
-    }
-    const double left = columns.col(c).norm();
-    if (left > std::sqrt(kAbsorbed) * before[c]) {
-      columns.col(c) /= left;
-    } else {
-      columns.col(c).setZero();
-    }
-  }
+  // impulses are hundreds of columns: products of matrices are all that is fast enough
+  const PivotedTriangle independent = pivoted_triangle(columns.transpose() * columns);
+  if (independent.columns.empty()) return;
+  MatrixXd orthonormal = columns(Eigen::all, independent.columns);
+  independent.L.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(
+      orthonormal);
+  project(orthonormal);
+}
+
+void EvidenceSystem::leave_out(const JointColumns& whitened) {
+  const int joint = whitened.joints.front();
+  auto& left_out = left_out_[static_cast<std::size_t>(joint)];
+  left_out = std::make_shared<const LocalReflections>(whitened.parts.front());
+  const Index first = joint * rows_;
+  left_out->take_out_of(basis_.middleRows(first, rows_));
+  left_out->take_out_of(noise_.middleRows(first, rows_));
+  MatrixXd own = rest_.segment(first, rows_);
+  left_out->take_out_of(own);
+  rest_.segment(first, rows_) = own;
+  const MatrixXd columns = orthonormal(basis_);
+  basis_.resize(Eigen::NoChange, 0);
   project(columns);
 }
 
@@ -230,18 +256,27 @@ Products EvidenceSystem::products(const JointColumns& whitened, Index from, Inde
   return products;
 }
 
+VectorXd EvidenceSystem::rest(int joint) const {
+  MatrixXd rest = rest_.segment(joint * rows_, rows_);
+  if (const auto& left_out = left_out_[static_cast<std::size_t>(joint)]) left_out->turn_back(rest);
+  return rest;
+}
+
 MatrixXd EvidenceSystem::left_of(const JointColumns& whitened, int joint) const {
   MatrixXd left = -basis_.middleRows(joint * rows_, rows_) * absorbed(whitened, 0, rows_);
   for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
     if (whitened.joints[i] == joint) left += whitened.parts[i];
   }
+  if (const auto& left_out = left_out_[static_cast<std::size_t>(joint)]) left_out->turn_back(left);
   return left;
 }
 
 VectorXd EvidenceSystem::taken() const {
   VectorXd degrees(data_.joints());
   for (int j = 0; j < data_.joints(); ++j) {
-    degrees[j] = basis_.middleRows(j * rows_, rows_).squaredNorm();
+    const auto& left_out = left_out_[static_cast<std::size_t>(j)];
+    degrees[j] = basis_.middleRows(j * rows_, rows_).squaredNorm() +
+                 (left_out ? static_cast<double>(left_out->rank()) : 0.0);
   }
   return degrees;
 }

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "runtime/estimation/whitener.h"
 #include "runtime/evidence/joint_columns.h"
+#include "runtime/evidence/local_reflections.h"
 #include "runtime/evidence/torque_noise_model.h"
 
 namespace dyngen::runtime {
@@ -51,6 +53,9 @@ class EvidenceSystem {
   [[nodiscard]] JointColumns whitened(JointColumns columns) const;
   /// Whitened columns become part of the model.
   void add(const JointColumns& whitened);
+  /// So do those of one joint of which each is 0 but for a few consecutive rows; a joint has them
+  /// once. Columns have to be whitened again: what these span is taken out of them there.
+  void leave_out(const JointColumns& whitened);
 
   [[nodiscard]] Products products(const JointColumns& whitened, bool surrogates = true) const;
   /// Of consecutive groups of columns, each by itself: one pass over the model's columns for all.
@@ -63,7 +68,7 @@ class EvidenceSystem {
                                   bool surrogates) const;
 
   /// What the model leaves of a joint, whitened. @return (equations)
-  [[nodiscard]] auto rest(int joint) const { return rest_.segment(joint * rows_, rows_); }
+  [[nodiscard]] Eigen::VectorXd rest(int joint) const;
   /// Whitened columns less what the model absorbs, of one joint. @return (equations x k)
   [[nodiscard]] Eigen::MatrixXd left_of(const JointColumns& whitened, int joint) const;
   [[nodiscard]] Eigen::Index rows() const { return rows_; }
@@ -80,11 +85,12 @@ class EvidenceSystem {
   void project(const Eigen::MatrixXd& columns);
 
   const EffectRecordings& data_;
-  std::vector<Whitener> whiteners_;  // of each joint
-  Eigen::Index rows_ = 0;            // of one joint
-  Eigen::MatrixXd basis_;            // (n rows x rank) orthonormal
-  Eigen::VectorXd rest_;             // (n rows)
-  Eigen::MatrixXd noise_;            // (n rows x m)
+  std::vector<Whitener> whiteners_;                                // of each joint
+  std::vector<std::shared_ptr<const LocalReflections>> left_out_;  // of each joint; or nothing
+  Eigen::Index rows_ = 0;                                          // of one joint
+  Eigen::MatrixXd basis_;                                          // (n rows x rank) orthonormal
+  Eigen::VectorXd rest_;                                           // (n rows)
+  Eigen::MatrixXd noise_;                                          // (n rows x m)
 };
 
 }  // namespace dyngen::runtime
