@@ -11,6 +11,7 @@
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/likelihood.h"
 #include "runtime/diagnosis/second_scan.h"
+#include "runtime/diagnosis/slow_equations.h"
 #include "runtime/diagnosis/stops.h"
 
 namespace dyngen::runtime {
@@ -31,9 +32,9 @@ constexpr double kHeldoutGain = 2;       // by which held-out squares must fall
 /// One competition's data and what was found so far.
 class Competition {
  public:
-  Competition(const EffectRecordings& train, const EffectRecordings& heldout,
-              const std::vector<Hypothesis>& hypotheses, const CompetitionOptions& options,
-              const CompetitionProgress& progress)
+  Competition(const EffectRecordings& train, const EffectRecordings& slow,
+              const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
+              const CompetitionOptions& options, const CompetitionProgress& progress)
       : train_(train),
         heldout_(heldout),
         hypotheses_(hypotheses),
@@ -44,6 +45,7 @@ class Competition {
         signals_(train),
         screening_data_(train),
         repeats_(repeats_of(train)),
+        slow_(slow),
         stops_(train_, signals_, structures_, result_.resting, options_.false_alarm) {}
 
   CompetitionResult run() {
@@ -373,6 +375,11 @@ class Competition {
         std::any_of(next.remarks.begin(), next.remarks.end(),
                     [&](const EffectRemark& remark) { return remark.effect == own; });
     if (doubtful) return false;
+    if (result_.noise.from_periods &&
+        slow_.contradict(hypotheses_, result_, hypotheses_[named.hypothesis], next.point,
+                         system_options())) {
+      return false;
+    }
     const double before = heldout_squares(result_.fit), after = heldout_squares(next);
     if (before - after < kHeldoutGain) return false;
     Winner winner;
@@ -456,16 +463,18 @@ class Competition {
   ScreeningData screening_data_;
   std::vector<double> repeats_;
   std::map<std::size_t, Likely> likely_;  // by hypothesis; of this round or an earlier one
+  SlowEquations slow_;
   CompetitionResult result_;
   Stops stops_;
 };
 
 }  // namespace
 
-CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& heldout,
+CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& slow,
+                          const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options, const CompetitionProgress& progress) {
-  return Competition(train, heldout, hypotheses, options, progress).run();
+  return Competition(train, slow, heldout, hypotheses, options, progress).run();
 }
 
 }  // namespace dyngen::runtime

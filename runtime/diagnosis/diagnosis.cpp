@@ -33,12 +33,14 @@ constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise
 constexpr double kBand = 0.9;  // of the cut-off: what is faster is damped in the joint state
 constexpr double kPass =
     0.5;  // of the parallel filter: a short one, that standstill cuts less from
+constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
 constexpr double kLongestSample = 1e-3;   // s, of a motion that is recorded faster
 constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
 
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
-                              const DiagnosisOptions& options) {
-  const RowOptions rows = diagnosis_rows(options.decimation);
+                              const DiagnosisOptions& options, double part_of_band = 1) {
+  RowOptions rows = diagnosis_rows(options.decimation);
+  rows.band *= part_of_band;
   const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
   EffectRecordings data = effect_recordings(input.model, input.robot, sources, rows, all);
   VectorXd still = VectorXd::Zero(data.joints());
@@ -75,6 +77,7 @@ class Diagnostician {
         progress_(progress),
         parts_(input.heldout.empty() ? divided(input.train) : Division{input.train, input.heldout}),
         train_(thinned(equations_of(input, parts_.train, options), kLongestSample)),
+        slow_(thinned(equations_of(input, parts_.train, options, kSlow), kLongestSample)),
         heldout_(equations_of(input, parts_.heldout, options)) {}
 
   Diagnosis run() {
@@ -90,7 +93,7 @@ class Diagnostician {
     for (const EffectInstance& effect : input_.hypotheses) {
       hypotheses_.push_back(hypothesis_of(effect, scales.of(nothing, effect)));
     }
-    result_ = compete(train_, heldout_, hypotheses_, settings, progress_);
+    result_ = compete(train_, slow_, heldout_, hypotheses_, settings, progress_);
     describe_noise();
     describe_tests();
     if (!worth_enough()) return std::move(answer_);
@@ -341,7 +344,7 @@ class Diagnostician {
   const DiagnosisOptions& options_;
   const DiagnosisProgress& progress_;
   Division parts_;
-  EffectRecordings train_, heldout_;
+  EffectRecordings train_, slow_, heldout_;
   std::vector<Hypothesis> hypotheses_;
   CompetitionResult result_;
   Diagnosis answer_;

@@ -132,7 +132,10 @@ TEST(Excite, ImprovesOnItsStartsWithinAllLimits) {
     options.family.form = form;
     const Excitation found = excite(model, limits, options);
     ASSERT_TRUE(found.found) << found.message;
-    const LimitShares shares = shares_at_rate(model, limits, options.family, found.x, 10000);
+    const LimitShares shares = shares_at_rate(
+        model, limits, options.family.duration,
+        [&](const VectorXd& time) { return basis_at(options.family, time).motion(found.x); },
+        10000);
     EXPECT_LE(shares.largest(), 1);
     EXPECT_GE(shares.distance, 0);
     const TrajectoryBasis basis = basis_at(options.family, period_times(options.family, 500));
