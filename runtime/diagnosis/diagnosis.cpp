@@ -190,19 +190,21 @@ class Diagnostician {
     system.seed = options_.seed;
     system.surrogates = 0;
     system.with_regressor = !options_.residual_only;
-    for (std::size_t i = 0; i < result_.winners.size(); ++i) {
-      tell("names", static_cast<double>(i) / static_cast<double>(result_.winners.size()));
-      answer_.findings.push_back(finding(i, signals, system));
+    const std::vector<Naming> namings =
+        settle_names(train_, heldout_, signals, hypotheses_, result_, system, progress_);
+    answer_.fit = result_.fit;
+    for (std::size_t i = 0; i < namings.size(); ++i) {
+      answer_.findings.push_back(finding(i, namings[i], signals, system));
     }
   }
 
-  Finding finding(std::size_t place, EffectSignals& signals, EvidenceSystem::Options& options) {
+  Finding finding(std::size_t place, const Naming& naming, EffectSignals& signals,
+                  const EvidenceSystem::Options& options) {
     const Winner& winner = result_.winners[place];
     const Hypothesis& hypothesis = hypotheses_[winner.hypothesis];
     Finding finding;
     finding.effect = answer_.fit.point.effects[place];
     finding.parameters = answer_.fit.parameters[place];
-    const Naming naming = name_winner(train_, signals, hypotheses_, result_, place, options);
     finding.aliases = naming.families;
     finding.probability = naming.probability;
     finding.absorbed = 1 - naming.part_left;
@@ -227,12 +229,13 @@ class Diagnostician {
     std::string text = fmt::format(
         "{} on {} explains {:.0f} squares of noise that the model cannot",
         finding.effect.law.family, where_it_acts(finding.effect), finding.evidence.lambda);
-    if (naming.runner_up.empty()) return text + "; nothing else comes near";
+    if (naming.rivals.empty()) return text + "; nothing else comes near";
+    const Rival& next = naming.rivals.front();
     if (finding.aliases.size() > 1) {
-      return text + fmt::format("; these data do not tell it from {}", naming.runner_up);
+      return text + fmt::format("; these data do not tell it from {}", next.name);
     }
-    return text + fmt::format("; the next name, {}, is {:.0f} squares worse", naming.runner_up,
-                              naming.distance);
+    return text +
+           fmt::format("; the next name, {}, is {:.0f} squares worse", next.name, next.distance);
   }
 
   void describe_changes() {

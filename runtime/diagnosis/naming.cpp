@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+
+#include "runtime/diagnosis/heldout.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -32,7 +35,54 @@ std::vector<std::size_t> rivals_of(const Winner& winner) {
   return places;
 }
 
+/// What held-out recordings say for a rival against a winner: squares of their residuals, where
+/// these are more than noise in units of what they are.
+double heldout_gain(const EffectRecordings& heldout, const TorqueNoiseModel& noise,
+                    const EffectPoint& winner, const EffectPoint& rival) {
+  const auto squares = [&](EffectPoint point) {
+    point.initial.clear();
+    return whitened_squares(heldout, residuals_of(heldout, point), noise);
+  };
+  const Eigen::VectorXd before = squares(winner), after = squares(rival);
+  double gain = 0;
+  for (int j = 0; j < heldout.joints(); ++j) {
+    double equations = 0;
+    for (const EffectRun& run : heldout.runs) equations += run.rows.counted.col(j).sum();
+    gain += (before[j] - after[j]) / std::max(1.0, before[j] / std::max(equations, 1.0));
+  }
+  return gain;
+}
+
+/// The model with a rival in the place of a winner; nothing if a bound, a falsifier or a parameter
+/// that the data do not determine speaks against it.
+std::optional<EffectFit> with_rival(const EffectRecordings& train, const CompetitionResult& result,
+                                    std::size_t place, const Rival& rival) {
+  std::vector<EffectInstance> effects = result.fit.point.effects;
+  effects[place] = rival.trial.effect;
+  try {
+    EffectFit fit = fit_effects(train, effects);
+    for (const EffectRemark& remark : fit.remarks) {
+      if (remark.effect == static_cast<int>(place)) return std::nullopt;
+    }
+    return fit;
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;  // no finite torque at the shapes that were tried
+  }
+}
+
 }  // namespace
+
+void conclude(Naming& naming) {
+  std::stable_sort(naming.rivals.begin(), naming.rivals.end(),
+                   [](const Rival& a, const Rival& b) { return a.distance < b.distance; });
+  naming.families.resize(1);
+  double rest = 0;
+  for (const Rival& rival : naming.rivals) {
+    rest += std::exp(-std::clamp(rival.distance, -200.0, 200.0) / (2 * kCaution));
+    if (rival.distance < kApart) naming.families.push_back(rival.family);
+  }
+  naming.probability = 1 / (1 + rest);
+}
 
 Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
                    const std::vector<Hypothesis>& hypotheses, const CompetitionResult& result,
@@ -41,12 +91,10 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   const ScaleTable scales(data);
   const Winner& own = result.winners[winner];
   Naming naming;
-  naming.distance = std::numeric_limits<double>::infinity();
   const std::string& family = hypotheses[own.hypothesis].effect.law.family;
   naming.families = {family};
   double best = 0;
-  std::map<std::string, double> family_net;
-  std::map<std::string, std::string> family_effect;
+  std::map<std::string, Rival> best_of;  // of each other family; distance: its squares, net
   for (const std::size_t rival : rivals_of(own)) {
     const Hypothesis& hypothesis = hypotheses[rival];
     const EffectScales here = scales.of(result.fit.point.beta, hypothesis.effect);
@@ -68,31 +116,67 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
       naming.lambda = std::max(0.0, trial.score.squares - trial.score.degrees);
       naming.delta_bic = -net;
       naming.part_left = trial.score.part_left;
-    } else if (!trial.admissible) {
-      continue;
-    }
-    const auto [entry, added] = family_net.try_emplace(hypothesis.effect.law.family, net);
-    if (added || net > entry->second) {
-      entry->second = net;
-      family_effect[hypothesis.effect.law.family] = short_name(hypothesis.effect);
+    } else if (trial.admissible && hypothesis.effect.law.family != family) {
+      const auto [entry, added] = best_of.try_emplace(hypothesis.effect.law.family);
+      if (!added && net <= entry->second.distance) continue;
+      entry->second = {hypothesis.effect.law.family, short_name(hypothesis.effect), net, rival,
+                       std::move(trial)};
     }
   }
-  double rest = 0;
-  std::vector<std::pair<double, std::string>> near;
-  for (const auto& [other, net] : family_net) {
-    if (other == family) continue;
-    const double distance = best - net;
-    rest += std::exp(-std::clamp(distance, -200.0, 200.0) / (2 * kCaution));
-    if (distance < kApart) near.emplace_back(distance, other);
-    if (distance < naming.distance) {
-      naming.distance = distance;
-      naming.runner_up = family_effect[other];
-    }
+  for (auto& [other, rival] : best_of) {
+    rival.distance = best - rival.distance;
+    naming.rivals.push_back(std::move(rival));
   }
-  std::sort(near.begin(), near.end());
-  for (const auto& [distance, other] : near) naming.families.push_back(other);
-  naming.probability = 1 / (1 + rest);
+  conclude(naming);
   return naming;
+}
+
+namespace {
+
+/// Adds to the distance of the nearest rival what held-out recordings say, and puts it in the
+/// winner's place if it is better then.
+void settle(const EffectRecordings& train, const EffectRecordings& heldout, EffectSignals& signals,
+            const std::vector<Hypothesis>& hypotheses, CompetitionResult& result,
+            std::size_t winner, const EvidenceSystem::Options& options, Naming& naming) {
+  Rival& nearest = naming.rivals.front();
+  const std::optional<EffectFit> other = with_rival(train, result, winner, nearest);
+  if (!other) {
+    naming.rivals.erase(naming.rivals.begin());
+    return;
+  }
+  const double gain = heldout_gain(heldout, result.noise, result.fit.point, other->point);
+  nearest.distance -= gain;
+  if (nearest.distance >= 0) return;
+  Winner& own = result.winners[winner];
+  const std::string family = hypotheses[own.hypothesis].effect.law.family;
+  own.hypothesis = nearest.hypothesis;
+  own.trial = nearest.trial;
+  result.fit = *other;
+  naming = name_winner(train, signals, hypotheses, result, winner, options);
+  for (Rival& rival : naming.rivals) {
+    if (rival.family == family) rival.distance += gain;
+  }
+}
+
+}  // namespace
+
+std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& heldout,
+                                 EffectSignals& signals, const std::vector<Hypothesis>& hypotheses,
+                                 CompetitionResult& result, const EvidenceSystem::Options& options,
+                                 const CompetitionProgress& progress) {
+  std::vector<Naming> namings;
+  for (std::size_t i = 0; i < result.winners.size(); ++i) {
+    if (progress) {
+      progress("names", static_cast<double>(i) / static_cast<double>(result.winners.size()));
+    }
+    Naming naming = name_winner(train, signals, hypotheses, result, i, options);
+    if (!naming.rivals.empty() && naming.rivals.front().distance < kApart) {
+      settle(train, heldout, signals, hypotheses, result, i, options, naming);
+      conclude(naming);
+    }
+    namings.push_back(std::move(naming));
+  }
+  return namings;
 }
 
 }  // namespace dyngen::runtime

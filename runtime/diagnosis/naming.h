@@ -8,15 +8,22 @@
 
 namespace dyngen::runtime {
 
+/// The best effect of another family in a winner's place.
+struct Rival {
+  std::string family, name;
+  double distance = 0;  ///< by which it is worse, in squares net of prices
+  std::size_t hypothesis = 0;
+  TrialScore trial;
+};
+
 /// Which names a finding may have.
 struct Naming {
   std::vector<std::string> families;  ///< that these data cannot tell apart; the winner's first
+  std::vector<Rival> rivals;          ///< one of each other family, nearest first
   double probability = 0;             ///< of the winner's family, 0 .. 1
   double lambda = 0;                  ///< squares of the winner beside all else, less its degrees
   double delta_bic = 0;
-  double part_left = 0;   ///< of the winner's squares, after the refit of the model
-  std::string runner_up;  ///< the next effect of another family; empty: none
-  double distance = 0;    ///< of the runner-up, in squares net of prices; inf: none
+  double part_left = 0;  ///< of the winner's squares, after the refit of the model
 };
 
 /// Winners are compared with all that was strong in their round, each beside the model with all
@@ -25,9 +32,21 @@ struct Naming {
 /// lambda (1 - c^2) and four times that for its variance.
 inline constexpr double kApart = 9;
 
+/// Families and probability are those of the distances: to be called again once those change.
+void conclude(Naming& naming);
+
 /// @param winner  its place
 Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
                    const std::vector<Hypothesis>& hypotheses, const CompetitionResult& result,
                    std::size_t winner, const EvidenceSystem::Options& options);
+
+/// Names of all winners. Where the nearest rival is no more than kApart squares worse, the model is
+/// fitted with it in the winner's place, and what held-out recordings say of the two is added to
+/// their distance; a rival that is better then takes the place.
+/// @param result  its winners and its fit, in place
+std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& heldout,
+                                 EffectSignals& signals, const std::vector<Hypothesis>& hypotheses,
+                                 CompetitionResult& result, const EvidenceSystem::Options& options,
+                                 const CompetitionProgress& progress);
 
 }  // namespace dyngen::runtime
