@@ -74,6 +74,7 @@ MatrixXd EquationStack::whitened(MatrixXd columns) const {
 }
 
 MatrixXd orthonormal(const MatrixXd& W, double tolerance) {
+  if (W.cols() == 0) return W;
   VectorXd scale = W.colwise().norm();
   for (double& s : scale) s = s > 0 ? 1 / s : 1;
   const SingularValues svd = decomposed(triangle_of(W) * scale.asDiagonal());

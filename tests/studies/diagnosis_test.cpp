@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The cases of docs/diagnosis_study.md are what they say they are.
+#include "runtime/diagnosis/diagnosis.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +19,7 @@ using Eigen::VectorXd;
 
 runtime::EffectRecordings equations(const DiagnosisCase& own) {
   return runtime::effect_recordings(
-      own.input.model, own.input.robot, own.input.train, {},
+      own.input.model, own.input.robot, own.input.train, runtime::diagnosis_rows(0),
       std::vector<bool>(static_cast<std::size_t>(own.robot.joints()), false));
 }
 

@@ -280,7 +280,7 @@ TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
   const std::string limits = "qmin -2 -2 -2\nqmax 2 2 2\nvmax 2 2 2\namax 8 8 8\n";
   const std::string arm = robot(source, "puma.robot", limits);
   const DescribedRobot plant = describe_robot(
-      robot(source, "plant.robot", limits + "effect stribeck joint=2 Fs=10 vs=0.1 delta=2\n"),
+      robot(source, "plant.robot", limits + "effect stribeck joint=2 Fs=8.8 vs=0.1 delta=2\n"),
       OpenParameters::kAsWritten);
   constexpr std::uint64_t kSeed = 3;
   const std::string first =
