@@ -34,7 +34,9 @@ constexpr double kBand = 0.9;  // of the cut-off: what is faster is damped in th
 constexpr double kPass =
     0.5;  // of the parallel filter: a short one, that standstill cuts less from
 constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
-constexpr double kLongestSample = 1e-3;   // s, of a motion that is recorded faster
+constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
+constexpr double kObjection =
+    0.5;  // the most of a name against which a bound or a falsifier speaks
 constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
 
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
@@ -217,6 +219,7 @@ class Diagnostician {
         1 - std::sqrt(winner.heldout_after / std::max(winner.heldout_before, 1e-300));
     for (const EffectRemark& remark : answer_.fit.remarks) {
       if (remark.effect != static_cast<int>(place)) continue;
+      finding.probability = std::min(finding.probability, kObjection);
       finding.tests.push_back(
           {remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound", false,
            remark.text, true});
