@@ -4,7 +4,9 @@ set(DYNGEN_LSAN_SUPPRESSIONS ${CMAKE_CURRENT_LIST_DIR}/lsan_suppressions.cpp)
 function(dyngen_target_sanitizers target)
   if(DYNGEN_SANITIZE)
     target_compile_options(${target} PUBLIC
-      -fsanitize=${DYNGEN_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+      -fsanitize=${DYNGEN_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+      # Eigen takes blocks of empty matrices: an offset to a null pointer that is never read
+      $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-fno-sanitize=pointer-overflow>)
     target_link_options(${target} PUBLIC -fsanitize=${DYNGEN_SANITIZE})
     get_target_property(type ${target} TYPE)
     if(type STREQUAL "EXECUTABLE" AND DYNGEN_SANITIZE MATCHES "address")
