@@ -198,7 +198,7 @@ class Competition {
         if (!nearest || generic.surprise > nearest->surprise) nearest = &generic;
       }
     }
-    if (!nearest || !helps(with(named.best.effect))) return false;
+    if (!nearest || !proof_of(with(named.best.effect)).helps()) return false;
     describe(*nearest, system);
     result_.nameless.back().costly = short_name(named.best.effect);
     return true;
@@ -357,14 +357,14 @@ class Competition {
     return fit(all);
   }
 
-  [[nodiscard]] double heldout_squares(const EffectFit& fitted) const {
-    EffectPoint point = fitted.point;
-    point.initial.clear();
-    return whitened_squares(heldout_, residuals_of(heldout_, point), result_.noise).sum();
-  }
-
-  [[nodiscard]] bool helps(const EffectFit& next) const {
-    return heldout_squares(result_.fit) - heldout_squares(next) >= kHeldoutGain;
+  /// Squares of held-out residuals before and after one more effect.
+  struct Proof {
+    double before = 0, after = 0;
+    [[nodiscard]] bool helps() const { return before - after >= kHeldoutGain; }
+  };
+  [[nodiscard]] Proof proof_of(const EffectFit& next) const {
+    return {heldout_squares(heldout_, result_.fit.point, result_.noise).sum(),
+            heldout_squares(heldout_, next.point, result_.noise).sum()};
   }
 
   bool accept(const NamedResult& named, const Screening& screening, EffectFit next) {
@@ -380,14 +380,14 @@ class Competition {
                          system_options())) {
       return false;
     }
-    const double before = heldout_squares(result_.fit), after = heldout_squares(next);
-    if (before - after < kHeldoutGain) return false;
+    const Proof proof = proof_of(next);
+    if (!proof.helps()) return false;
     Winner winner;
     winner.hypothesis = named.hypothesis;
     winner.trial = named.best;
     winner.surprise = named.surprise;
-    winner.heldout_before = before;
-    winner.heldout_after = after;
+    winner.heldout_before = proof.before;
+    winner.heldout_after = proof.after;
     winner.others = screening.named;
     result_.winners.push_back(std::move(winner));
     result_.fit = std::move(next);

@@ -31,4 +31,10 @@ VectorXd whitened_squares(const EffectRecordings& data, const RunResiduals& resi
   return squares;
 }
 
+VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
+                         const TorqueNoiseModel& noise) {
+  point.initial.clear();
+  return whitened_squares(heldout, residuals_of(heldout, point), noise);
+}
+
 }  // namespace dyngen::runtime

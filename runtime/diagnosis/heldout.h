@@ -15,4 +15,9 @@ RunResiduals residuals_of(const EffectRecordings& data, const EffectPoint& point
 Eigen::VectorXd whitened_squares(const EffectRecordings& data, const RunResiduals& residuals,
                                  const TorqueNoiseModel& noise);
 
+/// (n) The same of recordings that were not fitted: initial states of the fitted ones are not
+/// theirs.
+Eigen::VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
+                                const TorqueNoiseModel& noise);
+
 }  // namespace dyngen::runtime

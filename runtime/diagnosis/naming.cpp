@@ -39,11 +39,8 @@ std::vector<std::size_t> rivals_of(const Winner& winner) {
 /// these are more than noise in units of what they are.
 double heldout_gain(const EffectRecordings& heldout, const TorqueNoiseModel& noise,
                     const EffectPoint& winner, const EffectPoint& rival) {
-  const auto squares = [&](EffectPoint point) {
-    point.initial.clear();
-    return whitened_squares(heldout, residuals_of(heldout, point), noise);
-  };
-  const Eigen::VectorXd before = squares(winner), after = squares(rival);
+  const Eigen::VectorXd before = heldout_squares(heldout, winner, noise);
+  const Eigen::VectorXd after = heldout_squares(heldout, rival, noise);
   double gain = 0;
   for (int j = 0; j < heldout.joints(); ++j) {
     double equations = 0;
