@@ -21,13 +21,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kRefined = 12;     // candidates whose shapes are refined in a round
-constexpr double kLeastExplained = 0.5;  // part of a joint's structure that a name must explain
-constexpr std::size_t kAttempts = 4;     // effects that are fitted in a round before it gives up
-constexpr double kTie = 0.5;             // squares that decide nothing
-constexpr std::size_t kRivals = 5;       // that are compared again once the winner is fitted
-constexpr std::size_t kLikely = 3;       // families of a joint whose likelihoods are compared
-constexpr double kHeldoutGain = 2;       // by which held-out squares must fall
+constexpr std::size_t kRefined = 12;      // candidates whose shapes are refined in a round
+constexpr double kLeastExplained = 0.5;   // part of a joint's structure that a name must explain
+constexpr std::size_t kAttempts = 4;      // effects that are fitted in a round before it gives up
+constexpr double kTie = 0.5;              // squares that decide nothing
+constexpr std::size_t kRivals = 5;        // that are compared again once the winner is fitted
+constexpr std::size_t kLikely = 3;        // families of a joint whose likelihoods are compared
+constexpr double kRuledOutNet = 15;       // squares, net: a form that cannot be is no small thing
+constexpr double kNamelessCaution = 0.1;  // of the false alarms: nothing held out speaks for it
 
 /// One competition's data and what was found so far.
 class Competition {
@@ -111,8 +112,7 @@ class Competition {
   }
 
   [[nodiscard]] double net(const NamedResult& result) const {
-    return result.best.score.squares -
-           price_of(hypotheses_[result.hypothesis], result.best.score.degrees, result_.noise);
+    return net_of(hypotheses_[result.hypothesis], result.best, result_.noise);
   }
 
   [[nodiscard]] std::size_t size_of(std::size_t hypothesis) const {
@@ -125,16 +125,20 @@ class Competition {
   }
 
   /// What generic structure there is on a joint: squares less their expectation under noise.
+  /// Impulses at reversals are asked by themselves.
   [[nodiscard]] double structure_of(const Screening& screening, int joint) const {
     double most = 0;
     for (const GenericResult& generic : screening.generic) {
-      if (structures_[generic.structure].joint != joint) continue;
+      const GenericStructure& structure = structures_[generic.structure];
+      if (structure.joint != joint || structure.at_reversals) continue;
       most = std::max(most, generic.score.squares - generic.score.degrees);
     }
     return most;
   }
 
   bool next_winner(const EvidenceSystem& system, Screening& screening) {
+    doubt_.reset();
+    at_stops_ = false;
     std::vector<std::size_t> order;
     for (const NamedResult& named : screening.named) {
       if (named.seen && named.best.admissible && !already(named.hypothesis)) {
@@ -175,13 +179,37 @@ class Competition {
         structure = std::max(structure, structure_of(screening, joint));
       }
       if (named.best.score.squares < kLeastExplained * structure) continue;
-      if (attempted.contains(place) || stops_.explain(system, screening, hypotheses_[place], named))
-        continue;
+      if (outdone(named, system, screening)) continue;
+      if (attempted.contains(place)) continue;
+      const Stops::Part stops = stops_.part_in(system, screening, hypotheses_[place], named);
+      if (stops == Stops::Part::kAll) continue;
+      at_stops_ = stops == Stops::Part::kBecause;
       const NamedResult best = settled(named, order, attempted, screening);
       attempted.insert(best.hypothesis);
       if (accept(best, screening)) return true;
     }
+    if (doubt_) {
+      at_stops_ = doubt_->at_stops;
+      if (keep(doubt_->named, screening, std::move(doubt_->fit))) return true;
+    }
     return costly && keep_without_name(*costly, system, screening);
+  }
+
+  /// Whether an effect that its file rules out explains far more on the same joint: then the
+  /// structure is something else, of that form.
+  [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,
+                             const Screening& screening) const {
+    const std::vector<int> own = joints_of_hypothesis(named.hypothesis);
+    return std::any_of(
+        screening.named.begin(), screening.named.end(), [&](const NamedResult& other) {
+          if (!other.seen || other.best.admissible) return false;
+          if (net(named) >= kLeastExplained * net(other)) return false;
+          const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
+          const bool meet = std::any_of(joints.begin(), joints.end(), [&](int joint) {
+            return std::find(own.begin(), own.end(), joint) != own.end();
+          });
+          return meet && !stops_.explain(system, screening, hypotheses_[other.hypothesis], other);
+        });
   }
 
   /// An effect that is more than noise and helps on held-out recordings, but has more parameters
@@ -357,35 +385,52 @@ class Competition {
     return fit(all);
   }
 
-  /// Squares of held-out residuals before and after one more effect.
-  struct Proof {
-    double before = 0, after = 0;
-    [[nodiscard]] bool helps() const { return before - after >= kHeldoutGain; }
+  /// An effect that won but for a bound that holds its estimate.
+  struct Doubt {
+    NamedResult named;
+    EffectFit fit;
+    bool at_stops;
   };
-  [[nodiscard]] Proof proof_of(const EffectFit& next) const {
-    return {heldout_squares(heldout_, result_.fit.point, result_.noise).sum(),
-            heldout_squares(heldout_, next.point, result_.noise).sum()};
+
+  [[nodiscard]] HeldoutProof proof_of(const EffectFit& next) const {
+    return heldout_proof(heldout_, result_.fit.point, next.point, result_.noise);
   }
 
   bool accept(const NamedResult& named, const Screening& screening, EffectFit next) {
     // a bound that holds the estimate, a falsifier, or a parameter that the data do not determine
     // speak against the name
     const int own = static_cast<int>(next.point.effects.size()) - 1;
-    const bool doubtful =
-        std::any_of(next.remarks.begin(), next.remarks.end(),
-                    [&](const EffectRemark& remark) { return remark.effect == own; });
-    if (doubtful) return false;
+    bool doubtful = false, only_bounds = true;
+    for (const EffectRemark& remark : next.remarks) {
+      if (!next.objects(remark, own)) continue;
+      doubtful = true;
+      only_bounds = only_bounds && remark.kind == EffectRemark::Kind::kAtBound;
+    }
+    if (doubtful && only_bounds && !doubt_) doubt_ = Doubt{named, std::move(next), at_stops_};
+    return !doubtful && keep(named, screening, std::move(next));
+  }
+
+  /// Keeps an effect that slow equations do not contradict and held-out recordings speak for; an
+  /// event in one of the others only must not contradict them.
+  bool keep(const NamedResult& named, const Screening& screening, EffectFit next) {
     if (result_.noise.from_periods &&
         slow_.contradict(hypotheses_, result_, hypotheses_[named.hypothesis], next.point,
                          system_options())) {
       return false;
     }
-    const Proof proof = proof_of(next);
-    if (!proof.helps()) return false;
+    const HeldoutProof proof = proof_of(next);
+    const bool event = named.best.effect.recording >= 0;
+    const bool beyond_doubt = sure(screening, named.surprise);
+    if (event          ? proof.harms()
+        : beyond_doubt ? proof.contradicts() && !proof.helps()
+                       : !proof.helps()) {
+      return false;
+    }
     Winner winner;
     winner.hypothesis = named.hypothesis;
     winner.trial = named.best;
     winner.surprise = named.surprise;
+    winner.at_stops = at_stops_;
     winner.heldout_before = proof.before;
     winner.heldout_after = proof.after;
     winner.others = screening.named;
@@ -401,7 +446,7 @@ class Competition {
       if (!strongest || generic.surprise > strongest->surprise) strongest = &generic;
     }
     if (!strongest || screening.family_wise(strongest->surprise) > options_.false_alarm) {
-      return false;
+      return next_ruled_out(system, screening);
     }
     const GenericStructure& structure = structures_[strongest->structure];
     const std::vector<int> resting = stops_.resting(system, screening, structure);
@@ -409,25 +454,78 @@ class Competition {
       result_.resting.insert(result_.resting.end(), resting.begin(), resting.end());
       return true;
     }
-    if (is_said(structure.joint)) return false;
+    if (next_ruled_out(system, screening)) return true;
+    if (is_said(structure.joint) || !sure(screening, strongest->surprise)) return false;
     describe(*strongest, system);
     return true;
   }
 
-  void describe(const GenericResult& generic, const EvidenceSystem& system) {
-    const GenericStructure& structure = structures_[generic.structure];
+  /// Whether structure may be said to be there without a name.
+  [[nodiscard]] bool sure(const Screening& screening, double surprise) const {
+    return screening.family_wise(surprise) <= kNamelessCaution * options_.false_alarm;
+  }
+
+  /// The largest surprise of generic structure on the joints of an effect.
+  [[nodiscard]] double structure_surprise(const Screening& screening,
+                                          const NamedResult& named) const {
+    const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
+    double most = 0;
+    for (const GenericResult& generic : screening.generic) {
+      const int joint = structures_[generic.structure].joint;
+      if (std::find(joints.begin(), joints.end(), joint) == joints.end()) continue;
+      most = std::max(most, generic.surprise);
+    }
+    return most;
+  }
+
+  /// The strongest effect that a bound or a falsifier rules out, if it is more than any other
+  /// structure there: it is of that form.
+  bool next_ruled_out(const EvidenceSystem& system, const Screening& screening) {
+    const NamedResult* strongest = nullptr;
+    for (const NamedResult& named : screening.named) {
+      if (!named.seen || named.best.admissible || net(named) < kRuledOutNet) continue;
+      if (!sure(screening, named.surprise)) continue;
+      const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
+      if (std::any_of(joints.begin(), joints.end(), [&](int joint) { return is_said(joint); })) {
+        continue;
+      }
+      if (strongest && net(named) <= net(*strongest)) continue;
+      if (stops_.explain(system, screening, hypotheses_[named.hypothesis], named)) continue;
+      strongest = &named;
+    }
+    if (!strongest || strongest->surprise < structure_surprise(screening, *strongest)) return false;
     Nameless nameless;
-    nameless.structure = structure;
+    nameless.structure.joint = joints_of_hypothesis(strongest->hypothesis).front();
+    nameless.score = strongest->best.score;
+    nameless.surprise = strongest->surprise;
+    nameless.ruled_out = strongest->best.effect;
+    nameless.objection = strongest->best.objection;
+    add(std::move(nameless), system);
+    return true;
+  }
+
+  void describe(const GenericResult& generic, const EvidenceSystem& system) {
+    Nameless nameless;
+    nameless.structure = structures_[generic.structure];
+    nameless.structure.frequency = generic.frequency;
     nameless.score = generic.score;
     nameless.surprise = generic.surprise;
-    const JointColumns plain = generic_columns(train_, signals_, structure);
+    add(std::move(nameless), system);
+  }
+
+  void add(Nameless nameless, const EvidenceSystem& system) {
+    const GenericStructure& structure = nameless.structure;
+    const JointColumns plain = nameless_columns(train_, signals_, nameless);
     const JointColumns white = system.whitened(plain);
-    const VectorXd explained = system.left_of(white, structure.joint) * nameless.score.coefficients;
-    // whitened squares are squares over the innovation's variance
-    const AutoregressiveNoise& noise =
-        result_.noise.joints[static_cast<std::size_t>(structure.joint)];
-    nameless.rms = noise.deviation *
-                   std::sqrt(explained.squaredNorm() / static_cast<double>(explained.size()));
+    nameless.score = score_of(system.products(white, false), false);
+    const auto own = std::find(plain.joints.begin(), plain.joints.end(), structure.joint);
+    const auto place = static_cast<std::size_t>(own - plain.joints.begin());
+    const VectorXd& size = nameless.score.coefficients;
+    const double left = (system.left_of(white, structure.joint) * size).squaredNorm();
+    const double whole = (white.parts[place] * size).squaredNorm();
+    nameless.rms =
+        std::sqrt((plain.parts[place] * size).squaredNorm() /
+                  static_cast<double>(plain.parts[place].rows()) * (whole > 0 ? left / whole : 0));
     result_.nameless.push_back(std::move(nameless));
   }
 
@@ -464,6 +562,8 @@ class Competition {
   std::vector<double> repeats_;
   std::map<std::size_t, Likely> likely_;  // by hypothesis; of this round or an earlier one
   SlowEquations slow_;
+  std::optional<Doubt> doubt_;  // of this round
+  bool at_stops_ = false;       // of the effect that is fitted
   CompetitionResult result_;
   Stops stops_;
 };

@@ -1,16 +1,65 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/competition_result.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "runtime/diagnosis/heldout.h"
 
 namespace dyngen::runtime {
 
+std::vector<std::string> Nameless::names() const {
+  if (!ruled_out) return structure.names();
+  constexpr std::array<std::pair<const char*, const char*>, 5> kShown = {
+      {{"q", "q"}, {"qd", "qd"}, {"qdd", "qdd"}, {"tau_load", "tau_load"}, {"sign_qd", "qd"}}};
+  std::vector<std::string> names;
+  for (const std::string& variable : ruled_out->law.variables) {
+    for (const auto& [read, shown] : kShown) {
+      if (variable != read) continue;
+      const std::string name = fmt::format("{}{}", shown, structure.joint + 1);
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    if (variable == "t") names.emplace_back("t");
+  }
+  if (names.empty()) names.push_back(fmt::format("q{}", structure.joint + 1));
+  return names;
+}
+
+JointColumns nameless_columns(const EffectRecordings& data, EffectSignals& signals,
+                              const Nameless& nameless) {
+  if (!nameless.ruled_out) return generic_columns(data, signals, nameless.structure);
+  std::vector<int> wanted;
+  const EffectLaw& law = nameless.ruled_out->law;
+  for (int p = 0; p < law.size(); ++p) {
+    if (law.parameters[static_cast<std::size_t>(p)].role == EffectRole::kLinear) {
+      wanted.push_back(1 + p);
+    }
+  }
+  if (wanted.empty()) wanted.push_back(0);
+  return effect_columns(data, signals, *nameless.ruled_out, wanted);
+}
+
 double price_of(const Hypothesis& hypothesis, int degrees, const TorqueNoiseModel& noise) {
   const double parameters = degrees + static_cast<double>(hypothesis.shapes.size());
   return parameters * std::log(std::max(noise.worth.sum(), 2.0));
+}
+
+double net_of(const Hypothesis& hypothesis, const TrialScore& trial,
+              const TorqueNoiseModel& noise) {
+  double best = trial.score.squares - price_of(hypothesis, trial.score.degrees, noise);
+  double choices = 1;  // ways to take m of all linear parameters
+  const auto all = static_cast<double>(trial.few.size());
+  for (std::size_t m = 1; m < trial.few.size(); ++m) {
+    const auto taken = static_cast<double>(m);
+    choices *= (all - taken + 1) / taken;
+    const double price = price_of(hypothesis, static_cast<int>(m), noise) + 2 * std::log(choices);
+    best = std::max(best, trial.few[m - 1] - price);
+  }
+  return best;
 }
 
 EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
@@ -38,12 +87,14 @@ EffectPoint without(EffectPoint point, std::size_t place) {
 }
 
 void add_nameless(const EffectRecordings& data, EffectSignals& signals,
-                  const CompetitionResult& result, EvidenceSystem& system) {
+                  const CompetitionResult& result, EvidenceSystem& system,
+                  const std::vector<int>& but_for) {
   for (const int joint : result.resting) {
+    if (std::find(but_for.begin(), but_for.end(), joint) != but_for.end()) continue;
     system.leave_out(system.whitened(generic_columns(data, signals, impulses_at_reversals(joint))));
   }
   for (const Nameless& nameless : result.nameless) {
-    system.add(system.whitened(generic_columns(data, signals, nameless.structure)));
+    system.add(system.whitened(nameless_columns(data, signals, nameless)));
   }
 }
 
@@ -57,7 +108,9 @@ EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signa
   }
   EvidenceSystem system =
       system_at(data, signals, without(result.fit.point, winner), beside, result.noise, options);
-  add_nameless(data, signals, result, system);
+  const Winner& own = result.winners[winner];
+  const std::vector<int> joints = joints_of(hypotheses[own.hypothesis].effect, data.joints());
+  add_nameless(data, signals, result, system, own.at_stops ? joints : std::vector<int>{});
   return system;
 }
 

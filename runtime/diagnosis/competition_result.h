@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,10 @@ struct Winner {
   std::size_t hypothesis = 0;  ///< its place
   TrialScore trial;            ///< beside the model of its round
   double surprise = 0;         ///< in its round
-  double heldout_before = 0;   ///< whitened squares of held-out residuals of its joints
+  /// It makes the impulses at the stops of its joints (Stops::Part::kBecause): judged beside what
+  /// is left of those it would not be seen.
+  bool at_stops = false;
+  double heldout_before = 0;  ///< whitened squares of held-out residuals of its joints
   double heldout_after = 0;
   std::vector<NamedResult> others;  ///< its round's results, its own among them
 };
@@ -28,7 +32,17 @@ struct Nameless {
   double rms = 0;  ///< N m or N, of what the columns explain of the joint's equations
   /// An effect that explains it, for more parameters than the data pay for; or empty.
   std::string costly;
+  /// An effect whose columns these are, but which a bound or a falsifier rules out as their name.
+  std::optional<EffectInstance> ruled_out;
+  std::string objection;  ///< "f >= 3 does not hold"
+
+  /// Variables that it goes with, joints from 1.
+  [[nodiscard]] std::vector<std::string> names() const;
 };
+
+/// Columns of nameless structure, behind the parallel filter.
+JointColumns nameless_columns(const EffectRecordings& data, EffectSignals& signals,
+                              const Nameless& nameless);
 
 /// How a competition ended.
 struct CompetitionResult {
@@ -52,8 +66,10 @@ EffectPoint without(EffectPoint point, std::size_t place);
 
 /// What was found and has no name becomes part of a model: structures, and impulses of joints that
 /// rest.
+/// @param but_for  joints whose impulses stay
 void add_nameless(const EffectRecordings& data, EffectSignals& signals,
-                  const CompetitionResult& result, EvidenceSystem& system);
+                  const CompetitionResult& result, EvidenceSystem& system,
+                  const std::vector<int>& but_for = {});
 
 /// The model with all that was found but one winner.
 EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signals,
@@ -64,5 +80,9 @@ EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signa
 /// What a score costs in the currency of squares: its parameters, at the information that the
 /// equations hold (Schwarz 1978 with the number of independent samples).
 double price_of(const Hypothesis& hypothesis, int degrees, const TorqueNoiseModel& noise);
+
+/// Squares less their price. Of the linear parameters those are paid that are worth it, and for
+/// which of them they are (Chen and Chen 2008): a load needs no tensor of inertia to be seen.
+double net_of(const Hypothesis& hypothesis, const TrialScore& trial, const TorqueNoiseModel& noise);
 
 }  // namespace dyngen::runtime

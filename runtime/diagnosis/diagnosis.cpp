@@ -40,9 +40,9 @@ constexpr double kObjection =
 constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
 
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
-                              const DiagnosisOptions& options, double part_of_band = 1) {
-  RowOptions rows = diagnosis_rows(options.decimation);
+                              RowOptions rows, double part_of_band = 1) {
   rows.band *= part_of_band;
+  rows.row_time /= part_of_band;
   const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
   EffectRecordings data = effect_recordings(input.model, input.robot, sources, rows, all);
   VectorXd still = VectorXd::Zero(data.joints());
@@ -62,6 +62,11 @@ std::vector<ConditionLine> conditions_of(const DiagnosisInput& input) {
 }
 
 std::string where_it_acts(const EffectInstance& effect) {
+  if (effect.recording >= 0) {
+    EffectInstance anywhere = effect;
+    anywhere.recording = -1;
+    return fmt::format("{} in recording {}", where_it_acts(anywhere), effect.recording + 1);
+  }
   if (effect.joint < 0) return "the whole robot";
   if (effect.other >= 0) {
     return fmt::format("joints {} and {}", effect.joint + 1, effect.other + 1);
@@ -78,9 +83,12 @@ class Diagnostician {
         options_(options),
         progress_(progress),
         parts_(input.heldout.empty() ? divided(input.train) : Division{input.train, input.heldout}),
-        train_(thinned(equations_of(input, parts_.train, options), kLongestSample)),
-        slow_(thinned(equations_of(input, parts_.train, options, kSlow), kLongestSample)),
-        heldout_(equations_of(input, parts_.heldout, options)) {}
+        rows_(diagnosis_rows(parts_.train, options.decimation)),
+        train_(thinned(equations_of(input, parts_.train, rows_), kLongestSample)),
+        slow_(thinned(equations_of(input, parts_.train, rows_, kSlow), kLongestSample)),
+        heldout_(equations_of(input, parts_.heldout, rows_)) {
+    for (EffectRun& run : heldout_.runs) run.recording = -1;
+  }
 
   Diagnosis run() {
     answer_.condition = conditions_of(input_);
@@ -218,8 +226,9 @@ class Diagnostician {
     finding.evidence.heldout_gain =
         1 - std::sqrt(winner.heldout_after / std::max(winner.heldout_before, 1e-300));
     for (const EffectRemark& remark : answer_.fit.remarks) {
-      if (remark.effect != static_cast<int>(place)) continue;
+      if (!answer_.fit.objects(remark, static_cast<int>(place))) continue;
       finding.probability = std::min(finding.probability, kObjection);
+      finding.doubted = true;
       finding.tests.push_back(
           {remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound", false,
            remark.text, true});
@@ -244,7 +253,7 @@ class Diagnostician {
   void describe_changes() {
     if (input_.reference.empty()) return;
     tell("changes since the reference", 0);
-    const EffectRecordings reference = equations_of(input_, input_.reference, options_);
+    const EffectRecordings reference = equations_of(input_, input_.reference, rows_);
     for (Finding& change :
          changes_since(reference, train_, hypotheses_, result_, options_.false_alarm)) {
       answer_.findings.push_back(std::move(change));
@@ -255,18 +264,37 @@ class Diagnostician {
     for (const Nameless& nameless : result_.nameless) {
       Unexplained unexplained;
       unexplained.joint = nameless.structure.joint;
-      unexplained.variables = nameless.structure.names();
+      unexplained.variables = nameless.names();
       unexplained.rms = nameless.rms;
       unexplained.description = fmt::format(
           "torque of joint {} that goes with {}, rms {:.3g}, {}", unexplained.joint + 1,
-          fmt::join(unexplained.variables, " and "), unexplained.rms,
-          nameless.costly.empty()
-              ? "in a shape that no effect of the catalogue has"
-              : fmt::format("more than noise; {} would explain it, with more parameters than these "
-                            "data pay for",
-                            nameless.costly));
+          fmt::join(unexplained.variables, " and "), unexplained.rms, shape_of(nameless));
       answer_.unexplained.push_back(std::move(unexplained));
     }
+  }
+
+  [[nodiscard]] static std::string shape_of(const Nameless& nameless) {
+    if (!nameless.costly.empty()) {
+      return fmt::format(
+          "more than noise; {} would explain it, with more parameters than these data pay for",
+          nameless.costly);
+    }
+    if (nameless.ruled_out) {
+      std::string numbers;
+      const EffectInstance& effect = *nameless.ruled_out;
+      for (int p = 0; p < effect.law.size(); ++p) {
+        numbers += fmt::format("{}{} {:.3g}", numbers.empty() ? "" : ", ",
+                               effect.law.parameters[static_cast<std::size_t>(p)].name,
+                               effect.parameters[p]);
+      }
+      return fmt::format("of the form of {} ({}), which cannot be its name: {}", short_name(effect),
+                         numbers, nameless.objection);
+    }
+    if (nameless.structure.line) {
+      return fmt::format("a sinusoid of {:.3g} Hz that the motion does not cause",
+                         nameless.structure.frequency);
+    }
+    return "in a shape that no effect of the catalogue has";
   }
 
   void describe_certificate() {
@@ -329,12 +357,20 @@ class Diagnostician {
     const bool open = std::any_of(
         result_.nameless.begin(), result_.nameless.end(),
         [&](const Nameless& nameless) { return nameless_part(nameless) > kUnexplainedPart; });
+    const bool doubted = std::any_of(
+        answer_.findings.begin(), answer_.findings.end(),
+        [](const Finding& finding) { return !finding.since_reference && finding.doubted; });
     if (open) {
       answer_.verdict = Verdict::kUnexplainedStructure;
       answer_.sentence = answer_.findings.empty()
                              ? "There is structure that no effect of the catalogue explains."
                              : "Effects were found, and there is structure beside them that none "
                                "explains.";
+    } else if (doubted) {
+      answer_.verdict = Verdict::kUnexplainedStructure;
+      answer_.sentence =
+          "There is structure beside the model; the effect that is nearest to it has a condition "
+          "against it.";
     } else if (!answer_.findings.empty()) {
       answer_.verdict = Verdict::kExplained;
       answer_.sentence = fmt::format(
@@ -350,6 +386,7 @@ class Diagnostician {
   const DiagnosisOptions& options_;
   const DiagnosisProgress& progress_;
   Division parts_;
+  RowOptions rows_;
   EffectRecordings train_, slow_, heldout_;
   std::vector<Hypothesis> hypotheses_;
   CompetitionResult result_;
@@ -369,12 +406,16 @@ void DiagnosisOptions::validate() const {
   }
 }
 
-RowOptions diagnosis_rows(Index decimation) {
+RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Index decimation) {
   RowOptions rows;
   rows.decimation = decimation;
   rows.band = kBand;
   rows.multiple = kThinnedSamples;
   rows.pass = kPass;
+  std::vector<double> times;
+  for (const MotionSource& source : train) times.push_back(plan_rows(source, rows).row_time);
+  std::sort(times.begin(), times.end());
+  if (!times.empty()) rows.row_time = times[times.size() / 2];
   return rows;
 }
 

@@ -38,9 +38,12 @@ struct DiagnosisOptions {
   void validate() const;
 };
 
-/// Which equations a diagnosis makes of a recording: up to a part of the cut-off, above which the
-/// joint state that they are computed from is damped. @param decimation  as in DiagnosisOptions
-RowOptions diagnosis_rows(Eigen::Index decimation);
+/// Which equations a diagnosis makes of recordings: up to a part of the cut-off, above which the
+/// joint state that they are computed from is damped. Noise has one model for all: recordings that
+/// would have more equations a second than the median of those that the model is fitted to have as
+/// many as that one.
+/// @param train  recordings that the model is fitted to  @param decimation  as in DiagnosisOptions
+RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Eigen::Index decimation);
 
 /// Told the stage's name and how far it is, 0 .. 1.
 using DiagnosisProgress = std::function<void(const std::string& stage, double done)>;

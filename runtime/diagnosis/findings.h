@@ -52,7 +52,8 @@ struct Finding {
   /// A change since the reference recordings: part of the model's own parameters, no row of
   /// effects.
   bool since_reference = false;
-  double absorbed = 0;  ///< part of its squares that a refit of the model takes up
+  bool doubted = false;  ///< a bound holds the estimate, or a falsifier speaks against the name
+  double absorbed = 0;   ///< part of its squares that a refit of the model takes up
   Whereabouts where;
   Evidence evidence;
   std::vector<FalsifierOutcome> tests;

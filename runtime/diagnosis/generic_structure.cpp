@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace dyngen::runtime {
 namespace {
@@ -15,6 +16,7 @@ using Eigen::VectorXd;
 using Kind = StructureVariable::Kind;
 
 constexpr int kAlone = 9, kInPairs = 5;  // knots of one variable, and of each of two
+constexpr int kOfSpeeds = 3;             // of each of two velocities: rest, and fast both ways
 
 EffectInstance of_joint(int joint) {
   EffectInstance effect;
@@ -95,6 +97,7 @@ std::string variable_name(const StructureVariable& variable) {
 }
 
 std::vector<std::string> GenericStructure::names() const {
+  if (line) return {"t"};
   if (at_reversals) return {variable_name({Kind::kDistance, joint})};
   std::vector<std::string> names;
   for (const StructureVariable& variable : variables) names.push_back(variable_name(variable));
@@ -119,6 +122,7 @@ std::vector<GenericStructure> generic_structures(int joints) {
     }
     structures.push_back({j, {{Kind::kTime, -1}}, true});
     structures.push_back(impulses_at_reversals(j));
+    structures.push_back({j, {}, false, false, true});
     for (int k = 0; k < joints; ++k) {
       if (k == j) continue;
       for (const Kind kind : {Kind::kPosition, Kind::kVelocity, Kind::kAcceleration}) {
@@ -130,6 +134,7 @@ std::vector<GenericStructure> generic_structures(int joints) {
       structures.push_back({j, {{Kind::kVelocity, j}, {Kind::kPosition, k}}, false});
       for (int m = k + 1; m < joints; ++m) {
         structures.push_back({j, {{Kind::kPosition, k}, {Kind::kPosition, m}}, false});
+        structures.push_back({j, {{Kind::kVelocity, k}, {Kind::kVelocity, m}}, false});
       }
     }
   }
@@ -232,12 +237,32 @@ JointColumns impulse_columns(const EffectRecordings& data, int joint) {
   return columns;
 }
 
+/// Cosine and sine of each run.
+JointColumns line_columns(const EffectRecordings& data, const GenericStructure& structure) {
+  const double w = 2 * std::numbers::pi * structure.frequency;
+  MatrixXd part = MatrixXd::Zero(data.equations(), 2 * static_cast<Index>(data.runs.size()));
+  Index start = 0, column = 0;
+  for (const EffectRun& run : data.runs) {
+    MatrixXd both(run.time.size(), 2);
+    both << (w * run.time.array()).cos().matrix(), (w * run.time.array()).sin().matrix();
+    part.block(start, column, run.rows.Y.rows(), 2) =
+        run.rows.counted.col(structure.joint).asDiagonal() * decimate(run.decimator, both);
+    start += run.rows.Y.rows();
+    column += 2;
+  }
+  return {{structure.joint}, {std::move(part)}};
+}
+
 }  // namespace
 
 JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
                              const GenericStructure& structure) {
   if (structure.at_reversals) return impulse_columns(data, structure.joint);
-  const int knots = structure.variables.size() > 1 ? kInPairs : kAlone;
+  if (structure.line) return line_columns(data, structure);
+  const bool speeds = std::all_of(
+      structure.variables.begin(), structure.variables.end(),
+      [](const StructureVariable& variable) { return variable.kind == Kind::kVelocity; });
+  const int knots = structure.variables.size() == 1 ? kAlone : speeds ? kOfSpeeds : kInPairs;
   std::vector<std::vector<VectorXd>> values;
   std::vector<std::vector<double>> places;
   for (const StructureVariable& variable : structure.variables) {

@@ -31,19 +31,23 @@ std::string variable_name(const StructureVariable& variable);
 /// Torque of a joint as any smooth function of one or two variables: piecewise linear between
 /// quantiles of the recordings, for two variables the products of coarser ones. Or impulses of
 /// their own wherever the joint turns or stops: for that instant it is held by friction of any size
-/// up to its own, which no function of the motion is.
+/// up to its own, which no function of the motion is. Or a sinusoid that goes on by itself, in
+/// every run with a phase of its own.
 struct GenericStructure {
   int joint = 0;  ///< coordinate, from 0
   std::vector<StructureVariable> variables;
   bool times_sign = false;    ///< times the sign of the joint's velocity
   bool at_reversals = false;  ///< impulses; no variables
+  bool line = false;          ///< a sinusoid of its own frequency; no variables
+  double frequency = 0;       ///< Hz, of the sinusoid once it is known
 
   [[nodiscard]] std::vector<std::string> names() const;
 };
 
 /// Those that are looked at for every joint: its own position, velocity, acceleration, load, time
 /// and distance since reversal, position, velocity and acceleration of the others, friction that
-/// depends on these, pairs of positions and of a velocity with a position, impulses at reversals.
+/// depends on these, pairs of positions, of velocities and of a velocity with a position, impulses
+/// at reversals, and a sinusoid.
 std::vector<GenericStructure> generic_structures(int joints);
 
 /// Impulses at each reversal of a joint.

@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/heldout.h"
 
+#include <cmath>
+
 #include "runtime/estimation/whitener.h"
 
 namespace dyngen::runtime {
+namespace {
+
+constexpr double kGain = 2;          // by which squares must fall
+constexpr double kDeviations = 2.3;  // from what an effect would have done: 1 % of those there are
+constexpr double kRefit = 10;        // by which squares may rise as the model's estimate changes
+
+}  // namespace
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -35,6 +44,26 @@ VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
                          const TorqueNoiseModel& noise) {
   point.initial.clear();
   return whitened_squares(heldout, residuals_of(heldout, point), noise);
+}
+
+bool HeldoutProof::helps() const { return before - after >= kGain; }
+
+bool HeldoutProof::contradicts() const {
+  return before - after < change - kDeviations * 2 * std::sqrt(change);
+}
+
+bool HeldoutProof::harms() const { return after - before >= kRefit; }
+
+HeldoutProof heldout_proof(const EffectRecordings& heldout, EffectPoint before, EffectPoint after,
+                           const TorqueNoiseModel& noise) {
+  before.initial.clear();
+  after.initial.clear();
+  const RunResiduals first = residuals_of(heldout, before), second = residuals_of(heldout, after);
+  RunResiduals change = first;
+  for (std::size_t run = 0; run < change.size(); ++run) change[run] -= second[run];
+  return {whitened_squares(heldout, first, noise).sum(),
+          whitened_squares(heldout, second, noise).sum(),
+          whitened_squares(heldout, change, noise).sum()};
 }
 
 }  // namespace dyngen::runtime

@@ -20,4 +20,18 @@ Eigen::VectorXd whitened_squares(const EffectRecordings& data, const RunResidual
 Eigen::VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
                                 const TorqueNoiseModel& noise);
 
+/// What held-out recordings say of one more effect: whitened squares of their residuals.
+struct HeldoutProof {
+  double before = 0, after = 0;
+  double change = 0;  ///< squares of the change: what an effect that is there takes away, +-
+                      ///< 2 sqrt(change); one that is not adds as much
+  [[nodiscard]] bool helps() const;
+  /// They would hardly be like this if the effect were there.
+  [[nodiscard]] bool contradicts() const;
+  /// They are worse by more than a refit's noise, where the effect does not act in them.
+  [[nodiscard]] bool harms() const;
+};
+HeldoutProof heldout_proof(const EffectRecordings& heldout, EffectPoint before, EffectPoint after,
+                           const TorqueNoiseModel& noise);
+
 }  // namespace dyngen::runtime

@@ -43,6 +43,10 @@ VectorXd null_values(const JointColumns& plain, const Hypothesis& hypothesis,
   return nothing;
 }
 
+bool reads(const EffectLaw& law, const char* variable) {
+  return std::find(law.variables.begin(), law.variables.end(), variable) != law.variables.end();
+}
+
 /// Parameters of a trial, and whether they are admissible.
 /// @param nothing  linear parameters at which there is no effect
 TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score score,
@@ -76,6 +80,7 @@ TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score s
   }
   result.effect = std::move(trial);
   result.score = std::move(score);
+  result.few = squares_of_few(products);
   return result;
 }
 
@@ -91,6 +96,9 @@ Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scale
     double& value = hypothesis.effect.parameters[p];
     const bool known = !std::isnan(value);
     if (!known) value = sizes.typical[p];
+    // a number of poles, slots or teeth: what repeats within a turn of the motor
+    hypothesis.fast = hypothesis.fast || (parameter.role == EffectRole::kGiven &&
+                                          parameter.unit == "1" && reads(effect.law, "q"));
     if (parameter.role == EffectRole::kLinear) {
       hypothesis.linear.push_back(p);
     } else if (parameter.role == EffectRole::kShape ||
@@ -101,6 +109,7 @@ Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scale
       times = times && parameter.role == EffectRole::kScanned && parameter.unit == "s";
     }
   }
+  hypothesis.fast = hypothesis.fast || hypothesis.ordered || !effect.law.states.empty();
   hypothesis.held = !hypothesis.linear.empty();
   if (hypothesis.linear.empty()) std::swap(hypothesis.linear, hypothesis.shapes);
   hypothesis.windowed = times && !hypothesis.shapes.empty();

@@ -18,6 +18,7 @@ struct Hypothesis {
   std::vector<int> shapes;  ///< places of what is tried: shapes and scanned parameters
   bool held = true;         ///< no state depends on the linear parameters
   bool windowed = false;    ///< what is scanned is when it begins and ends
+  bool fast = false;        ///< may turn between two equations: needs all samples of the motion
   bool ordered = false;     ///< what is scanned is how often it repeats in a turn of the joint
 };
 
@@ -40,6 +41,7 @@ struct TrialScore {
   std::string objection;      ///< which does not
   Eigen::VectorXd typical;    ///< (linear) sizes less those at which there is no effect
   double typical_lambda = 0;  ///< noncentrality of the typical size
+  std::vector<double> few;    ///< squares_of_few() of the linear parameters
 };
 
 /// Whitened columns of the linear parameters at given shapes.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +19,7 @@ constexpr double kStrongEnough = 0.3;  // of the winner's squares in its round
 /// Misfit of the noise model and of linearisation makes differences of squares wider than theory
 /// has it: the odds are those of squares this much smaller.
 constexpr double kCaution = 2;
+constexpr double kTie = 0.5;  // squares that decide nothing
 
 /// Places of the strongest rivals of a winner in its round, itself first.
 std::vector<std::size_t> rivals_of(const Winner& winner) {
@@ -33,6 +35,39 @@ std::vector<std::size_t> rivals_of(const Winner& winner) {
   if (places.size() > kRivals) places.resize(kRivals);
   places.insert(places.begin(), winner.hypothesis);
   return places;
+}
+
+/// Columns of two sets side by side; those of joints that one of them lacks are 0.
+JointColumns beside(const JointColumns& a, const JointColumns& b) {
+  std::set<int> joints(a.joints.begin(), a.joints.end());
+  joints.insert(b.joints.begin(), b.joints.end());
+  JointColumns both;
+  for (const int joint : joints) {
+    Eigen::MatrixXd part = Eigen::MatrixXd::Zero((a.parts.empty() ? b : a).parts.front().rows(),
+                                                 a.columns() + b.columns());
+    for (std::size_t i = 0; i < a.joints.size(); ++i) {
+      if (a.joints[i] == joint) part.leftCols(a.columns()) = a.parts[i];
+    }
+    for (std::size_t i = 0; i < b.joints.size(); ++i) {
+      if (b.joints[i] == joint) part.rightCols(b.columns()) = b.parts[i];
+    }
+    both.joints.push_back(joint);
+    both.parts.push_back(std::move(part));
+  }
+  return both;
+}
+
+/// Squares of a torque that a rival's columns cannot imitate beside the model: lambda (1 - c^2).
+/// @param torque  one whitened column
+double not_imitated(const EvidenceSystem& system, const JointColumns& torque,
+                    const JointColumns& rival) {
+  const Products products = system.products(beside(torque, rival), false);
+  const Eigen::Index k = rival.columns();
+  Products as_rest;
+  as_rest.whole = products.whole.bottomRightCorner(k, k);
+  as_rest.left = products.left.bottomRightCorner(k, k);
+  as_rest.rest = products.left.bottomLeftCorner(k, 1);
+  return std::max(0.0, products.left(0, 0) - score_of(as_rest, false).squares);
 }
 
 /// What held-out recordings say for a rival against a winner: squares of their residuals, where
@@ -59,7 +94,7 @@ std::optional<EffectFit> with_rival(const EffectRecordings& train, const Competi
   try {
     EffectFit fit = fit_effects(train, effects);
     for (const EffectRemark& remark : fit.remarks) {
-      if (remark.effect == static_cast<int>(place)) return std::nullopt;
+      if (fit.objects(remark, static_cast<int>(place))) return std::nullopt;
     }
     return fit;
   } catch (const std::invalid_argument&) {
@@ -75,8 +110,11 @@ void conclude(Naming& naming) {
   naming.families.resize(1);
   double rest = 0;
   for (const Rival& rival : naming.rivals) {
-    rest += std::exp(-std::clamp(rival.distance, -200.0, 200.0) / (2 * kCaution));
-    if (rival.distance < kApart) naming.families.push_back(rival.family);
+    const double distance = std::min(rival.distance, rival.apart);
+    rest += std::exp(-std::clamp(distance, -200.0, 200.0) / (2 * kCaution));
+    if (rival.distance < kApart || rival.apart < kSeparable) {
+      naming.families.push_back(rival.family);
+    }
   }
   naming.probability = 1 / (1 + rest);
 }
@@ -91,6 +129,8 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   const std::string& family = hypotheses[own.hypothesis].effect.law.family;
   naming.families = {family};
   double best = 0;
+  const JointColumns torque =
+      system.whitened(effect_columns(data, signals, result.fit.point.effects[winner], {0}));
   std::map<std::string, Rival> best_of;  // of each other family; distance: its squares, net
   for (const std::size_t rival : rivals_of(own)) {
     const Hypothesis& hypothesis = hypotheses[rival];
@@ -106,8 +146,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
     } catch (const std::invalid_argument&) {
       continue;
     }
-    const double net =
-        trial.score.squares - price_of(hypothesis, trial.score.degrees, result.noise);
+    const double net = net_of(hypothesis, trial, result.noise);
     if (rival == own.hypothesis) {
       best = net;
       naming.lambda = std::max(0.0, trial.score.squares - trial.score.degrees);
@@ -116,7 +155,13 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
     } else if (trial.admissible && hypothesis.effect.law.family != family) {
       const auto [entry, added] = best_of.try_emplace(hypothesis.effect.law.family);
       if (!added && net <= entry->second.distance) continue;
-      entry->second = {hypothesis.effect.law.family, short_name(hypothesis.effect), net, rival,
+      const double apart = not_imitated(
+          system, torque, hypothesis_columns(data, signals, system, hypothesis, trial.effect));
+      entry->second = {hypothesis.effect.law.family,
+                       short_name(hypothesis.effect),
+                       net,
+                       apart,
+                       rival,
                        std::move(trial)};
     }
   }
@@ -143,11 +188,12 @@ void settle(const EffectRecordings& train, const EffectRecordings& heldout, Effe
   }
   const double gain = heldout_gain(heldout, result.noise, result.fit.point, other->point);
   nearest.distance -= gain;
-  if (nearest.distance >= 0) return;
+  if (nearest.distance > -kTie) return;
   Winner& own = result.winners[winner];
   const std::string family = hypotheses[own.hypothesis].effect.law.family;
   own.hypothesis = nearest.hypothesis;
-  own.trial = nearest.trial;
+  own.trial = own.others[nearest.hypothesis].best;  // squares beside those of its round
+  own.trial.effect = nearest.trial.effect;
   result.fit = *other;
   naming = name_winner(train, signals, hypotheses, result, winner, options);
   for (Rival& rival : naming.rivals) {

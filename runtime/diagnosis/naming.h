@@ -12,6 +12,7 @@ namespace dyngen::runtime {
 struct Rival {
   std::string family, name;
   double distance = 0;  ///< by which it is worse, in squares net of prices
+  double apart = 0;     ///< squares of the winner that it cannot imitate: what is to be expected
   std::size_t hypothesis = 0;
   TrialScore trial;
 };
@@ -27,10 +28,11 @@ struct Naming {
 };
 
 /// Winners are compared with all that was strong in their round, each beside the model with all
-/// other winners. A family joins the set if its best effect is worse by fewer than kApart squares:
-/// for two effects of noncentrality lambda and likeness c the difference has the mean
-/// lambda (1 - c^2) and four times that for its variance.
+/// other winners. For two effects of noncentrality lambda and likeness c the difference of squares
+/// has the mean lambda (1 - c^2) and four times that for its variance. A family joins the set if
+/// its best effect is worse by fewer than kApart squares, or if that mean is below kSeparable.
 inline constexpr double kApart = 9;
+inline constexpr double kSeparable = 20;
 
 /// Families and probability are those of the distances: to be called again once those change.
 void conclude(Naming& naming);

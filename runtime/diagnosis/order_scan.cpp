@@ -60,6 +60,22 @@ class Turning {
   Eigen::ArrayXd c_, s_, turn_c_, turn_s_;
 };
 
+/// Orders at which squares have their largest peaks.
+std::vector<double> peaks_of(const std::vector<double>& squares, double first, double step) {
+  std::vector<std::pair<double, double>> found;  // squares, order
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    const bool peak = (i == 0 || squares[i] >= squares[i - 1]) &&
+                      (i + 1 == squares.size() || squares[i] > squares[i + 1]);
+    if (peak) found.emplace_back(squares[i], first + static_cast<double>(i) * step);
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<double> orders;
+  for (const auto& [value, order] : found) {
+    if (orders.size() < kPeaks) orders.push_back(order);
+  }
+  return orders;
+}
+
 }  // namespace
 
 OrderScan scan_orders(const EffectRecordings& data, const EvidenceSystem& system, int joint,
@@ -74,45 +90,43 @@ OrderScan scan_orders(const EffectRecordings& data, const EvidenceSystem& system
   const double first = std::max(1.0, 4 * std::numbers::pi / range);
   scan.highest = std::min(kMost, rate / extent.speed);
   std::vector<Turning> runs;
+  std::vector<VectorXd> squared_speeds;
   for (const EffectRun& run : data.runs) {
+    squared_speeds.push_back(run.motion.dq.col(joint).cwiseAbs2());
     // about the middle, where the phase of neighbouring orders is the same
     const double middle = 0.5 * (extent.lowest + extent.highest);
     runs.emplace_back(run.motion.q.col(joint).array() - middle, first, step);
   }
-  std::vector<std::pair<double, double>> found;  // squares, order
-  std::vector<double> squares;
+  std::vector<double> squares, error_squares;
   constexpr Index kBatch = 24;  // orders that are looked at together
   for (double n = first; n <= scan.highest;) {
-    MatrixXd part(data.equations(), 2 * kBatch);
+    MatrixXd part(data.equations(), 4 * kBatch);
     Index batch = 0;
     for (; batch < kBatch && n <= scan.highest; ++batch, n += step) {
       Index start = 0;
       for (std::size_t run = 0; run < runs.size(); ++run) {
         const RowBlock& rows = data.runs[run].rows;
-        part.block(start, 2 * batch, rows.Y.rows(), 2) =
-            rows.counted.col(joint).asDiagonal() *
-            decimate(data.runs[run].decimator, runs[run].now());
+        MatrixXd both(squared_speeds[run].size(), 4);
+        both.leftCols(2) = runs[run].now();
+        both.rightCols(2) = squared_speeds[run].asDiagonal() * both.leftCols(2);
+        part.block(start, 4 * batch, rows.Y.rows(), 4) =
+            rows.counted.col(joint).asDiagonal() * decimate(data.runs[run].decimator, both);
         start += rows.Y.rows();
         runs[run].next();
       }
     }
-    const JointColumns columns{{joint}, {part.leftCols(2 * batch)}};
+    const JointColumns columns{{joint}, {part.leftCols(4 * batch)}};
+    bool error = false;  // torque and that of an error by turns
     for (const Products& products :
          system.products_of_groups(system.whitened(columns), 2, surrogates)) {
       const Score score = score_of(products, surrogates);
       if (surrogates) scan.surrogates = scan.surrogates.cwiseMax(score.surrogates);
-      squares.push_back(score.squares);
+      (error ? error_squares : squares).push_back(score.squares);
+      error = !error;
     }
   }
-  for (std::size_t i = 0; i < squares.size(); ++i) {
-    const bool peak = (i == 0 || squares[i] >= squares[i - 1]) &&
-                      (i + 1 == squares.size() || squares[i] > squares[i + 1]);
-    if (peak) found.emplace_back(squares[i], first + static_cast<double>(i) * step);
-  }
-  std::sort(found.rbegin(), found.rend());
-  for (const auto& [value, order] : found) {
-    if (scan.peaks.size() < kPeaks) scan.peaks.push_back(order);
-  }
+  scan.peaks = peaks_of(squares, first, step);
+  scan.error_peaks = peaks_of(error_squares, first, step);
   return scan;
 }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "runtime/diagnosis/line_scan.h"
 #include "runtime/diagnosis/order_scan.h"
 #include "runtime/diagnosis/time_windows.h"
 #include "runtime/estimation/distributions.h"
@@ -58,7 +59,9 @@ std::vector<VectorXd> ordered_grid(const Hypothesis& hypothesis, const EffectSca
   const EffectSizes sizes = hypothesis.effect.law.sizes(scales);
   std::vector<VectorXd> grid;
   const bool harmonics = hypothesis.linear.size() > 2;
-  for (const double peak : orders.peaks) {
+  const auto& read = hypothesis.effect.law.variables;
+  const bool error = std::find(read.begin(), read.end(), "d_qdd") != read.end();
+  for (const double peak : error ? orders.error_peaks : orders.peaks) {
     for (const double harmonic : {1.0, 2.0, 4.0}) {
       if (harmonic > 1 && !harmonics) continue;
       const double value = peak / harmonic;
@@ -177,9 +180,8 @@ class Screener {
     NamedResult result;
     result.hypothesis = place;
     const EffectScales scales = scales_.of(beta_, hypothesis.effect);
-    const bool whole = !hypothesis.effect.law.states.empty() || hypothesis.ordered;
-    const EffectRecordings& data = whole ? data_.whole() : data_.coarse();
-    EffectSignals& signals = whole ? reader.whole : reader.coarse;
+    const EffectRecordings& data = hypothesis.fast ? data_.whole() : data_.coarse();
+    EffectSignals& signals = hypothesis.fast ? reader.whole : reader.coarse;
     try {
       if (before_) {
         const NamedResult& earlier = before_->named[place];
@@ -196,8 +198,9 @@ class Screener {
         VectorXd window(static_cast<Index>(hypothesis.shapes.size()));
         window[0] = scan.begin;
         if (window.size() > 1) window[1] = scan.end;
-        result.best = try_hypothesis(data, signals, system_, hypothesis,
-                                     with_shapes(hypothesis, window), scales, false);
+        EffectInstance event = with_shapes(hypothesis, window);
+        event.recording = scan.recording;
+        result.best = try_hypothesis(data, signals, system_, hypothesis, event, scales, false);
         if (!before_) noise.add(scan.score.surrogates, scan.score.degrees);
       } else {
         bool first = true;
@@ -222,6 +225,14 @@ class Screener {
                         NoiseSurprises& noise) const {
     GenericResult result;
     result.structure = place;
+    if (structures_[place].line) {
+      LineScan scan = scan_lines(data_.whole(), system_, structures_[place].joint, !before_);
+      result.frequency = scan.frequency;
+      result.score = std::move(scan.score);
+      if (!before_) noise.add(result.score.surrogates, result.score.degrees);
+      result.surprise = surprise_of(result.score.squares, result.score.degrees);
+      return result;
+    }
     const bool whole = structures_[place].at_reversals;
     const JointColumns columns =
         generic_columns(whole ? data_.whole() : data_.coarse(),
@@ -284,11 +295,12 @@ Screening screen(ScreeningData& data, const EvidenceSystem& system, const ScaleT
 TrialScore refined(const EffectRecordings& data, EffectSignals& signals,
                    const EvidenceSystem& system, const Hypothesis& hypothesis, TrialScore best,
                    const EffectScales& scales) {
-  constexpr int kHalvings = 6;
+  constexpr int kHalvings = 6, kHalvingsOfScans = 9;
   const EffectSizes sizes = hypothesis.effect.law.sizes(scales);
   const auto count = static_cast<Index>(hypothesis.shapes.size());
   VectorXd steps(count);
   std::vector<bool> logarithmic;
+  int most_halvings = kHalvings;
   for (Index i = 0; i < count; ++i) {
     const int p = hypothesis.shapes[static_cast<std::size_t>(i)];
     const EffectParameter& parameter =
@@ -300,9 +312,12 @@ TrialScore refined(const EffectRecordings& data, EffectSignals& signals,
                : scanned            ? reach / 80
                : logarithmic.back() ? std::log(2.0)
                                     : 0.25 * std::max(std::abs(best.effect.parameters[p]), 1e-6);
-    if (scanned) logarithmic.back() = false;
+    if (!scanned) continue;
+    logarithmic.back() = false;
+    most_halvings = kHalvingsOfScans;
   }
-  for (int halving = 0; halving < kHalvings && count > 0; ++halving) {
+  const int halvings = hypothesis.ordered ? kHalvings : most_halvings;
+  for (int halving = 0; halving < halvings && count > 0; ++halving) {
     for (Index i = 0; i < count; ++i) {
       const int p = hypothesis.shapes[static_cast<std::size_t>(i)];
       for (const int direction : {-1, 1}) {

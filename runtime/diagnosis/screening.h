@@ -23,6 +23,7 @@ struct NamedResult {
 
 struct GenericResult {
   std::size_t structure = 0;  ///< its place
+  double frequency = 0;       ///< Hz, of a sinusoid
   Score score;
   double surprise = 0;
 };

@@ -22,10 +22,19 @@ class Stops {
         resting_(resting),
         false_alarm_(false_alarm) {}
 
-  /// Whether the stops of its joints explain what an effect does: beside the impulses there nothing
-  /// is left of it, and beside the effect much is left of them.
-  [[nodiscard]] bool explain(const EvidenceSystem& system, const Screening& screening,
+  /// What the stops of its joints have to do with an effect.
+  enum class Part {
+    kNone,    ///< beside their impulses it is seen, or beside it there are none
+    kAll,     ///< beside their impulses nothing is left of it: they explain it
+    kBecause  ///< nor is there, but it explains a good part of the impulses: it makes them
+  };
+  [[nodiscard]] Part part_in(const EvidenceSystem& system, const Screening& screening,
                              const Hypothesis& hypothesis, const NamedResult& named) const;
+  /// Whether it is Part::kAll.
+  [[nodiscard]] bool explain(const EvidenceSystem& system, const Screening& screening,
+                             const Hypothesis& hypothesis, const NamedResult& named) const {
+    return part_in(system, screening, hypothesis, named) == Part::kAll;
+  }
 
   /// Joints that begin to rest: the structure's, if impulses at its reversals are more than noise
   /// and beside them the structure is not; with it all others where impulses are the strongest
@@ -35,6 +44,7 @@ class Stops {
 
  private:
   [[nodiscard]] bool rests(int joint) const;
+  [[nodiscard]] const GenericResult* impulses_at(const Screening& screening, int joint) const;
   [[nodiscard]] double impulses_of(const Screening& screening, int joint) const;
   [[nodiscard]] bool significant(double surprise) const;
 

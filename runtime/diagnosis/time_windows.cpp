@@ -15,18 +15,26 @@ constexpr int kBlocks = 120;          // of the longest recording
 constexpr double kLongestPush = 0.3;  // of the recording: what lasts longer is no window
 constexpr int kWindowSurrogates = 16;
 
-/// Time of each equation, s from the recording's first sample.
-VectorXd equation_times(const EffectRecordings& data) {
-  VectorXd times(data.equations());
+/// Time of each equation, s from the recording's first sample, and its recording.
+struct EquationPlaces {
+  VectorXd times;
+  std::vector<int> recordings;
+  int count = 0;  // of recordings
+};
+
+EquationPlaces places_of(const EffectRecordings& data) {
+  EquationPlaces places{VectorXd(data.equations()), {}, 0};
   Index start = 0;
   for (const EffectRun& run : data.runs) {
     const Index first = first_sample(run.decimator);
     for (Index k = 0; k < run.rows.Y.rows(); ++k) {
-      times[start + k] = run.time[first + k * run.decimator.factor];
+      places.times[start + k] = run.time[first + k * run.decimator.factor];
+      places.recordings.push_back(run.recording);
     }
     start += run.rows.Y.rows();
+    places.count = std::max(places.count, run.recording + 1);
   }
-  return times;
+  return places;
 }
 
 /// Sums of products over blocks of time; of blocks 0 .. b - 1 at place b.
@@ -45,14 +53,72 @@ Products between(const Running& sums, std::size_t from, std::size_t to) {
   return products;
 }
 
+/// Products of a hypothesis that acts all the time, summed over blocks of time.
+class BlockSums {
+ public:
+  BlockSums(const EvidenceSystem& system, const JointColumns& columns, bool surrogates)
+      : system_(system),
+        columns_(columns),
+        surrogates_(surrogates ? std::min(kWindowSurrogates, system.surrogates()) : 0) {}
+
+  /// @param rows  of each block, ascending
+  [[nodiscard]] Running over(const std::vector<std::vector<Index>>& rows) const {
+    const Index k = columns_.columns();
+    Running sums;
+    sums.whole.push_back(MatrixXd::Zero(k, k));
+    sums.rest.push_back(VectorXd::Zero(k));
+    sums.noise.push_back(MatrixXd::Zero(k, surrogates_));
+    sums.inner.push_back(MatrixXd::Zero(system_.rank(), k));
+    for (const std::vector<Index>& here : rows) {
+      MatrixXd whole = sums.whole.back(), noise = sums.noise.back(), inner = sums.inner.back();
+      VectorXd rest = sums.rest.back();
+      for (std::size_t first = 0; first < here.size();) {
+        std::size_t last = first + 1;
+        while (last < here.size() && here[last] == here[last - 1] + 1) ++last;
+        const Index from = here[first], to = here[last - 1] + 1;
+        const Products part = system_.products(columns_, from, to, surrogates_ > 0);
+        whole += part.whole;
+        rest += part.rest;
+        noise += part.noise.leftCols(noise.cols());
+        inner += system_.absorbed(columns_, from, to);
+        first = last;
+      }
+      sums.whole.push_back(std::move(whole));
+      sums.rest.push_back(std::move(rest));
+      sums.noise.push_back(std::move(noise));
+      sums.inner.push_back(std::move(inner));
+    }
+    return sums;
+  }
+
+ private:
+  const EvidenceSystem& system_;
+  const JointColumns& columns_;
+  int surrogates_;
+};
+
+/// Sums over several parts of the equations are the parts' sums together.
+Running together(const std::vector<Running>& parts) {
+  Running sums = parts.front();
+  for (std::size_t p = 1; p < parts.size(); ++p) {
+    for (std::size_t b = 0; b < sums.rest.size(); ++b) {
+      sums.whole[b] += parts[p].whole[b];
+      sums.rest[b] += parts[p].rest[b];
+      sums.noise[b] += parts[p].noise[b];
+      sums.inner[b] += parts[p].inner[b];
+    }
+  }
+  return sums;
+}
+
 }  // namespace
 
 WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
                         const EvidenceSystem& system, const Hypothesis& hypothesis,
                         bool surrogates) {
   WindowScan scan;
-  const VectorXd times = equation_times(data);
-  const double longest = times.maxCoeff();
+  const EquationPlaces places = places_of(data);
+  const double longest = places.times.maxCoeff();
   const bool ends = hypothesis.shapes.size() > 1;
   VectorXd always(static_cast<Index>(hypothesis.shapes.size()));
   always[0] = -1;
@@ -61,60 +127,47 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
       hypothesis_columns(data, signals, system, hypothesis, with_shapes(hypothesis, always));
   const double step = longest / kBlocks;
   // rows of a recording are consecutive, so that each block is a few ranges
-  std::vector<std::vector<Index>> rows(kBlocks);
-  for (Index k = 0; k < times.size(); ++k) {
-    rows[static_cast<std::size_t>(std::min<double>(kBlocks - 1, times[k] / step))].push_back(k);
+  std::vector<std::vector<std::vector<Index>>> rows(static_cast<std::size_t>(places.count),
+                                                    std::vector<std::vector<Index>>(kBlocks));
+  for (Index k = 0; k < places.times.size(); ++k) {
+    const auto block =
+        static_cast<std::size_t>(std::min<double>(kBlocks - 1, places.times[k] / step));
+    rows[static_cast<std::size_t>(places.recordings[static_cast<std::size_t>(k)])][block].push_back(
+        k);
   }
-  Running sums;
-  const Index k = columns.columns();
-  sums.whole.push_back(MatrixXd::Zero(k, k));
-  sums.rest.push_back(VectorXd::Zero(k));
-  sums.noise.push_back(
-      MatrixXd::Zero(k, surrogates ? std::min(kWindowSurrogates, system.surrogates()) : 0));
-  sums.inner.push_back(MatrixXd::Zero(system.rank(), k));
-  for (int b = 0; b < kBlocks; ++b) {
-    MatrixXd whole = sums.whole.back(), noise = sums.noise.back(), inner = sums.inner.back();
-    VectorXd rest = sums.rest.back();
-    const std::vector<Index>& here = rows[static_cast<std::size_t>(b)];
-    for (std::size_t first = 0; first < here.size();) {
-      std::size_t last = first + 1;
-      while (last < here.size() && here[last] == here[last - 1] + 1) ++last;
-      const Index from = here[first], to = here[last - 1] + 1;
-      const Products part = system.products(columns, from, to, surrogates);
-      const MatrixXd absorbed = system.absorbed(columns, from, to);
-      whole += part.whole;
-      rest += part.rest;
-      noise += part.noise.leftCols(noise.cols());
-      inner += absorbed;
-      first = last;
+  const BlockSums blocks(system, columns, surrogates);
+  std::vector<Running> parts;
+  for (const auto& own : rows) parts.push_back(blocks.over(own));
+  const Running all = together(parts);
+  VectorXd largest = VectorXd::Zero(all.noise.front().cols());
+  const auto look = [&](const Running& sums, int recording) {
+    for (std::size_t from = 0; from < kBlocks; ++from) {
+      const std::size_t last =
+          ends ? std::min<std::size_t>(kBlocks,
+                                       from + static_cast<std::size_t>(kLongestPush * kBlocks))
+               : kBlocks;
+      for (std::size_t to = ends ? from + 1 : kBlocks; to <= last; ++to) {
+        if (!ends && (from == 0 || from + 3 > kBlocks)) continue;
+        Score score = score_of(between(sums, from, to), surrogates);
+        if (surrogates) largest = largest.cwiseMax(score.surrogates);
+        if (scan.found && score.squares <= scan.score.squares) continue;
+        scan.score = std::move(score);
+        scan.begin = static_cast<double>(from) * step;
+        scan.end = static_cast<double>(to) * step;
+        scan.recording = recording;
+        scan.found = true;
+      }
     }
-    sums.whole.push_back(std::move(whole));
-    sums.rest.push_back(std::move(rest));
-    sums.noise.push_back(std::move(noise));
-    sums.inner.push_back(std::move(inner));
-  }
-  VectorXd largest = VectorXd::Zero(sums.noise.front().cols());
-  for (std::size_t from = 0; from < kBlocks; ++from) {
-    const std::size_t last =
-        ends ? std::min<std::size_t>(kBlocks,
-                                     from + static_cast<std::size_t>(kLongestPush * kBlocks))
-             : kBlocks;
-    for (std::size_t to = ends ? from + 1 : kBlocks; to <= last; ++to) {
-      if (!ends && (from == 0 || from + 3 > kBlocks)) continue;
-      Score score = score_of(between(sums, from, to), surrogates);
-      if (surrogates) largest = largest.cwiseMax(score.surrogates);
-      if (scan.found && score.squares <= scan.score.squares) continue;
-      scan.score = std::move(score);
-      scan.begin = static_cast<double>(from) * step;
-      scan.end = static_cast<double>(to) * step;
-      scan.found = true;
-    }
+  };
+  look(all, -1);
+  for (std::size_t p = 0; parts.size() > 1 && p < parts.size(); ++p) {
+    look(parts[p], static_cast<int>(p));
   }
   // the same number of surrogates as everywhere: those that were not scanned repeat the others
   if (scan.found && largest.size() > 0) {
-    VectorXd all(system.surrogates());
-    for (Index i = 0; i < all.size(); ++i) all[i] = largest[i % largest.size()];
-    scan.score.surrogates = all;
+    VectorXd repeated(system.surrogates());
+    for (Index i = 0; i < repeated.size(); ++i) repeated[i] = largest[i % largest.size()];
+    scan.score.surrogates = repeated;
   }
   return scan;
 }

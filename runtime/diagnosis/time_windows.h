@@ -9,9 +9,11 @@
 namespace dyngen::runtime {
 
 /// Scores of a windowed hypothesis (a payload taken up, a contact) over all windows that begin and
-/// end on a grid of times; of one that only begins, those that last to the end of each recording.
+/// end on a grid of times, in all recordings at the same time or in one of them; of one that only
+/// begins, those that last to the end of each recording.
 struct WindowScan {
   double begin = 0, end = 0;  ///< s, of the best window
+  int recording = -1;         ///< in which alone it acts, as EffectRun::recording; -1: in all
   Score score;                ///< of the best window; surrogates: the largest over all windows
   bool found = false;
 };

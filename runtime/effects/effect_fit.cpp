@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "runtime/effects/effect_search.h"
@@ -328,11 +329,23 @@ class EffectFitter {
     }
   }
 
+  /// Whether a scale that stands at its bound would gain nothing if that were twice as far: a
+  /// warm-up that lasts longer than the recordings.
+  [[nodiscard]] static bool flat_beyond(const EffectPoint& point, const ConstraintName& name,
+                                        double multiplier) {
+    constexpr double kNothing = 1;  // squares of noise
+    if (name.kind != ConstraintName::Kind::kBound || name.effect < 0) return false;
+    const EffectLaw& law = point.effects[static_cast<std::size_t>(name.effect)].law;
+    return by_logarithm(law.parameters[static_cast<std::size_t>(name.parameter)]) &&
+           2 * multiplier * std::numbers::ln2 < kNothing;
+  }
+
   void remark_held(const EffectPoint& point, const EffectSearch::Held& held) {
     for (std::size_t i = 0; i < held.constraints.names.size(); ++i) {
       const ConstraintName& name = held.constraints.names[i];
       if (!(held.multipliers[static_cast<Index>(i)] > 0)) continue;
       if (name.kind == ConstraintName::Kind::kInitial) continue;
+      if (flat_beyond(point, name, held.multipliers[static_cast<Index>(i)])) continue;
       const std::string whose = name.effect >= 0
                                     ? name_of(point.effects[static_cast<std::size_t>(name.effect)])
                                     : fmt::format("the friction of joint {}", name.joint + 1);
@@ -408,6 +421,18 @@ void EffectFitOptions::validate() const {
   demand(tolerance > 0 && tolerance < 1, "tolerance", tolerance, "a number in (0, 1)");
   demand(refined >= 1, "refined", refined, "1 or more");
   demand(grid >= 1, "grid", grid, "1 or more");
+}
+
+bool EffectFit::objects(const EffectRemark& remark, int effect) const {
+  if (remark.effect != effect) return false;
+  if (remark.kind != EffectRemark::Kind::kNotSeen) return true;
+  const auto place = static_cast<std::size_t>(effect);
+  const std::vector<EffectParameter>& described = point.effects[place].law.parameters;
+  for (std::size_t p = 0; p < described.size(); ++p) {
+    const EffectParameterFit& own = parameters[place][p];
+    if (described[p].role == EffectRole::kLinear && own.seen && !own.held) return false;
+  }
+  return true;
 }
 
 bool EffectFit::all_seen() const {

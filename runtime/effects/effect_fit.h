@@ -56,6 +56,9 @@ struct EffectFit {
   bool converged = true;
 
   [[nodiscard]] bool all_seen() const;
+  /// Whether a remark speaks against an effect: a parameter that is not seen does not as long as
+  /// another one of the effect is, as the rest position of a spring beside the joint's offset.
+  [[nodiscard]] bool objects(const EffectRemark& remark, int effect) const;
 };
 
 /// Told how far the work is: a name and a fraction.

@@ -123,6 +123,8 @@ struct EffectInstance {
   int link = 0;                ///< of the robot file, from 1: what `joint` moves; 0 of scope robot
   int other = -1;              ///< of scope pair
   Eigen::VectorXd parameters;  ///< (np); NaN: unknown
+  /// Of an event: the recording in which alone it acts, as EffectRun::recording; -1: in all.
+  int recording = -1;
 };
 
 }  // namespace dyngen::runtime

@@ -104,7 +104,8 @@ EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
                                    const std::vector<bool>& remembering) {
   EffectRecordings data{std::move(model), std::move(robot), {}, 0};
   double longest = 0, filter = 0;  // s
-  for (const MotionSource& source : sources) {
+  for (std::size_t place = 0; place < sources.size(); ++place) {
+    const MotionSource& source = sources[place];
     if (source.joints() != data.joints()) {
       throw std::invalid_argument(fmt::format("{}: {} joints, but {} has {} that move", source.name,
                                               source.joints(), data.model.name, data.joints()));
@@ -116,6 +117,7 @@ EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
     const Decimator decimator = design_decimator(plan.decimation, plan.pass);
     for (Motion& motion : runs_of(source)) {
       EffectRun run;
+      run.recording = static_cast<int>(place);
       run.motion = std::move(motion);
       run.time = run.motion.time.array() - source.start;
       run.position_step = VectorXd::Zero(source.joints());

@@ -31,6 +31,7 @@ struct EffectRobot {
 
 /// A run of a recording as effects see it: all samples, and the equations of the model alone.
 struct EffectRun {
+  int recording = 0;  ///< its place, from 0; -1: of none that events were found in
   Motion motion;
   Eigen::VectorXd time;           ///< (N) s from the recording's first sample
   Eigen::VectorXd position_step;  ///< (n) rad or m of the encoder; 0: not known
@@ -46,6 +47,9 @@ struct EffectRecordings {
   double row_time = 0;          ///< s between equations; the mean where recordings differ
 
   [[nodiscard]] int joints() const { return model.joints(); }
+  [[nodiscard]] bool acts_in(const EffectInstance& effect, std::size_t run) const {
+    return effect.recording < 0 || effect.recording == runs[run].recording;
+  }
   /// Equations of each joint, over all runs.
   [[nodiscard]] Eigen::Index equations() const;
 };

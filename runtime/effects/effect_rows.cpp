@@ -78,7 +78,8 @@ class RunRows {
 
   RowBlock make() {
     for (std::size_t k = 0; k < point_.effects.size(); ++k) {
-      if (!is_alignment(point_.effects[k])) add_effect(k);
+      const EffectInstance& effect = point_.effects[k];
+      if (!is_alignment(effect) && data_.acts_in(effect, run_)) add_effect(k);
     }
     for (std::size_t k = 0; k < point_.effects.size(); ++k) {
       if (is_alignment(point_.effects[k])) add_lateness(k);
@@ -399,6 +400,7 @@ EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signal
       MatrixXd columns(here.motion.samples(), 1 + np);
       columns << torque.torque.col(static_cast<Index>(o)),
           torque.by_parameter.middleCols(static_cast<Index>(o) * np, np);
+      if (!data.acts_in(effect, run)) columns.setZero();
       signature.joints.push_back(application.outputs[o]);
       signature.columns.push_back(decimate(here.decimator, columns));
     }

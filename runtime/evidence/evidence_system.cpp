@@ -80,6 +80,33 @@ Score score_of(const Products& products, bool surrogates) {
   return score;
 }
 
+std::vector<double> squares_of_few(const Products& products) {
+  constexpr double kAbsorbed = 1e-8;  // part of a column's squares: it is of the others
+  MatrixXd A = products.left;
+  VectorXd r = products.rest;
+  const VectorXd own = products.whole.diagonal();
+  std::vector<double> squares;
+  for (Index taken = 0; taken < r.size(); ++taken) {
+    Index best = -1;
+    double most = 0;
+    for (Index c = 0; c < r.size(); ++c) {
+      if (!(A(c, c) > kAbsorbed * own[c])) continue;
+      const double gain = r[c] * r[c] / A(c, c);
+      if (gain > most) {
+        most = gain;
+        best = c;
+      }
+    }
+    if (best < 0) break;
+    squares.push_back((squares.empty() ? 0 : squares.back()) + most);
+    const VectorXd column = A.col(best) / std::sqrt(A(best, best));
+    const double step = r[best] / std::sqrt(A(best, best));
+    A -= column * column.transpose();
+    r -= step * column;
+  }
+  return squares;
+}
+
 EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals& residuals,
                                const TorqueNoiseModel& noise, const Options& options)
     : data_(data),
@@ -260,6 +287,12 @@ VectorXd EvidenceSystem::rest(int joint) const {
   MatrixXd rest = rest_.segment(joint * rows_, rows_);
   if (const auto& left_out = left_out_[static_cast<std::size_t>(joint)]) left_out->turn_back(rest);
   return rest;
+}
+
+MatrixXd EvidenceSystem::noise(int joint) const {
+  MatrixXd noise = noise_.middleRows(joint * rows_, rows_);
+  if (const auto& left_out = left_out_[static_cast<std::size_t>(joint)]) left_out->turn_back(noise);
+  return noise;
 }
 
 MatrixXd EvidenceSystem::left_of(const JointColumns& whitened, int joint) const {

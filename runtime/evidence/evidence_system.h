@@ -32,6 +32,10 @@ struct Score {
 /// @param surrogates  false: those are left out
 Score score_of(const Products& products, bool surrogates = true);
 
+/// Squares that the columns explain which are taken up one by one, each the best beside those
+/// before it: of m columns at place m - 1, as many as are independent.
+std::vector<double> squares_of_few(const Products& products);
+
 /// The equations of a model, whitened: regressor, columns of effects that belong to it by now, what
 /// they leave of the torque, and noise of the same kind, projected alike.
 ///
@@ -69,6 +73,8 @@ class EvidenceSystem {
 
   /// What the model leaves of a joint, whitened. @return (equations)
   [[nodiscard]] Eigen::VectorXd rest(int joint) const;
+  /// What it leaves of the noise surrogates. @return (equations x m)
+  [[nodiscard]] Eigen::MatrixXd noise(int joint) const;
   /// Whitened columns less what the model absorbs, of one joint. @return (equations x k)
   [[nodiscard]] Eigen::MatrixXd left_of(const JointColumns& whitened, int joint) const;
   [[nodiscard]] Eigen::Index rows() const { return rows_; }

@@ -127,8 +127,12 @@ RowPlan plan_rows(const MotionSource& source, const RowOptions& options) {
   if (plan.decimation <= 0) {
     const double wanted =
         source.cutoff.hz > 0 ? 0.5 / (options.band * source.cutoff.hz * source.sample_time) : 1;
-    plan.decimation = std::max<Index>(1, static_cast<Index>(std::floor(wanted)));
-    if (plan.decimation > options.multiple) plan.decimation -= plan.decimation % options.multiple;
+    const auto least = static_cast<Index>(std::lround(options.row_time / source.sample_time));
+    plan.decimation = std::max<Index>({1, static_cast<Index>(std::floor(wanted)), least});
+    if (plan.decimation > options.multiple) {
+      plan.decimation -= plan.decimation % options.multiple;
+      if (plan.decimation < least) plan.decimation += options.multiple;
+    }
   }
   plan.row_time = source.sample_time * static_cast<double>(plan.decimation);
   // white position noise has the density 2 sigma^2 T up to the Nyquist frequency

@@ -21,6 +21,7 @@ struct RowOptions {
   double band = 1.25;  ///< > 0; the joint state is damped near 1 and above, and equations with it
   Eigen::Index multiple = 1;  ///< a decimation that is chosen and larger is a multiple of this
   double pass = 0.8;          ///< of the parallel filter, as design_decimator()
+  double row_time = 0;        ///< s, between equations: a decimation that is chosen gives no less
 };
 
 /// How the equations of a recording are made.

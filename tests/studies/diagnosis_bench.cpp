@@ -45,7 +45,7 @@ EffectRecordings plain_recordings(const Bench& bench, const EffectLaw* law, int 
   }
   return runtime::effect_recordings(bench.robot.told.linear,
                                     runtime::effect_robot(bench.robot.told), sources,
-                                    runtime::diagnosis_rows(0), remembering);
+                                    runtime::diagnosis_rows(sources, 0), remembering);
 }
 
 std::vector<MatrixXd> torque_in(const Bench& bench, const EffectInstance& effect, int only) {

@@ -51,7 +51,8 @@ Trajectory fourier_trajectory(const CaseRobot& robot, const CaseSettings& settin
   return trajectory;
 }
 
-/// From one random posture to the next along polynomials of the fifth order, a short rest between.
+/// From one random posture to the next along polynomials of the seventh order, whose jerk is
+/// continuous as that of an elastic joint has to be; a short rest between.
 Trajectory point_to_point(const CaseRobot& robot, const CaseSettings& settings,
                           std::mt19937_64& random) {
   constexpr double kRest = 0.25;  // s
@@ -72,17 +73,18 @@ Trajectory point_to_point(const CaseRobot& robot, const CaseSettings& settings,
       begin += duration + kRest;
       from = to;
       to = posture();
-      // 1.875 and 5.774 are the largest speed and acceleration of the polynomial of unit size
+      // 2.1875 and 7.514 are the largest speed and acceleration of the polynomial of unit size
       const VectorXd way = (to - from).cwiseAbs();
-      duration = std::max((1.875 * way.cwiseQuotient(limits.speed)).maxCoeff(),
-                          (5.774 * way.cwiseQuotient(limits.acceleration)).cwiseSqrt().maxCoeff());
+      duration = std::max((2.1875 * way.cwiseQuotient(limits.speed)).maxCoeff(),
+                          (7.514 * way.cwiseQuotient(limits.acceleration)).cwiseSqrt().maxCoeff());
     }
     const double s = std::clamp((time - begin) / duration, 0.0, 1.0);
     const double moving = s < 1 ? 1 : 0;
-    trajectory.q.row(k) = from + s * s * s * (10 - 15 * s + 6 * s * s) * (to - from);
-    trajectory.dq.row(k) = moving * 30 * s * s * (1 - s) * (1 - s) / duration * (to - from);
+    trajectory.q.row(k) =
+        from + s * s * s * s * (35 - 84 * s + 70 * s * s - 20 * s * s * s) * (to - from);
+    trajectory.dq.row(k) = moving * 140 * std::pow(s * (1 - s), 3) / duration * (to - from);
     trajectory.ddq.row(k) =
-        moving * 60 * s * (1 - s) * (1 - 2 * s) / (duration * duration) * (to - from);
+        moving * 420 * std::pow(s * (1 - s), 2) * (1 - 2 * s) / (duration * duration) * (to - from);
   }
   return trajectory;
 }

@@ -19,7 +19,8 @@ using Eigen::VectorXd;
 
 runtime::EffectRecordings equations(const DiagnosisCase& own) {
   return runtime::effect_recordings(
-      own.input.model, own.input.robot, own.input.train, runtime::diagnosis_rows(0),
+      own.input.model, own.input.robot, own.input.train,
+      runtime::diagnosis_rows(own.input.train, 0),
       std::vector<bool>(static_cast<std::size_t>(own.robot.joints()), false));
 }
 

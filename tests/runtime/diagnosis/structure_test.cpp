@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+/// Structure that has no name or acts for a while: sinusoids, events, forms that are ruled out.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "runtime/diagnosis/diagnosis.h"
+#include "runtime/diagnosis/line_scan.h"
+#include "runtime/diagnosis/naming.h"
+#include "runtime/diagnosis/time_windows.h"
+#include "runtime/effects/absorption.h"
+#include "tests/runtime/effects/effect_arm.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNoise = 0.1;  // N m, white
+
+TorqueNoiseModel white() {
+  return {white_noise(VectorXd::Constant(2, kNoise)).joints, VectorXd::Constant(2, 2000), false};
+}
+
+EffectRecordings recordings(const std::vector<MotionSource>& sources) {
+  return effect_recordings(test::planar_arm(), test::planar_arm_tangents(), sources, {1, -1},
+                           {true, true});
+}
+
+EvidenceSystem system_of(const EffectRecordings& data) {
+  RunResiduals residuals;
+  for (const EffectRun& run : data.runs) {
+    residuals.push_back(residual(run.rows, test::planar_arm_values()));
+  }
+  return {data, residuals, white(), {}};
+}
+
+std::vector<MotionSource> measured(const std::vector<EffectInstance>& effects, unsigned seed) {
+  return test::measured({test::sines(30, 0.01, 0.3), test::sines(30, 0.01, 2.3)},
+                        test::planar_arm_values(), effects, kNoise, 0, seed);
+}
+
+/// a sin(2 pi f t), whatever the arm does.
+EffectLaw hum_law() {
+  return test::algebraic_law(
+      "hum", {"t"},
+      {{"a", EffectRole::kLinear, -10, 10, 0, 1}, {"f", EffectRole::kShape, 0.1, 40, 3, 3}},
+      [](const VectorXd& v, const VectorXd& p) {
+        return p[0] * std::sin(2 * std::numbers::pi * p[1] * v[0]);
+      });
+}
+
+/// A push between two times.
+EffectLaw push_law() {
+  EffectLaw law = test::algebraic_law("contact", {"t"},
+                                      {{"push", EffectRole::kLinear, -100, 100, 0, 1},
+                                       {"t_on", EffectRole::kScanned, 0, 30, 15, 15, false, 200},
+                                       {"t_off", EffectRole::kScanned, 0, 30, 16, 16, false, 200}},
+                                      [](const VectorXd& v, const VectorXd& p) {
+                                        return v[0] > p[1] && v[0] <= p[2] ? p[0] : 0.0;
+                                      });
+  law.parameters[1].unit = law.parameters[2].unit = "s";
+  return law;
+}
+
+/// What is recorded where an effect acts in the second recording alone.
+std::vector<MotionSource> with_event(const EffectInstance& effect, unsigned seed) {
+  std::vector<MotionSource> sources = measured({}, seed);
+  sources[1] = measured({effect}, seed)[1];
+  return sources;
+}
+
+TEST(LineScan, FindsTheFrequencyOfASinusoid) {
+  const EffectRecordings data = recordings(measured({test::known(hum_law(), 1, {0.05, 3.3})}, 1));
+  const EvidenceSystem system = system_of(data);
+  const LineScan there = scan_lines(data, system, 1, true),
+                 other = scan_lines(data, system, 0, true);
+  EXPECT_NEAR(there.frequency, 3.3, 0.5 / 30);
+  EXPECT_EQ(there.score.degrees, 4);  // a phase and a size in each of two runs
+  // lambda = N a^2 / (2 sigma^2)
+  const double lambda = static_cast<double>(data.equations()) * 0.0025 / (2 * kNoise * kNoise);
+  EXPECT_NEAR(there.score.squares, lambda + 4, 4 * std::sqrt(8 + 4 * lambda));
+  // noise alone does not come near, and the other joint is noise
+  EXPECT_LT(there.score.surrogates.maxCoeff(), 0.5 * lambda);
+  EXPECT_LT(other.score.squares, 1.5 * other.score.surrogates.maxCoeff());
+  EXPECT_GT(other.score.squares, 0.5 * other.score.surrogates.minCoeff());
+}
+
+TEST(SquaresOfFew, RiseToThoseOfAllColumns) {
+  MatrixXd C = MatrixXd::Zero(4, 3);
+  C << 1, 0, 1, 0, 2, 2, 0, 0, 0, 0, 0, 0;  // the third is the sum of the others
+  const VectorXd r = (VectorXd(4) << 3, 1, 5, 5).finished();
+  Products products;
+  products.whole = products.left = C.transpose() * C;
+  products.rest = C.transpose() * r;
+  const std::vector<double> squares = squares_of_few(products);
+  ASSERT_EQ(squares.size(), 2U);
+  EXPECT_NEAR(squares[0], 9, 1e-12);
+  EXPECT_NEAR(squares[1], 10, 1e-12);
+  EXPECT_NEAR(score_of(products, false).squares, 10, 1e-12);
+}
+
+TEST(WindowScan, SaysInWhichRecording) {
+  const EffectRecordings data =
+      recordings(with_event(test::known(push_law(), 0, {0.3, 12, 12.8}), 2));
+  EffectSignals signals(data);
+  signals.set_beta(test::planar_arm_values());
+  const Hypothesis hypothesis = hypothesis_of(test::unknown(push_law(), 0),
+                                              ScaleTable(data).at(test::planar_arm_values(), 0));
+  ASSERT_TRUE(hypothesis.windowed);
+  const WindowScan scan = scan_windows(data, signals, system_of(data), hypothesis, true);
+  EXPECT_EQ(scan.recording, 1);
+  EXPECT_NEAR(scan.begin, 12, 0.3);
+  EXPECT_NEAR(scan.end, 12.8, 0.3);
+  EXPECT_GT(scan.score.squares, 2 * scan.score.surrogates.maxCoeff());
+  // an effect of one recording has no columns in the others
+  EffectInstance event = test::known(push_law(), 0, {0.3, 12, 12.8});
+  event.recording = 1;
+  const JointColumns columns = effect_columns(data, signals, event, {0});
+  const Index half = data.runs[0].rows.Y.rows();
+  EXPECT_TRUE(columns.parts[0].topRows(half).isZero(0));
+  EXPECT_NEAR(columns.parts[0].bottomRows(half).maxCoeff(), 0.3, 1e-12);
+}
+
+DiagnosisInput input_of(std::vector<MotionSource> train, const std::vector<EffectInstance>& effects,
+                        const std::vector<EffectLaw>& laws) {
+  DiagnosisInput input;
+  input.model = test::planar_arm();
+  input.robot = test::planar_arm_tangents();
+  input.train = std::move(train);
+  input.heldout = test::measured({test::sines(20, 0.01, 4.3, 0.9)}, test::planar_arm_values(),
+                                 effects, kNoise, 0, 100);
+  for (const EffectLaw& law : laws) {
+    for (const int joint : {0, 1}) {
+      EffectInstance effect = test::unknown(law, joint);
+      effect.law.family = law.name;
+      effect.link = joint + 1;
+      input.hypotheses.push_back(std::move(effect));
+    }
+  }
+  return input;
+}
+
+DiagnosisOptions every_sample() {
+  DiagnosisOptions options;
+  options.decimation = 1;
+  return options;
+}
+
+TEST(Diagnosis, NamesAnEventOfOneRecording) {
+  const EffectInstance event = test::known(push_law(), 0, {0.3, 12, 12.8});
+  const Diagnosis diagnosis = diagnose(
+      input_of(with_event(event, 3), {}, {push_law(), test::spring_law()}), every_sample());
+  ASSERT_EQ(diagnosis.findings.size(), 1U);
+  const Finding& finding = diagnosis.findings.front();
+  EXPECT_EQ(finding.effect.law.name, "contact");
+  EXPECT_EQ(finding.effect.joint, 0);
+  EXPECT_EQ(finding.effect.recording, 1);
+  EXPECT_NEAR(finding.effect.parameters[0], 0.3, 0.06);
+  EXPECT_NEAR(finding.where.t_from, 12, 0.3);
+  EXPECT_NEAR(finding.where.t_to, 12.8, 0.3);
+  EXPECT_NE(finding.why.find("in recording 2"), std::string::npos) << finding.why;
+  // nothing of it is in what is held out
+  EXPECT_NEAR(diagnosis.heldout.after[0] / diagnosis.heldout.before[0], 1, 0.01);
+}
+
+TEST(Diagnosis, ASinusoidOfItsOwnFrequencyHasNoName) {
+  const EffectInstance hum = test::known(hum_law(), 1, {0.05, 3.3});
+  const Diagnosis diagnosis =
+      diagnose(input_of(measured({hum}, 4), {hum}, {test::spring_law()}), every_sample());
+  EXPECT_EQ(diagnosis.verdict, Verdict::kUnexplainedStructure);
+  ASSERT_EQ(diagnosis.unexplained.size(), 1U);
+  const Unexplained& unexplained = diagnosis.unexplained.front();
+  EXPECT_EQ(unexplained.joint, 1);
+  EXPECT_EQ(unexplained.variables, std::vector<std::string>{"t"});
+  EXPECT_NEAR(unexplained.rms, 0.05 / std::numbers::sqrt2, 0.01);
+  EXPECT_NE(unexplained.description.find("3.3 Hz"), std::string::npos) << unexplained.description;
+}
+
+TEST(Diagnosis, AFormThatAConditionRulesOutIsNoName) {
+  EffectLaw spring = test::spring_law();
+  EffectCondition stiff;
+  stiff.spelling = "k >= 2";
+  stiff.slack = [](const VectorXd& p, const EffectScales&) { return p[0] - 2; };
+  spring.falsifiers.push_back(stiff);
+  const EffectInstance truth = test::known(test::spring_law(), 1, {0.4});
+  const Diagnosis diagnosis = diagnose(
+      input_of(measured({truth}, 5), {truth}, {spring, test::ripple_law()}), every_sample());
+  EXPECT_EQ(diagnosis.verdict, Verdict::kUnexplainedStructure);
+  EXPECT_TRUE(diagnosis.findings.empty());
+  ASSERT_FALSE(diagnosis.unexplained.empty());
+  const Unexplained& unexplained = diagnosis.unexplained.front();
+  EXPECT_EQ(unexplained.joint, 1);
+  EXPECT_EQ(unexplained.variables, std::vector<std::string>{"q2"});
+  EXPECT_NE(unexplained.description.find("k >= 2 does not hold"), std::string::npos)
+      << unexplained.description;
+}
+
+TEST(Diagnosis, NamesThatImitateOneAnotherAreASet) {
+  EffectLaw twin = test::spring_law();
+  twin.name = "twin";
+  const EffectInstance truth = test::known(test::spring_law(), 1, {0.4});
+  const Diagnosis diagnosis =
+      diagnose(input_of(measured({truth}, 6), {truth}, {test::spring_law(), twin}), every_sample());
+  ASSERT_EQ(diagnosis.findings.size(), 1U);
+  const Finding& finding = diagnosis.findings.front();
+  EXPECT_EQ(finding.aliases.size(), 2U);
+  EXPECT_NEAR(finding.probability, 0.5, 0.05);
+}
+
+}  // namespace
+}  // namespace dyngen::runtime
