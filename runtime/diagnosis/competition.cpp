@@ -10,9 +10,11 @@
 
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/likelihood.h"
+#include "runtime/diagnosis/nameless_search.h"
 #include "runtime/diagnosis/second_scan.h"
 #include "runtime/diagnosis/slow_equations.h"
 #include "runtime/diagnosis/stops.h"
+#include "runtime/diagnosis/time_windows.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -21,14 +23,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kRefined = 12;      // candidates whose shapes are refined in a round
-constexpr double kLeastExplained = 0.5;   // part of a joint's structure that a name must explain
-constexpr std::size_t kAttempts = 4;      // effects that are fitted in a round before it gives up
-constexpr double kTie = 0.5;              // squares that decide nothing
-constexpr std::size_t kRivals = 5;        // that are compared again once the winner is fitted
-constexpr std::size_t kLikely = 3;        // families of a joint whose likelihoods are compared
-constexpr double kRuledOutNet = 15;       // squares, net: a form that cannot be is no small thing
-constexpr double kNamelessCaution = 0.1;  // of the false alarms: nothing held out speaks for it
+constexpr std::size_t kRefined = 12;     // candidates whose shapes are refined in a round
+constexpr double kLeastExplained = 0.5;  // part of a joint's structure that a name must explain
+constexpr std::size_t kAttempts = 4;     // effects that are fitted in a round before it gives up
+constexpr double kTie = 0.5;             // squares that decide nothing
+constexpr std::size_t kRivals = 5;       // that are compared again once the winner is fitted
+constexpr double kEventNet = 10;         // squares, net, of an event
+constexpr std::size_t kLikely = 3;       // families of a joint whose likelihoods are compared
 
 /// One competition's data and what was found so far.
 class Competition {
@@ -47,7 +48,9 @@ class Competition {
         screening_data_(train),
         repeats_(repeats_of(train)),
         slow_(slow),
-        stops_(train_, signals_, structures_, result_.resting, options_.false_alarm) {}
+        stops_(train_, signals_, structures_, result_.resting, options_.false_alarm),
+        nameless_(train_, signals_, hypotheses_, structures_, stops_, options_.false_alarm,
+                  result_) {}
 
   CompetitionResult run() {
     tell("the model alone", 0);
@@ -65,7 +68,7 @@ class Competition {
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
       const bool named = result_.noise.from_periods ? next_winner(system, screening)
                                                     : next_likely(system, screening);
-      if (!named && !next_nameless(system, screening)) break;
+      if (!named && !nameless_.next(system, screening)) break;
     }
     drop_superfluous();
     if (scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {
@@ -125,12 +128,15 @@ class Competition {
   }
 
   /// What generic structure there is on a joint: squares less their expectation under noise.
-  /// Impulses at reversals are asked by themselves.
+  /// Impulses at reversals count where they are far more than noise: then nothing else is to be
+  /// believed of that joint before it is said to rest.
   [[nodiscard]] double structure_of(const Screening& screening, int joint) const {
     double most = 0;
     for (const GenericResult& generic : screening.generic) {
       const GenericStructure& structure = structures_[generic.structure];
-      if (structure.joint != joint || structure.at_reversals) continue;
+      if (structure.joint != joint) continue;
+      const bool faint = generic.score.squares < kHardlyMoreThanNoise * generic.score.degrees;
+      if (structure.at_reversals && faint) continue;
       most = std::max(most, generic.score.squares - generic.score.degrees);
     }
     return most;
@@ -164,7 +170,7 @@ class Competition {
       named.surprise = surprise_of(named.best.score.squares, named.best.score.degrees);
     }
     std::stable_sort(order.begin(), order.end(), best_first);
-    std::set<std::size_t> attempted;
+    std::set<std::size_t> attempted, stopped;  // fitted and turned down; explained by stops
     std::optional<std::size_t> costly;
     for (const std::size_t place : order) {
       const NamedResult& named = screening.named[place];
@@ -182,9 +188,13 @@ class Competition {
       if (outdone(named, system, screening)) continue;
       if (attempted.contains(place)) continue;
       const Stops::Part stops = stops_.part_in(system, screening, hypotheses_[place], named);
-      if (stops == Stops::Part::kAll) continue;
+      if (stops == Stops::Part::kAll || is_no_event(system, named)) {
+        stopped.insert(place);
+        continue;
+      }
       at_stops_ = stops == Stops::Part::kBecause;
-      const NamedResult best = settled(named, order, attempted, screening);
+      stopped.insert(attempted.begin(), attempted.end());
+      const NamedResult best = settled(named, order, stopped, screening);
       attempted.insert(best.hypothesis);
       if (accept(best, screening)) return true;
     }
@@ -193,6 +203,14 @@ class Competition {
       if (keep(doubt_->named, screening, std::move(doubt_->fit))) return true;
     }
     return costly && keep_without_name(*costly, system, screening);
+  }
+
+  /// Whether what would be an event is a wild value, or too little: nothing held out speaks for it.
+  [[nodiscard]] bool is_no_event(const EvidenceSystem& system, const NamedResult& named) {
+    if (!hypotheses_[named.hypothesis].windowed) return false;
+    if (net(named) < kEventNet) return true;
+    return is_jolt(system,
+                   system.whitened(effect_columns(train_, signals_, named.best.effect, {0})));
   }
 
   /// Whether an effect that its file rules out explains far more on the same joint: then the
@@ -222,19 +240,14 @@ class Competition {
     for (const int joint : joints_of_hypothesis(place)) {
       for (const GenericResult& generic : screening.generic) {
         const GenericStructure& structure = structures_[generic.structure];
-        if (structure.joint != joint || structure.at_reversals || is_said(joint)) continue;
+        if (structure.joint != joint || structure.at_reversals || nameless_.is_said(joint))
+          continue;
         if (!nearest || generic.surprise > nearest->surprise) nearest = &generic;
       }
     }
     if (!nearest || !proof_of(with(named.best.effect)).helps()) return false;
-    describe(*nearest, system);
-    result_.nameless.back().costly = short_name(named.best.effect);
+    nameless_.describe(*nearest, system, short_name(named.best.effect));
     return true;
-  }
-
-  [[nodiscard]] bool is_said(int joint) const {
-    return std::any_of(result_.nameless.begin(), result_.nameless.end(),
-                       [&](const Nameless& nameless) { return nameless.structure.joint == joint; });
   }
 
   /// Where no motion repeats, noise is known from what the model leaves alone, and an effect that
@@ -331,7 +344,7 @@ class Competition {
   /// What effects read of the model (the load on a gear) is wrong as long as the model has taken up
   /// a part of the effect: the winner and its rivals are compared again beside the model as it is
   /// together with the winner.
-  /// @param refused  those that were fitted in this round and turned down
+  /// @param refused  those that were turned down in this round
   [[nodiscard]] NamedResult settled(const NamedResult& named, const std::vector<std::size_t>& order,
                                     const std::set<std::size_t>& refused,
                                     const Screening& screening) {
@@ -419,8 +432,8 @@ class Competition {
       return false;
     }
     const HeldoutProof proof = proof_of(next);
-    const bool event = named.best.effect.recording >= 0;
-    const bool beyond_doubt = sure(screening, named.surprise);
+    const bool event = hypotheses_[named.hypothesis].windowed;  // is not in what is held out
+    const bool beyond_doubt = nameless_.sure(screening, named.surprise);
     if (event          ? proof.harms()
         : beyond_doubt ? proof.contradicts() && !proof.helps()
                        : !proof.helps()) {
@@ -437,96 +450,6 @@ class Competition {
     result_.winners.push_back(std::move(winner));
     result_.fit = std::move(next);
     return true;
-  }
-
-  /// The strongest structure that nothing explains becomes part of the model, without a name.
-  bool next_nameless(const EvidenceSystem& system, const Screening& screening) {
-    const GenericResult* strongest = nullptr;
-    for (const GenericResult& generic : screening.generic) {
-      if (!strongest || generic.surprise > strongest->surprise) strongest = &generic;
-    }
-    if (!strongest || screening.family_wise(strongest->surprise) > options_.false_alarm) {
-      return next_ruled_out(system, screening);
-    }
-    const GenericStructure& structure = structures_[strongest->structure];
-    const std::vector<int> resting = stops_.resting(system, screening, structure);
-    if (!resting.empty()) {
-      result_.resting.insert(result_.resting.end(), resting.begin(), resting.end());
-      return true;
-    }
-    if (next_ruled_out(system, screening)) return true;
-    if (is_said(structure.joint) || !sure(screening, strongest->surprise)) return false;
-    describe(*strongest, system);
-    return true;
-  }
-
-  /// Whether structure may be said to be there without a name.
-  [[nodiscard]] bool sure(const Screening& screening, double surprise) const {
-    return screening.family_wise(surprise) <= kNamelessCaution * options_.false_alarm;
-  }
-
-  /// The largest surprise of generic structure on the joints of an effect.
-  [[nodiscard]] double structure_surprise(const Screening& screening,
-                                          const NamedResult& named) const {
-    const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
-    double most = 0;
-    for (const GenericResult& generic : screening.generic) {
-      const int joint = structures_[generic.structure].joint;
-      if (std::find(joints.begin(), joints.end(), joint) == joints.end()) continue;
-      most = std::max(most, generic.surprise);
-    }
-    return most;
-  }
-
-  /// The strongest effect that a bound or a falsifier rules out, if it is more than any other
-  /// structure there: it is of that form.
-  bool next_ruled_out(const EvidenceSystem& system, const Screening& screening) {
-    const NamedResult* strongest = nullptr;
-    for (const NamedResult& named : screening.named) {
-      if (!named.seen || named.best.admissible || net(named) < kRuledOutNet) continue;
-      if (!sure(screening, named.surprise)) continue;
-      const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
-      if (std::any_of(joints.begin(), joints.end(), [&](int joint) { return is_said(joint); })) {
-        continue;
-      }
-      if (strongest && net(named) <= net(*strongest)) continue;
-      if (stops_.explain(system, screening, hypotheses_[named.hypothesis], named)) continue;
-      strongest = &named;
-    }
-    if (!strongest || strongest->surprise < structure_surprise(screening, *strongest)) return false;
-    Nameless nameless;
-    nameless.structure.joint = joints_of_hypothesis(strongest->hypothesis).front();
-    nameless.score = strongest->best.score;
-    nameless.surprise = strongest->surprise;
-    nameless.ruled_out = strongest->best.effect;
-    nameless.objection = strongest->best.objection;
-    add(std::move(nameless), system);
-    return true;
-  }
-
-  void describe(const GenericResult& generic, const EvidenceSystem& system) {
-    Nameless nameless;
-    nameless.structure = structures_[generic.structure];
-    nameless.structure.frequency = generic.frequency;
-    nameless.score = generic.score;
-    nameless.surprise = generic.surprise;
-    add(std::move(nameless), system);
-  }
-
-  void add(Nameless nameless, const EvidenceSystem& system) {
-    const GenericStructure& structure = nameless.structure;
-    const JointColumns plain = nameless_columns(train_, signals_, nameless);
-    const JointColumns white = system.whitened(plain);
-    nameless.score = score_of(system.products(white, false), false);
-    const auto own = std::find(plain.joints.begin(), plain.joints.end(), structure.joint);
-    const auto place = static_cast<std::size_t>(own - plain.joints.begin());
-    const VectorXd& size = nameless.score.coefficients;
-    const double left = (system.left_of(white, structure.joint) * size).squaredNorm();
-    const double whole = (white.parts[place] * size).squaredNorm();
-    nameless.rms =
-        std::sqrt((plain.parts[place] * size).squaredNorm() /
-                  static_cast<double>(plain.parts[place].rows()) * (whole > 0 ? left / whole : 0));
-    result_.nameless.push_back(std::move(nameless));
   }
 
   /// A winner that the others made superfluous leaves.
@@ -566,6 +489,7 @@ class Competition {
   bool at_stops_ = false;       // of the effect that is fitted
   CompetitionResult result_;
   Stops stops_;
+  NamelessSearch nameless_;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kGain = 2;          // by which squares must fall
 constexpr double kDeviations = 2.3;  // from what an effect would have done: 1 % of those there are
+constexpr double kInformative = 4;   // squares of the change: with less they say nothing for it
 constexpr double kRefit = 10;        // by which squares may rise as the model's estimate changes
 
 }  // namespace
@@ -49,7 +50,7 @@ VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
 bool HeldoutProof::helps() const { return before - after >= kGain; }
 
 bool HeldoutProof::contradicts() const {
-  return before - after < change - kDeviations * 2 * std::sqrt(change);
+  return change < kInformative || before - after < change - kDeviations * 2 * std::sqrt(change);
 }
 
 bool HeldoutProof::harms() const { return after - before >= kRefit; }

@@ -26,7 +26,7 @@ struct HeldoutProof {
   double change = 0;  ///< squares of the change: what an effect that is there takes away, +-
                       ///< 2 sqrt(change); one that is not adds as much
   [[nodiscard]] bool helps() const;
-  /// They would hardly be like this if the effect were there.
+  /// They would hardly be like this if the effect were there, or it does not show in them.
   [[nodiscard]] bool contradicts() const;
   /// They are worse by more than a refit's noise, where the effect does not act in them.
   [[nodiscard]] bool harms() const;

@@ -7,7 +7,10 @@
 namespace dyngen::runtime {
 namespace {
 
+using Eigen::VectorXd;
+
 constexpr double kGoodPart = 1.0 / 3;  // of the squares of impulses: what explains it makes them
+constexpr double kKnown = 4;  // squares: an effect that would have as many elsewhere is seen there
 
 }  // namespace
 
@@ -36,7 +39,7 @@ Stops::Part Stops::part_in(const EvidenceSystem& system, const Screening& screen
                            const Hypothesis& hypothesis, const NamedResult& named) const {
   EvidenceSystem beside = system, beside_effect = system;
   bool any = false, much_left = false;
-  double impulses_squares = 0;  // less their expectation under noise
+  double squares = 0, degrees = 0, beside_it = 0;  // of the impulses
   const auto white_beside = [&](const EvidenceSystem& model) {
     return hypothesis_columns(data_, signals_, model, hypothesis, named.best.effect);
   };
@@ -47,17 +50,44 @@ Stops::Part Stops::part_in(const EvidenceSystem& system, const Screening& screen
     if (!any) beside_effect.add(white_beside(system));
     any = true;
     const Score& alone = impulses_at(screening, joint)->score;
-    impulses_squares += std::max(0.0, alone.squares - alone.degrees);
+    squares += alone.squares;
+    degrees += alone.degrees;
     const Score left = score_of(beside_effect.products(impulses, false), false);
+    beside_it += left.squares;
     much_left = much_left || significant(surprise_of(left.squares, left.degrees));
     beside.leave_out(impulses);
   }
   if (!any || !much_left) return Part::kNone;
-  const Score left = score_of(beside.products(white_beside(beside), false), false);
+  const Products products = beside.products(white_beside(beside), false);
+  // an effect of this size would be seen elsewhere, and there it is smaller by half or more
+  const VectorXd& size = named.best.score.coefficients;
+  const double expected = size.dot(products.left * size);
+  if (expected > kKnown && size.dot(products.rest) < 0.5 * expected) return Part::kAll;
+  const Score left = score_of(products, false);
   if (screening.family_wise(surprise_of(left.squares, left.degrees)) <= false_alarm_) {
     return Part::kNone;
   }
-  return named.best.score.squares > kGoodPart * impulses_squares ? Part::kBecause : Part::kAll;
+  // what is late is late everywhere
+  const bool everywhere = hypothesis.effect.law.kind == EffectKind::kAlignment;
+  const bool makes_them = !everywhere &&
+                          named.best.score.squares > kGoodPart * std::max(0.0, squares - degrees) &&
+                          beside_it < kHardlyMoreThanNoise * degrees;
+  return makes_them ? Part::kBecause : Part::kAll;
+}
+
+bool Stops::hide(const EvidenceSystem& system, const Screening& screening,
+                 const Hypothesis& hypothesis, const NamedResult& named) const {
+  EvidenceSystem beside = system;
+  for (const int joint : joints_of(hypothesis.effect, data_.joints())) {
+    if (rests(joint)) continue;
+    beside.leave_out(
+        system.whitened(generic_columns(data_, signals_, impulses_at_reversals(joint))));
+  }
+  const Score left = score_of(
+      beside.products(hypothesis_columns(data_, signals_, beside, hypothesis, named.best.effect),
+                      false),
+      false);
+  return screening.family_wise(surprise_of(left.squares, left.degrees)) > false_alarm_;
 }
 
 std::vector<int> Stops::resting(const EvidenceSystem& system, const Screening& screening,

@@ -7,6 +7,9 @@
 
 namespace dyngen::runtime {
 
+/// Squares of impulses over their degrees: below it they are hardly more than noise.
+inline constexpr double kHardlyMoreThanNoise = 2;
+
 /// What dry friction does where a joint turns or stops: it holds the joint for an instant, with any
 /// torque up to its own, and the equations have an impulse there. That is neither a name nor
 /// structure: a joint of which it is seen `rests`, and has its impulses beside the model.
@@ -24,9 +27,10 @@ class Stops {
 
   /// What the stops of its joints have to do with an effect.
   enum class Part {
-    kNone,    ///< beside their impulses it is seen, or beside it there are none
-    kAll,     ///< beside their impulses nothing is left of it: they explain it
-    kBecause  ///< nor is there, but it explains a good part of the impulses: it makes them
+    kNone,    ///< beside their impulses it is seen with the same size, or beside it there are none
+    kAll,     ///< beside their impulses nothing is left of it, or far too little: they explain it
+    kBecause  ///< little is to be expected of it beside them, but it explains a good part of them
+              ///< and leaves hardly more than noise: it makes them
   };
   [[nodiscard]] Part part_in(const EvidenceSystem& system, const Screening& screening,
                              const Hypothesis& hypothesis, const NamedResult& named) const;
@@ -35,6 +39,11 @@ class Stops {
                              const Hypothesis& hypothesis, const NamedResult& named) const {
     return part_in(system, screening, hypothesis, named) == Part::kAll;
   }
+
+  /// Whether beside impulses at the reversals of its joints, seen or not, nothing is left of an
+  /// effect.
+  [[nodiscard]] bool hide(const EvidenceSystem& system, const Screening& screening,
+                          const Hypothesis& hypothesis, const NamedResult& named) const;
 
   /// Joints that begin to rest: the structure's, if impulses at its reversals are more than noise
   /// and beside them the structure is not; with it all others where impulses are the strongest

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace dyngen::runtime {
 namespace {
@@ -170,6 +171,25 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
     scan.score.surrogates = repeated;
   }
   return scan;
+}
+
+bool is_jolt(const EvidenceSystem& system, const JointColumns& torque) {
+  constexpr std::size_t kFew = 3;
+  constexpr double kLargerPart = 0.6;
+  std::vector<double> gains;
+  for (const int joint : torque.joints) {
+    const VectorXd rest = system.rest(joint), own = system.left_of(torque, joint).col(0);
+    for (Index k = 0; k < own.size(); ++k) {
+      gains.push_back(own[k] * (2 * rest[k] - own[k]));  // r^2 - (r - e)^2
+    }
+  }
+  double all = 0, of_few = 0;
+  for (const double gain : gains) all += gain;
+  const std::size_t few = std::min(kFew, gains.size());
+  std::partial_sort(gains.begin(), gains.begin() + static_cast<std::ptrdiff_t>(few), gains.end(),
+                    std::greater<>());
+  for (std::size_t i = 0; i < few; ++i) of_few += gains[i];
+  return of_few > kLargerPart * all;
 }
 
 }  // namespace dyngen::runtime

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/nameless_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kCaution = 0.1;     // of the false alarms: nothing held out speaks for it
+constexpr double kRuledOutNet = 15;  // squares, net: a form that cannot be is no small thing
+
+}  // namespace
+
+bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screening) {
+  const GenericResult* strongest = nullptr;
+  for (const GenericResult& generic : screening.generic) {
+    if (!strongest || generic.surprise > strongest->surprise) strongest = &generic;
+  }
+  if (!strongest || screening.family_wise(strongest->surprise) > false_alarm_) {
+    return next_ruled_out(system, screening);
+  }
+  const GenericStructure& structure = structures_[strongest->structure];
+  const std::vector<int> resting = stops_.resting(system, screening, structure);
+  if (!resting.empty()) {
+    result_.resting.insert(result_.resting.end(), resting.begin(), resting.end());
+    return true;
+  }
+  if (next_ruled_out(system, screening)) return true;
+  if (is_said(structure.joint) || !sure(screening, strongest->surprise)) return false;
+  describe(*strongest, system, "");
+  return true;
+}
+
+bool NamelessSearch::sure(const Screening& screening, double surprise) const {
+  return screening.family_wise(surprise) <= kCaution * false_alarm_;
+}
+
+bool NamelessSearch::is_said(int joint) const {
+  return std::any_of(result_.nameless.begin(), result_.nameless.end(),
+                     [&](const Nameless& nameless) { return nameless.structure.joint == joint; });
+}
+
+std::vector<int> NamelessSearch::joints_of_hypothesis(std::size_t place) const {
+  return joints_of(hypotheses_[place].effect, data_.joints());
+}
+
+/// The largest surprise of generic structure on some joints.
+double NamelessSearch::structure_surprise(const Screening& screening,
+                                          const std::vector<int>& joints) const {
+  double most = 0;
+  for (const GenericResult& generic : screening.generic) {
+    const int joint = structures_[generic.structure].joint;
+    if (std::find(joints.begin(), joints.end(), joint) == joints.end()) continue;
+    most = std::max(most, generic.surprise);
+  }
+  return most;
+}
+
+/// The strongest effect that a bound or a falsifier rules out, if it is more than any other
+/// structure there: it is of that form.
+bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screening& screening) {
+  const NamedResult* strongest = nullptr;
+  double most = kRuledOutNet;
+  for (const NamedResult& named : screening.named) {
+    if (!named.seen || named.best.admissible || !sure(screening, named.surprise)) continue;
+    const double net = net_of(hypotheses_[named.hypothesis], named.best, result_.noise);
+    if (net <= most) continue;
+    const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
+    if (std::any_of(joints.begin(), joints.end(), [&](int joint) { return is_said(joint); })) {
+      continue;
+    }
+    if (stops_.hide(system, screening, hypotheses_[named.hypothesis], named)) continue;
+    strongest = &named;
+    most = net;
+  }
+  if (!strongest) return false;
+  const std::vector<int> joints = joints_of_hypothesis(strongest->hypothesis);
+  if (strongest->surprise < structure_surprise(screening, joints)) return false;
+  Nameless nameless;
+  nameless.structure.joint = joints.front();
+  nameless.surprise = strongest->surprise;
+  nameless.ruled_out = strongest->best.effect;
+  nameless.objection = strongest->best.objection;
+  add(std::move(nameless), system);
+  return true;
+}
+
+void NamelessSearch::describe(const GenericResult& generic, const EvidenceSystem& system,
+                              const std::string& costly) {
+  Nameless nameless;
+  nameless.structure = structures_[generic.structure];
+  nameless.structure.frequency = generic.frequency;
+  nameless.surprise = generic.surprise;
+  nameless.costly = costly;
+  add(std::move(nameless), system);
+}
+
+void NamelessSearch::add(Nameless nameless, const EvidenceSystem& system) {
+  const int joint = nameless.structure.joint;
+  const JointColumns plain = nameless_columns(data_, signals_, nameless);
+  const JointColumns white = system.whitened(plain);
+  nameless.score = score_of(system.products(white, false), false);
+  const auto own = std::find(plain.joints.begin(), plain.joints.end(), joint);
+  const auto place = static_cast<std::size_t>(own - plain.joints.begin());
+  const VectorXd& size = nameless.score.coefficients;
+  // of the torque as much as the model does not absorb of its whitened squares
+  const double left = (system.left_of(white, joint) * size).squaredNorm();
+  const double whole = (white.parts[place] * size).squaredNorm();
+  const double mean =
+      (plain.parts[place] * size).squaredNorm() / static_cast<double>(plain.parts[place].rows());
+  nameless.rms = std::sqrt(whole > 0 ? mean * left / whole : 0);
+  result_.nameless.push_back(std::move(nameless));
+}
+
+}  // namespace dyngen::runtime

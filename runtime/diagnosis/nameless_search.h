@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/diagnosis/competition_result.h"
+#include "runtime/diagnosis/stops.h"
+
+namespace dyngen::runtime {
+
+/// Structure that no effect of the catalogue explains. What is found becomes part of the model, so
+/// that effects are looked for beside it.
+class NamelessSearch {
+ public:
+  /// All must outlive it. @param result  what was found so far; grows
+  NamelessSearch(const EffectRecordings& data, EffectSignals& signals,
+                 const std::vector<Hypothesis>& hypotheses,
+                 const std::vector<GenericStructure>& structures, const Stops& stops,
+                 double false_alarm, CompetitionResult& result)
+      : data_(data),
+        signals_(signals),
+        hypotheses_(hypotheses),
+        structures_(structures),
+        stops_(stops),
+        false_alarm_(false_alarm),
+        result_(result) {}
+
+  /// The strongest structure of a round: a joint that rests, the form of an effect that a bound or
+  /// a falsifier rules out, or any function of the motion. @return whether there is any
+  bool next(const EvidenceSystem& system, const Screening& screening);
+
+  /// Generic structure that `costly` would explain, for more parameters than the data pay for.
+  void describe(const GenericResult& generic, const EvidenceSystem& system,
+                const std::string& costly);
+
+  /// Whether structure may be said to be there although nothing that is held out speaks for it.
+  [[nodiscard]] bool sure(const Screening& screening, double surprise) const;
+  /// Whether a joint has nameless structure already.
+  [[nodiscard]] bool is_said(int joint) const;
+
+ private:
+  bool next_ruled_out(const EvidenceSystem& system, const Screening& screening);
+  [[nodiscard]] double structure_surprise(const Screening& screening,
+                                          const std::vector<int>& joints) const;
+  [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
+  void add(Nameless nameless, const EvidenceSystem& system);
+
+  const EffectRecordings& data_;
+  EffectSignals& signals_;
+  const std::vector<Hypothesis>& hypotheses_;
+  const std::vector<GenericStructure>& structures_;
+  const Stops& stops_;
+  double false_alarm_;
+  CompetitionResult& result_;
+};
+
+}  // namespace dyngen::runtime
