@@ -24,7 +24,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kRefined = 12;     // candidates whose shapes are refined in a round
-constexpr double kLeastExplained = 0.5;  // part of a joint's structure that a name must explain
+constexpr double kLeastExplained = 0.7;  // part of a joint's structure that a name must explain
+constexpr double kLeastAsGood = 0.5;     // of the winner's squares: rivals that are tried with it
+constexpr double kOutdone = 9;           // squares, net, by which a form that cannot be is better
 constexpr std::size_t kAttempts = 4;     // effects that are fitted in a round before it gives up
 constexpr double kTie = 0.5;             // squares that decide nothing
 constexpr std::size_t kRivals = 5;       // that are compared again once the winner is fitted
@@ -213,15 +215,15 @@ class Competition {
                    system.whitened(effect_columns(train_, signals_, named.best.effect, {0})));
   }
 
-  /// Whether an effect that its file rules out explains far more on the same joint: then the
-  /// structure is something else, of that form.
+  /// Whether an effect that its file rules out explains more on the same joint: then the structure
+  /// is something else, of that form.
   [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,
                              const Screening& screening) const {
     const std::vector<int> own = joints_of_hypothesis(named.hypothesis);
     return std::any_of(
         screening.named.begin(), screening.named.end(), [&](const NamedResult& other) {
           if (!other.seen || other.best.admissible) return false;
-          if (net(named) >= kLeastExplained * net(other)) return false;
+          if (net(named) >= net(other) - kOutdone) return false;
           const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
           const bool meet = std::any_of(joints.begin(), joints.end(), [&](int joint) {
             return std::find(own.begin(), own.end(), joint) != own.end();
@@ -365,7 +367,7 @@ class Competition {
       if (tried++ == kRivals) break;
       const NamedResult& rival = screening.named[place];
       if (refused.contains(place)) continue;
-      if (rival.best.score.squares < kLeastExplained * named.best.score.squares) continue;
+      if (rival.best.score.squares < kLeastAsGood * named.best.score.squares) continue;
       const Hypothesis& hypothesis = hypotheses_[place];
       const EffectScales scales = scales_.of(beside.beta, hypothesis.effect);
       EffectInstance start = rival.best.effect;

@@ -62,16 +62,15 @@ std::vector<ConditionLine> conditions_of(const DiagnosisInput& input) {
 }
 
 std::string where_it_acts(const EffectInstance& effect) {
-  if (effect.recording >= 0) {
-    EffectInstance anywhere = effect;
-    anywhere.recording = -1;
-    return fmt::format("{} in recording {}", where_it_acts(anywhere), effect.recording + 1);
-  }
   if (effect.joint < 0) return "the whole robot";
   if (effect.other >= 0) {
     return fmt::format("joints {} and {}", effect.joint + 1, effect.other + 1);
   }
   return fmt::format("joint {}", effect.joint + 1);
+}
+
+std::string when_it_acts(const Whereabouts& where) {
+  return where.recording.empty() ? "" : " in " + where.recording;
 }
 
 /// One diagnosis while it is made.
@@ -223,6 +222,10 @@ class Diagnostician {
         system_without(train_, signals, hypotheses_, result_, place, options);
     finding.tests = name_tests(train_, signals, system, finding.effect);
     finding.where = whereabouts_of(train_, signals, system, hypothesis, finding.effect);
+    if (finding.effect.recording >= 0) {
+      finding.where.recording =
+          parts_.train[static_cast<std::size_t>(finding.effect.recording)].name;
+    }
     finding.evidence.heldout_gain =
         1 - std::sqrt(winner.heldout_after / std::max(winner.heldout_before, 1e-300));
     for (const EffectRemark& remark : answer_.fit.remarks) {
@@ -240,7 +243,8 @@ class Diagnostician {
   std::string why(const Finding& finding, const Naming& naming) const {
     std::string text = fmt::format(
         "{} on {} explains {:.0f} squares of noise that the model cannot",
-        finding.effect.law.family, where_it_acts(finding.effect), finding.evidence.lambda);
+        finding.effect.law.family, where_it_acts(finding.effect) + when_it_acts(finding.where),
+        finding.evidence.lambda);
     if (naming.rivals.empty()) return text + "; nothing else comes near";
     const Rival& next = naming.rivals.front();
     if (finding.aliases.size() > 1) {

@@ -127,6 +127,7 @@ std::string where_sentence(const DiagnosisReport& report, const Finding& finding
   }
   if (std::isfinite(where.t_from) && std::isfinite(where.t_to)) {
     text += fmt::format(", between {:.4g} and {:.4g} s", where.t_from, where.t_to);
+    if (!where.recording.empty()) text += " of " + where.recording;
   }
   text += ".";
   if (where.share > 0) {

@@ -25,6 +25,7 @@ std::string where_text(const DiagnosisReport& report, const Whereabouts& where) 
   if (std::isfinite(where.t_from) && std::isfinite(where.t_to)) {
     text +=
         fmt::format("{}t {:.3g} .. {:.3g} s", text.empty() ? "" : ", ", where.t_from, where.t_to);
+    if (!where.recording.empty()) text += " of " + where.recording;
   }
   if (!text.empty() && where.share > 0) {
     text += fmt::format(" ({:.0f} % of what the model leaves)", 100 * where.share);

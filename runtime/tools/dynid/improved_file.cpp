@@ -37,6 +37,7 @@ std::string improved_text(const DiagnosisReport& report, const DescribedRobot& r
   const EffectPoint& point = report.diagnosis.fit.point;
   std::vector<std::string> rows;
   for (const EffectInstance& effect : point.effects) {
+    if (effect.recording >= 0) continue;  // an event of that recording is none of the robot
     rows.push_back(effect_row(effect, robot.model, true));
   }
   std::vector<std::string> comment = findings_comment(report, robot);

@@ -57,6 +57,23 @@ TEST(Division, HoldsOutTheLastFifthInWhichAllJointsMove) {
   EXPECT_GT(span(stopped.train[1]).first, last);
 }
 
+TEST(RowPlan, GivesNoMoreEquationsThanAskedFor) {
+  MotionSource source =
+      test::measured({test::sines(10, 0.002)}, test::planar_arm_values(), {}, 0, 0, 1).front();
+  source.cutoff.hz = 20;
+  RowOptions rows;
+  rows.band = 1;
+  EXPECT_EQ(plan_rows(source, rows).decimation, 12);  // 0.5 / (20 Hz 2 ms) = 12.5
+  rows.row_time = 0.05;
+  EXPECT_EQ(plan_rows(source, rows).decimation, 25);
+  rows.multiple = 4;
+  EXPECT_EQ(plan_rows(source, rows).decimation, 28);
+  rows.row_time = 0.001;
+  EXPECT_EQ(plan_rows(source, rows).decimation, 12);
+  rows.decimation = 3;
+  EXPECT_EQ(plan_rows(source, rows).decimation, 3);
+}
+
 TEST(Thinned, ColumnsAreThoseOfAllSamples) {
   // equations of 20 samples: columns of a spring and of dry friction
   const EffectInstance spring = test::known(test::spring_law(), 1, {0.2});

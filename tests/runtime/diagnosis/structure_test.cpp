@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "runtime/diagnosis/diagnosis.h"
+#include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/line_scan.h"
 #include "runtime/diagnosis/naming.h"
 #include "runtime/diagnosis/time_windows.h"
@@ -67,10 +68,11 @@ EffectLaw push_law() {
   return law;
 }
 
-/// What is recorded where an effect acts in the second recording alone.
-std::vector<MotionSource> with_event(const EffectInstance& effect, unsigned seed) {
+/// What is recorded where an effect acts in one recording alone.
+std::vector<MotionSource> with_event_in(std::size_t place, const EffectInstance& effect,
+                                        unsigned seed) {
   std::vector<MotionSource> sources = measured({}, seed);
-  sources[1] = measured({effect}, seed)[1];
+  sources[place] = measured({effect}, seed)[place];
   return sources;
 }
 
@@ -106,7 +108,7 @@ TEST(SquaresOfFew, RiseToThoseOfAllColumns) {
 
 TEST(WindowScan, SaysInWhichRecording) {
   const EffectRecordings data =
-      recordings(with_event(test::known(push_law(), 0, {0.3, 12, 12.8}), 2));
+      recordings(with_event_in(1, test::known(push_law(), 0, {0.3, 12, 12.8}), 2));
   EffectSignals signals(data);
   signals.set_beta(test::planar_arm_values());
   const Hypothesis hypothesis = hypothesis_of(test::unknown(push_law(), 0),
@@ -151,10 +153,74 @@ DiagnosisOptions every_sample() {
   return options;
 }
 
+TEST(Jolt, IsWhatAFewEquationsHold) {
+  for (const double length : {0.02, 0.8}) {
+    // the recording has it too
+    EffectInstance push = test::known(push_law(), 0, {1, 12, 12 + length});
+    const EffectRecordings with = recordings(with_event_in(0, push, 7));
+    push.recording = 0;
+    EffectSignals own(with);
+    own.set_beta(test::planar_arm_values());
+    const EvidenceSystem system = system_of(with);
+    const JointColumns white = system.whitened(effect_columns(with, own, push, {0}));
+    EXPECT_EQ(is_jolt(system, white), length < 0.1) << length;
+  }
+}
+
+TEST(HeldoutProof, WeighsAGainByWhatTheChangeIsWorth) {
+  // an effect of 30 squares that is there takes 30 +- 11 away
+  EXPECT_TRUE((HeldoutProof{1000, 970, 30}.helps()));
+  EXPECT_FALSE((HeldoutProof{1000, 970, 30}.contradicts()));
+  EXPECT_FALSE((HeldoutProof{1000, 994, 30}.contradicts()));
+  EXPECT_TRUE((HeldoutProof{1000, 1001, 30}.contradicts()));
+  // one that is not adds as much
+  EXPECT_TRUE((HeldoutProof{1000, 1030, 30}.contradicts()));
+  EXPECT_TRUE((HeldoutProof{1000, 1030, 30}.harms()));
+  // where it hardly shows nothing is said for it
+  EXPECT_TRUE((HeldoutProof{1000, 999.5, 1}.contradicts()));
+  EXPECT_FALSE((HeldoutProof{1000, 999.5, 1}.helps()));
+}
+
+TEST(HeldoutProof, IsOfSquaresBeforeAndAfter) {
+  const EffectInstance spring = test::known(test::spring_law(), 1, {0.4});
+  const EffectRecordings data = recordings(measured({spring}, 8));
+  const EffectPoint before = at_rest(data, test::planar_arm_values(), {}),
+                    after = at_rest(data, test::planar_arm_values(), {spring});
+  const HeldoutProof proof = heldout_proof(data, before, after, white());
+  const double gain = proof.before - proof.after;
+  EXPECT_NEAR(gain, proof.change, 5 * 2 * std::sqrt(proof.change));
+  EXPECT_NEAR(proof.after, 2.0 * static_cast<double>(data.equations()),
+              5 * std::sqrt(4.0 * static_cast<double>(data.equations())));
+}
+
+/// Friction that a held joint smooths about each reversal, of both joints.
+std::vector<EffectInstance> held_at_reversals() {
+  const EffectLaw held = test::algebraic_law(
+      "held", {"qd", "sign_qd", "Fc"}, {{"part", EffectRole::kLinear, 0, 1, 1, 1}},
+      [](const VectorXd& v, const VectorXd& p) {
+        return std::abs(v[0]) < 0.02 ? -p[0] * v[2] * v[1] * (1 - std::abs(v[0]) / 0.02) : 0.0;
+      });
+  return {test::known(held, 0, {1}), test::known(held, 1, {1})};
+}
+
+TEST(Diagnosis, WhatFrictionHoldsAtReversalsIsNoNameAndNoStructure) {
+  const std::vector<EffectInstance> held = held_at_reversals();
+  DiagnosisInput input =
+      input_of(measured(held, 9), held, {test::stribeck_law(), test::spring_law()});
+  EffectInstance delay = test::unknown(test::delay_law(), -1);
+  delay.law.family = "time_delay";
+  input.hypotheses.push_back(delay);
+  const Diagnosis diagnosis = diagnose(input, every_sample());
+  EXPECT_EQ(diagnosis.verdict, Verdict::kClean) << diagnosis.sentence;
+  EXPECT_TRUE(diagnosis.findings.empty());
+  EXPECT_NE(diagnosis.noise.how.find("rests for an instant"), std::string::npos)
+      << diagnosis.noise.how;
+}
+
 TEST(Diagnosis, NamesAnEventOfOneRecording) {
   const EffectInstance event = test::known(push_law(), 0, {0.3, 12, 12.8});
   const Diagnosis diagnosis = diagnose(
-      input_of(with_event(event, 3), {}, {push_law(), test::spring_law()}), every_sample());
+      input_of(with_event_in(1, event, 3), {}, {push_law(), test::spring_law()}), every_sample());
   ASSERT_EQ(diagnosis.findings.size(), 1U);
   const Finding& finding = diagnosis.findings.front();
   EXPECT_EQ(finding.effect.law.name, "contact");
@@ -163,7 +229,8 @@ TEST(Diagnosis, NamesAnEventOfOneRecording) {
   EXPECT_NEAR(finding.effect.parameters[0], 0.3, 0.06);
   EXPECT_NEAR(finding.where.t_from, 12, 0.3);
   EXPECT_NEAR(finding.where.t_to, 12.8, 0.3);
-  EXPECT_NE(finding.why.find("in recording 2"), std::string::npos) << finding.why;
+  EXPECT_FALSE(finding.where.recording.empty());
+  EXPECT_NE(finding.why.find(finding.where.recording), std::string::npos) << finding.why;
   // nothing of it is in what is held out
   EXPECT_NEAR(diagnosis.heldout.after[0] / diagnosis.heldout.before[0], 1, 0.01);
 }

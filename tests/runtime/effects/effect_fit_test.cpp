@@ -178,6 +178,49 @@ TEST(EffectFit, WhatTheDataCannotSeeIsNamed) {
   EXPECT_NE(found.remarks[0].text.find("OFF1"), std::string::npos) << found.remarks[0].text;
 }
 
+TEST(EffectFit, AParameterThatIsNotSeenDoesNotObjectBesideOneThatIs) {
+  const VectorXd beta = test::planar_arm_values();
+  // a spring and its force at zero, which is the joint's offset
+  const EffectLaw spring = test::algebraic_law(
+      "gravity_spring", {"q"},
+      {{"k", EffectRole::kLinear, -100, 100, 1, 1}, {"c", EffectRole::kLinear, -100, 100, 0, 1}},
+      [](const VectorXd& v, const VectorXd& p) { return p[0] * v[0] + p[1]; });
+  const auto sources = test::measured(two_runs(), beta, {known(spring, 1, {0.5, 0})}, 0.01, 0, 9);
+  const EffectFit found = fit(sources, {unknown(spring, 1)});
+  ASSERT_EQ(found.remarks.size(), 1U);
+  EXPECT_EQ(found.remarks[0].kind, EffectRemark::Kind::kNotSeen);
+  EXPECT_FALSE(found.objects(found.remarks[0], 0));
+  const EffectFit nothing = fit(sources, {unknown(test::coulomb_asymmetry_law(), 0)});
+  ASSERT_FALSE(nothing.remarks.empty());
+  EXPECT_TRUE(nothing.objects(nothing.remarks[0], 0));
+  EXPECT_FALSE(nothing.objects(nothing.remarks[0], 1));
+}
+
+TEST(EffectFit, ABoundBeyondWhichNothingChangesIsNoRemark) {
+  const VectorXd beta = test::planar_arm_values();
+  const EffectLaw cooling = test::algebraic_law(
+      "cooling", {"t", "qd"},
+      {{"k", EffectRole::kLinear, -1000, 1000, 1, 1},
+       {"warm", EffectRole::kShape, 1, 2000, 10, 10, true}},
+      [](const VectorXd& v, const VectorXd& p) { return p[0] * v[1] * std::exp(-v[0] / p[1]); });
+  // friction that grows faster and faster is not of the law: the longest time is nearest to it
+  const EffectLaw growing = test::algebraic_law(
+      "growing", {"t", "qd"}, {{"k", EffectRole::kLinear, -1000, 1000, 1, 1}},
+      [](const VectorXd& v, const VectorXd& p) { return p[0] * v[1] * v[0] / 20; });
+  const auto at_bound = [&](double size, unsigned seed) {
+    const auto sources =
+        test::measured(two_runs(), beta, {known(growing, 0, {size})}, 0.05, 0, seed);
+    return fit(sources, {unknown(cooling, 0)});
+  };
+  int held = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const EffectFit found = at_bound(0.05, seed);
+    held += found.parameters[0][1].at_bound ? 1 : 0;
+    EXPECT_TRUE(found.remarks.empty()) << "seed " << seed << ": " << found.remarks[0].text;
+  }
+  EXPECT_GT(held, 0);
+}
+
 TEST(EffectFit, IntervalsCoverTheTruthUnderCorrelatedNoise) {
   constexpr int kTrials = 120;
   constexpr unsigned kSeed = 100;
