@@ -221,14 +221,15 @@ class Competition {
                              const Screening& screening) const {
     const std::vector<int> own = joints_of_hypothesis(named.hypothesis);
     return std::any_of(
-        screening.named.begin(), screening.named.end(), [&](const NamedResult& other) {
-          if (!other.seen || other.best.admissible) return false;
+        screening.named.begin(), screening.named.end(), [&](const NamedResult& each) {
+          if (!each.seen || each.freest.admissible) return false;
+          const NamedResult other = without_conditions(each);
           if (net(named) >= net(other) - kOutdone) return false;
           const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
           const bool meet = std::any_of(joints.begin(), joints.end(), [&](int joint) {
             return std::find(own.begin(), own.end(), joint) != own.end();
           });
-          return meet && !stops_.explain(system, screening, hypotheses_[other.hypothesis], other);
+          return meet && !stops_.hide(system, screening, hypotheses_[other.hypothesis], other);
         });
   }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace dyngen::runtime {
 namespace {
@@ -62,18 +64,19 @@ double NamelessSearch::structure_surprise(const Screening& screening,
 /// The strongest effect that a bound or a falsifier rules out, if it is more than any other
 /// structure there: it is of that form.
 bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screening& screening) {
-  const NamedResult* strongest = nullptr;
+  std::optional<NamedResult> strongest;
   double most = kRuledOutNet;
-  for (const NamedResult& named : screening.named) {
-    if (!named.seen || named.best.admissible || !sure(screening, named.surprise)) continue;
+  for (const NamedResult& each : screening.named) {
+    if (!each.seen || each.freest.admissible) continue;
+    NamedResult named = without_conditions(each);
     const double net = net_of(hypotheses_[named.hypothesis], named.best, result_.noise);
-    if (net <= most) continue;
+    if (net <= most || !sure(screening, named.surprise)) continue;
     const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
     if (std::any_of(joints.begin(), joints.end(), [&](int joint) { return is_said(joint); })) {
       continue;
     }
     if (stops_.hide(system, screening, hypotheses_[named.hypothesis], named)) continue;
-    strongest = &named;
+    strongest = std::move(named);
     most = net;
   }
   if (!strongest) return false;

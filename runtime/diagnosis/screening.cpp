@@ -161,12 +161,14 @@ class Screener {
       grid = ordered_grid(hypothesis, scales,
                           orders_[static_cast<std::size_t>(hypothesis.effect.joint)]);
     } else if (before_ && before_->named[place].seen) {
-      VectorXd shapes(static_cast<Index>(hypothesis.shapes.size()));
-      for (Index i = 0; i < shapes.size(); ++i) {
-        shapes[i] = before_->named[place]
-                        .best.effect.parameters[hypothesis.shapes[static_cast<std::size_t>(i)]];
+      const NamedResult& earlier = before_->named[place];
+      for (const TrialScore* trial : {&earlier.best, &earlier.freest}) {
+        VectorXd shapes(static_cast<Index>(hypothesis.shapes.size()));
+        for (Index i = 0; i < shapes.size(); ++i) {
+          shapes[i] = trial->effect.parameters[hypothesis.shapes[static_cast<std::size_t>(i)]];
+        }
+        if (grid.empty() || shapes != grid.front()) grid.push_back(std::move(shapes));
       }
-      grid = {shapes};
     } else {
       grid = shape_grid(hypothesis, scales, kGrid);
     }
@@ -201,12 +203,14 @@ class Screener {
         EffectInstance event = with_shapes(hypothesis, window);
         event.recording = scan.recording;
         result.best = try_hypothesis(data, signals, system_, hypothesis, event, scales, false);
+        result.freest = result.best;
         if (!before_) noise.add(scan.score.surrogates, scan.score.degrees);
       } else {
         bool first = true;
         for (TrialScore& trial : try_shapes(data, signals, system_, hypothesis,
                                             trials(place, scales), scales, !before_)) {
           if (!before_) noise.add(trial.score.surrogates, trial.score.degrees);
+          if (first || trial.score.squares > result.freest.score.squares) result.freest = trial;
           if (first || better(trial, result.best)) result.best = std::move(trial);
           first = false;
         }
@@ -262,6 +266,13 @@ double surprise_of(double squares, int degrees) {
   // leading term for large arguments (Abramowitz and Stegun 1964, 26.4.12)
   const double half = 0.5 * degrees;
   return squares / 2 - (half - 1) * std::log(squares / 2) + std::lgamma(half);
+}
+
+NamedResult without_conditions(const NamedResult& named) {
+  NamedResult free = named;
+  free.best = named.freest;
+  free.surprise = surprise_of(free.best.score.squares, free.best.score.degrees);
+  return free;
 }
 
 double Screening::family_wise(double surprise) const {

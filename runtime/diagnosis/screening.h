@@ -14,12 +14,16 @@ namespace dyngen::runtime {
 struct NamedResult {
   std::size_t hypothesis = 0;  ///< its place
   TrialScore best;             ///< of those that are admissible; of all where none is
-  double surprise = 0;         ///< -ln p of the chi-square distribution, at the best shape
-  double typical_lambda = 0;   ///< noncentrality of the typical size, at the typical shapes
-  double part_left = 0;        ///< of the typical size's squares, after the refit of the model
-  Eigen::VectorXd typical;     ///< (linear) typical sizes
-  bool seen = true;            ///< false: the motion does not excite it, or a signal is missing
+  TrialScore freest;    ///< of all: more squares than the best where a condition holds that back
+  double surprise = 0;  ///< -ln p of the chi-square distribution, at the best shape
+  double typical_lambda = 0;  ///< noncentrality of the typical size, at the typical shapes
+  double part_left = 0;       ///< of the typical size's squares, after the refit of the model
+  Eigen::VectorXd typical;    ///< (linear) typical sizes
+  bool seen = true;           ///< false: the motion does not excite it, or a signal is missing
 };
+
+/// The same at what fits best whatever conditions say.
+NamedResult without_conditions(const NamedResult& named);
 
 struct GenericResult {
   std::size_t structure = 0;  ///< its place

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -176,6 +177,35 @@ std::string baseline_table(const Scores& scores) {
   return text + "\n";
 }
 
+/// How often the first name is right, by the probability that the answer gives it.
+std::string calibration(const Scores& scores) {
+  constexpr std::array<double, 5> kFrom = {0, 0.6, 0.8, 0.95, 1.01};
+  std::string text;
+  double error = 0, count = 0;
+  for (std::size_t bin = 0; bin + 1 < kFrom.size(); ++bin) {
+    Rate right;
+    double stated = 0;
+    for (const CaseScore* s : scores) {
+      if (s->probability <= 0 || s->probability < kFrom[bin] || s->probability >= kFrom[bin + 1]) {
+        continue;
+      }
+      right.add(s->family_right);
+      stated += s->probability;
+    }
+    if (right.of == 0) continue;
+    const double mean = stated / right.of;
+    error += std::abs(stated - right.hits);
+    count += right.of;
+    text += fmt::format("| {:g} to {:g} | {} | {:.3f} | {} |\n", kFrom[bin],
+                        std::min(kFrom[bin + 1], 1.0), right.of, mean, right.text());
+  }
+  if (text.empty()) return "";
+  return "Probabilities of first names, and how often they were right:\n\n"
+         "| stated | names | mean | right |\n|---|---:|---:|---|\n" +
+         text +
+         fmt::format("\nMean difference (expected calibration error): {:.3f}.\n\n", error / count);
+}
+
 /// What is wrong with an answer; empty: nothing.
 std::string failing(const CaseScore& s) {
   if (!s.failure.empty()) return "failed";
@@ -244,6 +274,7 @@ std::string of_kind(CaseKind kind, const Scores& scores) {
           by(scores, "lambda", [](const CaseScore& s) { return fmt::format("{:g}", s.lambda); });
       text += by(scores, "noise", noise);
       text += by(scores, "robot", [](const CaseScore& s) { return s.robot; });
+      text += calibration(scores);
   }
   if (kind == CaseKind::kPair) {
     text +=
