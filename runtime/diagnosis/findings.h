@@ -25,8 +25,8 @@ struct Whereabouts {
   /// s: the part of the recordings in which it acts; NaN: all of it
   double t_from = std::numeric_limits<double>::quiet_NaN();
   double t_to = std::numeric_limits<double>::quiet_NaN();
-  std::string recording;  ///< in which alone it acts; empty: in all
   double share = 0;       ///< of the unexplained energy of its joint that lies in the range, 0 .. 1
+  std::string recording;  ///< in which alone it acts; empty: in all
 };
 
 /// How strongly the recordings speak for an effect.

@@ -72,7 +72,9 @@ bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screenin
     const double net = net_of(hypotheses_[named.hypothesis], named.best, result_.noise);
     if (net <= most || !sure(screening, named.surprise)) continue;
     const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
-    if (std::any_of(joints.begin(), joints.end(), [&](int joint) { return is_said(joint); })) {
+    // beside a joint that rests, what friction left of the stops looks like friction that cannot be
+    if (std::any_of(joints.begin(), joints.end(),
+                    [&](int joint) { return is_said(joint) || stops_.rests(joint); })) {
       continue;
     }
     if (stops_.hide(system, screening, hypotheses_[named.hypothesis], named)) continue;

@@ -25,6 +25,9 @@ class Stops {
         resting_(resting),
         false_alarm_(false_alarm) {}
 
+  /// Whether a joint was found to rest.
+  [[nodiscard]] bool rests(int joint) const;
+
   /// What the stops of its joints have to do with an effect.
   enum class Part {
     kNone,    ///< beside their impulses it is seen with the same size, or beside it there are none
@@ -52,7 +55,6 @@ class Stops {
                                          const GenericStructure& structure) const;
 
  private:
-  [[nodiscard]] bool rests(int joint) const;
   [[nodiscard]] const GenericResult* impulses_at(const Screening& screening, int joint) const;
   [[nodiscard]] double impulses_of(const Screening& screening, int joint) const;
   [[nodiscard]] bool significant(double surprise) const;

@@ -53,7 +53,8 @@ Diagnosis made_diagnosis() {
                     0.25,
                     std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::quiet_NaN(),
-                    0.75};
+                    0.75,
+                    ""};
   stribeck.evidence = {130, -95, 0.21};
   stribeck.tests = {{"vs <= 0.25*v90", true, "narrow enough", true},
                     {"slow_steady", false, "no <data>", true}};
