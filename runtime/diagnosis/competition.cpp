@@ -15,6 +15,7 @@
 #include "runtime/diagnosis/slow_equations.h"
 #include "runtime/diagnosis/stops.h"
 #include "runtime/diagnosis/time_windows.h"
+#include "runtime/effects/absorption.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -107,11 +108,23 @@ class Competition {
     return options;
   }
 
+  /// Hypotheses of the winners.
+  [[nodiscard]] std::vector<Hypothesis> found() const {
+    std::vector<Hypothesis> all;
+    for (const Winner& winner : result_.winners) all.push_back(hypotheses_[winner.hypothesis]);
+    return all;
+  }
+
+  /// What the model leaves as if it were white.
+  [[nodiscard]] TorqueNoiseModel white_model() const {
+    TorqueNoiseModel white = result_.noise;
+    white.joints = white_noise(result_.fit.rms).joints;
+    return white;
+  }
+
   EvidenceSystem model_system() {
-    std::vector<Hypothesis> beside;
-    for (const Winner& winner : result_.winners) beside.push_back(hypotheses_[winner.hypothesis]);
     EvidenceSystem system =
-        system_at(train_, signals_, result_.fit.point, beside, result_.noise, system_options());
+        system_at(train_, signals_, result_.fit.point, found(), result_.noise, system_options());
     add_nameless(train_, signals_, result_, system);
     return system;
   }
@@ -259,10 +272,24 @@ class Competition {
   bool next_likely(const EvidenceSystem& system, const Screening& screening) {
     const LikelihoodRatio ratio(train_, residuals_of(train_, result_.fit.point));
     for (auto& [place, likely] : likely_) likely.fresh = false;
+    // noise that has slow structure in it hides that structure: each joint's best beside white
+    // noise is compared too
+    EvidenceSystem::Options plain_options = system_options();
+    plain_options.surrogates = 0;
+    EvidenceSystem plain_system =
+        system_at(train_, signals_, result_.fit.point, found(), white_model(), plain_options);
+    add_nameless(train_, signals_, result_, plain_system);
+    const Screening plain = screen(screening_data_, plain_system, scales_, result_.fit.point.beta,
+                                   hypotheses_, structures_, &result_.first);
     for (int joint = 0; joint < train_.joints(); ++joint) {
       tell("likelihoods", static_cast<double>(joint) / train_.joints());
       for (const std::size_t place : strongest_of(screening, joint)) {
         if (!likely_.contains(place)) likely_[place] = compared(place, ratio, system, screening);
+      }
+      for (const std::size_t place : strongest_of(plain, joint)) {
+        if (hypotheses_[place].windowed) continue;  // what is slow has a window that fits it
+        if (!likely_.contains(place)) likely_[place] = compared(place, ratio, plain_system, plain);
+        break;
       }
     }
     // what an earlier round said of other joints orders them; the best is asked again
@@ -355,11 +382,9 @@ class Competition {
     std::vector<EffectInstance> all = effects();
     all.push_back(named.best.effect);
     const EffectPoint beside = without(fit(all).point, all.size() - 1);
-    std::vector<Hypothesis> others;
-    for (const Winner& winner : result_.winners) others.push_back(hypotheses_[winner.hypothesis]);
     EvidenceSystem::Options options = system_options();
     options.surrogates = 0;
-    EvidenceSystem system = system_at(train_, signals_, beside, others, result_.noise, options);
+    EvidenceSystem system = system_at(train_, signals_, beside, found(), result_.noise, options);
     add_nameless(train_, signals_, result_, system);
     NamedResult best = named;
     bool first = true;
