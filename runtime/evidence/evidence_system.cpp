@@ -81,7 +81,7 @@ Score score_of(const Products& products, bool surrogates) {
 }
 
 std::vector<double> squares_of_few(const Products& products) {
-  constexpr double kAbsorbed = 1e-8;  // part of a column's squares: it is of the others
+  constexpr double kOfOthers = 1e-8;  // part of a column's squares: it is of the others
   MatrixXd A = products.left;
   VectorXd r = products.rest;
   const VectorXd own = products.whole.diagonal();
@@ -90,7 +90,7 @@ std::vector<double> squares_of_few(const Products& products) {
     Index best = -1;
     double most = 0;
     for (Index c = 0; c < r.size(); ++c) {
-      if (!(A(c, c) > kAbsorbed * own[c])) continue;
+      if (!(A(c, c) > kOfOthers * own[c])) continue;
       const double gain = r[c] * r[c] / A(c, c);
       if (gain > most) {
         most = gain;
