@@ -295,7 +295,7 @@ class Diagnostician {
                          numbers, nameless.objection);
     }
     if (nameless.structure.line) {
-      return fmt::format("a sinusoid of {:.3g} Hz that the motion does not cause",
+      return fmt::format("most of it a sinusoid of {:.3g} Hz, with a phase of its own in each run",
                          nameless.structure.frequency);
     }
     return "in a shape that no effect of the catalogue has";
