@@ -451,8 +451,8 @@ class Competition {
     return !doubtful && keep(named, screening, std::move(next));
   }
 
-  /// Keeps an effect that slow equations do not contradict and held-out recordings speak for; an
-  /// event in one of the others only must not contradict them.
+  /// Keeps an effect that slow equations do not contradict and held-out recordings speak for, or,
+  /// of one beyond doubt, agree with; an event is not in them and must only not harm them.
   bool keep(const NamedResult& named, const Screening& screening, EffectFit next) {
     if (result_.noise.from_periods &&
         slow_.contradict(hypotheses_, result_, hypotheses_[named.hypothesis], next.point,
@@ -462,11 +462,8 @@ class Competition {
     const HeldoutProof proof = proof_of(next);
     const bool event = hypotheses_[named.hypothesis].windowed;  // is not in what is held out
     const bool beyond_doubt = nameless_.sure(screening, named.surprise);
-    if (event          ? proof.harms()
-        : beyond_doubt ? proof.contradicts() && !proof.helps()
-                       : !proof.helps()) {
-      return false;
-    }
+    const bool proved = event ? !proof.harms() : proof.helps() || (beyond_doubt && proof.agrees());
+    if (!proved) return false;
     Winner winner;
     winner.hypothesis = named.hypothesis;
     winner.trial = named.best;

@@ -21,8 +21,8 @@ using CompetitionProgress = std::function<void(const std::string& stage, double 
 
 /// Round by round: everything is tested beside the model with what was found before; the best
 /// effect is fitted together with all of it and stays if noise alone would hardly have given it and
-/// it helps on held-out recordings and, where motions repeat, slow equations do not contradict it.
-/// At the end each winner is tested again beside all others.
+/// it is proved on held-out recordings and, where motions repeat, slow equations do not contradict
+/// it. At the end each winner is tested again beside all others.
 /// @param slow  of the same recordings as `train`, up to a lower frequency
 CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& slow,
                           const EffectRecordings& heldout,

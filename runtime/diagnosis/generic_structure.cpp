@@ -166,6 +166,20 @@ VectorXd variable_values(const EffectRecordings& data, EffectSignals& signals, s
   return here.time;
 }
 
+VectorXd values_at_equations(const EffectRecordings& data, EffectSignals& signals,
+                             const StructureVariable& variable) {
+  VectorXd values(data.equations());
+  Index start = 0;
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    const EffectRun& here = data.runs[run];
+    const VectorXd all = variable_values(data, signals, run, variable);
+    const Index first = first_sample(here.decimator), rows = here.rows.Y.rows();
+    for (Index k = 0; k < rows; ++k) values[start + k] = all[first + k * here.decimator.factor];
+    start += rows;
+  }
+  return values;
+}
+
 namespace {
 
 constexpr double kResting = 0.015;  // of the largest speed: below it a joint may have stopped

@@ -57,6 +57,10 @@ GenericStructure impulses_at_reversals(int joint);
 Eigen::VectorXd variable_values(const EffectRecordings& data, EffectSignals& signals,
                                 std::size_t run, const StructureVariable& variable);
 
+/// The same at the equations of all runs, one after the other. @return (equations)
+Eigen::VectorXd values_at_equations(const EffectRecordings& data, EffectSignals& signals,
+                                    const StructureVariable& variable);
+
 /// Its columns, behind the parallel filter. Impulses need the motion at all samples.
 JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
                              const GenericStructure& structure);

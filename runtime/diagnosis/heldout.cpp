@@ -49,8 +49,8 @@ VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
 
 bool HeldoutProof::helps() const { return before - after >= kGain; }
 
-bool HeldoutProof::contradicts() const {
-  return change < kInformative || before - after < change - kDeviations * 2 * std::sqrt(change);
+bool HeldoutProof::agrees() const {
+  return change >= kInformative && before - after >= change - kDeviations * 2 * std::sqrt(change);
 }
 
 bool HeldoutProof::harms() const { return after - before >= kRefit; }

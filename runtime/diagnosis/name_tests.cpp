@@ -122,20 +122,6 @@ Size size_where(const JointView& view, const ArrayXd& weight) {
   return {(weight * view.effect.square()).sum(), (weight * view.effect * view.rest).sum()};
 }
 
-/// A variable at the equations of all runs.
-ArrayXd at_equations(const EffectRecordings& data, EffectSignals& signals, Kind kind, int joint) {
-  ArrayXd values(data.equations());
-  Index start = 0;
-  for (std::size_t run = 0; run < data.runs.size(); ++run) {
-    const EffectRun& here = data.runs[run];
-    const VectorXd all = variable_values(data, signals, run, {kind, joint});
-    const Index first = first_sample(here.decimator), rows = here.rows.Y.rows();
-    for (Index k = 0; k < rows; ++k) values[start + k] = all[first + k * here.decimator.factor];
-    start += rows;
-  }
-  return values;
-}
-
 std::vector<JointView> views_of(const EffectRecordings& data, EffectSignals& signals,
                                 const EvidenceSystem& system, const EffectInstance& effect) {
   const JointColumns columns = system.whitened(effect_columns(data, signals, effect, {0}));
@@ -144,12 +130,15 @@ std::vector<JointView> views_of(const EffectRecordings& data, EffectSignals& sig
     JointView view;
     view.effect = system.left_of(columns, joint).col(0).array();
     view.rest = system.rest(joint).array();
-    view.velocity = at_equations(data, signals, Kind::kVelocity, joint);
+    const auto at_equations = [&](Kind kind, int of) -> ArrayXd {
+      return values_at_equations(data, signals, {kind, of});
+    };
+    view.velocity = at_equations(Kind::kVelocity, joint);
     view.speed = view.velocity.abs();
-    view.load = at_equations(data, signals, Kind::kLoad, joint);
-    view.time = at_equations(data, signals, Kind::kTime, -1);
-    view.distance = at_equations(data, signals, Kind::kDistance, joint);
-    const ArrayXd positions = at_equations(data, signals, Kind::kPosition, joint);
+    view.load = at_equations(Kind::kLoad, joint);
+    view.time = at_equations(Kind::kTime, -1);
+    view.distance = at_equations(Kind::kDistance, joint);
+    const ArrayXd positions = at_equations(Kind::kPosition, joint);
     view.range = positions.maxCoeff() - positions.minCoeff();
     view.v90 = quantile(view.speed, ArrayXd::Ones(view.speed.size()), 0.9);
     views.push_back(std::move(view));

@@ -19,23 +19,6 @@ using Kind = StructureVariable::Kind;
 constexpr double kShare = 0.7;
 constexpr double kSpread = 0.5;  // of the samples: with more the range says nothing
 
-/// A variable at the equations of all runs.
-VectorXd at_equations(const EffectRecordings& data, EffectSignals& signals,
-                      const StructureVariable& variable) {
-  VectorXd values(data.equations());
-  Index start = 0;
-  for (std::size_t run = 0; run < data.runs.size(); ++run) {
-    const EffectRun& here = data.runs[run];
-    const VectorXd all = variable_values(data, signals, run, variable);
-    const Index first = first_sample(here.decimator);
-    for (Index k = 0; k < here.rows.Y.rows(); ++k) {
-      values[start + k] = all[first + k * here.decimator.factor];
-    }
-    start += here.rows.Y.rows();
-  }
-  return values;
-}
-
 struct Range {
   double from = 0, to = 0;
   double share = 0;    // of the energy
@@ -86,7 +69,7 @@ Whereabouts whereabouts_of(const EffectRecordings& data, EffectSignals& signals,
   Whereabouts where;
   double least = std::numeric_limits<double>::infinity();
   for (const StructureVariable& variable : variables) {
-    const Range range = closest_range(at_equations(data, signals, variable), energy);
+    const Range range = closest_range(values_at_equations(data, signals, variable), energy);
     if (range.samples >= least) continue;
     least = range.samples;
     where.variable = variable_name(variable);
@@ -104,7 +87,7 @@ Whereabouts whereabouts_of(const EffectRecordings& data, EffectSignals& signals,
                                        : reads("tau_load") ? StructureVariable{Kind::kLoad, joint}
                                        : reads("t")        ? StructureVariable{Kind::kTime, -1}
                                                     : StructureVariable{Kind::kVelocity, joint};
-    const VectorXd x = at_equations(data, signals, variable);
+    const VectorXd x = values_at_equations(data, signals, variable);
     where.variable = variable_name(variable);
     where.from = x.minCoeff();
     where.to = x.maxCoeff();

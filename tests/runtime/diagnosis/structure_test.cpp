@@ -170,14 +170,14 @@ TEST(Jolt, IsWhatAFewEquationsHold) {
 TEST(HeldoutProof, WeighsAGainByWhatTheChangeIsWorth) {
   // an effect of 30 squares that is there takes 30 +- 11 away
   EXPECT_TRUE((HeldoutProof{1000, 970, 30}.helps()));
-  EXPECT_FALSE((HeldoutProof{1000, 970, 30}.contradicts()));
-  EXPECT_FALSE((HeldoutProof{1000, 994, 30}.contradicts()));
-  EXPECT_TRUE((HeldoutProof{1000, 1001, 30}.contradicts()));
+  EXPECT_TRUE((HeldoutProof{1000, 970, 30}.agrees()));
+  EXPECT_TRUE((HeldoutProof{1000, 994, 30}.agrees()));
+  EXPECT_FALSE((HeldoutProof{1000, 1001, 30}.agrees()));
   // one that is not adds as much
-  EXPECT_TRUE((HeldoutProof{1000, 1030, 30}.contradicts()));
+  EXPECT_FALSE((HeldoutProof{1000, 1030, 30}.agrees()));
   EXPECT_TRUE((HeldoutProof{1000, 1030, 30}.harms()));
   // where it hardly shows nothing is said for it
-  EXPECT_TRUE((HeldoutProof{1000, 999.5, 1}.contradicts()));
+  EXPECT_FALSE((HeldoutProof{1000, 999.5, 1}.agrees()));
   EXPECT_FALSE((HeldoutProof{1000, 999.5, 1}.helps()));
 }
 
