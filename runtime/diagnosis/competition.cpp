@@ -12,7 +12,6 @@
 #include "runtime/diagnosis/likelihood.h"
 #include "runtime/diagnosis/nameless_search.h"
 #include "runtime/diagnosis/second_scan.h"
-#include "runtime/diagnosis/slow_equations.h"
 #include "runtime/diagnosis/stops.h"
 #include "runtime/diagnosis/time_windows.h"
 #include "runtime/effects/absorption.h"
@@ -37,7 +36,7 @@ constexpr std::size_t kLikely = 3;       // families of a joint whose likelihood
 /// One competition's data and what was found so far.
 class Competition {
  public:
-  Competition(const EffectRecordings& train, const EffectRecordings& slow,
+  Competition(const EffectRecordings& train, const Witnesses& witnesses,
               const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
               const CompetitionOptions& options, const CompetitionProgress& progress)
       : train_(train),
@@ -50,10 +49,10 @@ class Competition {
         signals_(train),
         screening_data_(train),
         repeats_(repeats_of(train)),
-        slow_(slow),
+        witnesses_(witnesses),
         stops_(train_, signals_, structures_, result_.resting, options_.false_alarm),
-        nameless_(train_, signals_, hypotheses_, structures_, stops_, options_.false_alarm,
-                  result_) {}
+        nameless_(train_, signals_, hypotheses_, structures_, stops_, witnesses_, system_options(),
+                  options_.false_alarm, result_) {}
 
   CompetitionResult run() {
     tell("the model alone", 0);
@@ -150,8 +149,11 @@ class Competition {
     for (const GenericResult& generic : screening.generic) {
       const GenericStructure& structure = structures_[generic.structure];
       if (structure.joint != joint) continue;
-      const bool faint = generic.score.squares < kHardlyMoreThanNoise * generic.score.degrees;
-      if (structure.at_reversals && faint) continue;
+      if (structure.form == GenericStructure::Form::kImpulses &&
+          (stops_.rests(joint) ||
+           generic.score.squares < kHardlyMoreThanNoise * generic.score.degrees)) {
+        continue;
+      }
       most = std::max(most, generic.score.squares - generic.score.degrees);
     }
     return most;
@@ -199,7 +201,9 @@ class Competition {
       for (const int joint : joints_of_hypothesis(place)) {
         structure = std::max(structure, structure_of(screening, joint));
       }
-      if (named.best.score.squares < kLeastExplained * structure) continue;
+      const double least =
+          std::max(kLeastExplained * structure, stops_.unseen_on(joints_of_hypothesis(place)));
+      if (named.best.score.squares < least) continue;
       if (outdone(named, system, screening)) continue;
       if (attempted.contains(place)) continue;
       const Stops::Part stops = stops_.part_in(system, screening, hypotheses_[place], named);
@@ -256,14 +260,14 @@ class Competition {
     for (const int joint : joints_of_hypothesis(place)) {
       for (const GenericResult& generic : screening.generic) {
         const GenericStructure& structure = structures_[generic.structure];
-        if (structure.joint != joint || structure.at_reversals || nameless_.is_said(joint))
+        if (structure.joint != joint || structure.form == GenericStructure::Form::kImpulses ||
+            nameless_.is_said(joint))
           continue;
         if (!nearest || generic.surprise > nearest->surprise) nearest = &generic;
       }
     }
     if (!nearest || !proof_of(with(named.best.effect)).helps()) return false;
-    nameless_.describe(*nearest, system, short_name(named.best.effect));
-    return true;
+    return nameless_.describe(*nearest, system, short_name(named.best.effect));
   }
 
   /// Where no motion repeats, noise is known from what the model leaves alone, and an effect that
@@ -305,6 +309,7 @@ class Competition {
       const Likely likely = best->second;
       likely_.erase(best);
       if (screening.family_wise(likely.named.surprise) > options_.false_alarm) continue;
+      if (likely.net < stops_.unseen_on(joints_of_hypothesis(likely.named.hypothesis))) continue;
       if (accept(likely.named, screening, likely.fit)) {
         const std::vector<int> joints = joints_of_hypothesis(likely.named.hypothesis);
         std::erase_if(likely_, [&](const auto& entry) {
@@ -451,12 +456,17 @@ class Competition {
     return !doubtful && keep(named, screening, std::move(next));
   }
 
-  /// Keeps an effect that slow equations do not contradict and held-out recordings speak for, or,
+  /// @param point  a fit with the winners and, as its last, the effect
+  [[nodiscard]] bool contradicted(const Hypothesis& hypothesis, const EffectPoint& point) const {
+    return std::any_of(witnesses_.begin(), witnesses_.end(), [&](const auto& witness) {
+      return witness->contradicts(hypotheses_, result_, hypothesis, point, system_options());
+    });
+  }
+
+  /// Keeps an effect that no witness contradicts and held-out recordings speak for, or,
   /// of one beyond doubt, agree with; an event is not in them and must only not harm them.
   bool keep(const NamedResult& named, const Screening& screening, EffectFit next) {
-    if (result_.noise.from_periods &&
-        slow_.contradict(hypotheses_, result_, hypotheses_[named.hypothesis], next.point,
-                         system_options())) {
+    if (result_.noise.from_periods && contradicted(hypotheses_[named.hypothesis], next.point)) {
       return false;
     }
     const HeldoutProof proof = proof_of(next);
@@ -472,6 +482,7 @@ class Competition {
     winner.heldout_before = proof.before;
     winner.heldout_after = proof.after;
     winner.others = screening.named;
+    winner.generic = screening.generic;
     result_.winners.push_back(std::move(winner));
     result_.fit = std::move(next);
     return true;
@@ -509,7 +520,7 @@ class Competition {
   ScreeningData screening_data_;
   std::vector<double> repeats_;
   std::map<std::size_t, Likely> likely_;  // by hypothesis; of this round or an earlier one
-  SlowEquations slow_;
+  const Witnesses& witnesses_;
   std::optional<Doubt> doubt_;  // of this round
   bool at_stops_ = false;       // of the effect that is fitted
   CompetitionResult result_;
@@ -519,11 +530,11 @@ class Competition {
 
 }  // namespace
 
-CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& slow,
+CompetitionResult compete(const EffectRecordings& train, const Witnesses& witnesses,
                           const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options, const CompetitionProgress& progress) {
-  return Competition(train, slow, heldout, hypotheses, options, progress).run();
+  return Competition(train, witnesses, heldout, hypotheses, options, progress).run();
 }
 
 }  // namespace dyngen::runtime

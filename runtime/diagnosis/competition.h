@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition_result.h"
+#include "runtime/diagnosis/witness.h"
 
 namespace dyngen::runtime {
 
@@ -21,10 +22,10 @@ using CompetitionProgress = std::function<void(const std::string& stage, double 
 
 /// Round by round: everything is tested beside the model with what was found before; the best
 /// effect is fitted together with all of it and stays if noise alone would hardly have given it and
-/// it is proved on held-out recordings and, where motions repeat, slow equations do not contradict
-/// it. At the end each winner is tested again beside all others.
-/// @param slow  of the same recordings as `train`, up to a lower frequency
-CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& slow,
+/// it is proved on held-out recordings and, where motions repeat, no witness contradicts it. At the
+/// end each winner is tested again beside all others.
+/// @param witnesses  of the same recordings as `train`
+CompetitionResult compete(const EffectRecordings& train, const Witnesses& witnesses,
                           const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options,

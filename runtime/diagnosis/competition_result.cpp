@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/diagnosis/generic_columns.h"
 #include "runtime/diagnosis/heldout.h"
 
 namespace dyngen::runtime {
@@ -43,9 +44,24 @@ JointColumns nameless_columns(const EffectRecordings& data, EffectSignals& signa
   return effect_columns(data, signals, *nameless.ruled_out, wanted);
 }
 
+namespace {
+
+double price_of_one(const TorqueNoiseModel& noise) {
+  return std::log(std::max(noise.worth.sum(), 2.0));
+}
+
+}  // namespace
+
 double price_of(const Hypothesis& hypothesis, int degrees, const TorqueNoiseModel& noise) {
-  const double parameters = degrees + static_cast<double>(hypothesis.shapes.size());
-  return parameters * std::log(std::max(noise.worth.sum(), 2.0));
+  return (degrees + static_cast<double>(hypothesis.shapes.size())) * price_of_one(noise);
+}
+
+double net_of(const GenericStructure& structure, const Score& score,
+              const TorqueNoiseModel& noise) {
+  const int frequencies = structure.form == GenericStructure::Form::kLine   ? 1
+                          : structure.form == GenericStructure::Form::kWave ? 2
+                                                                            : 0;
+  return score.squares - (score.degrees + frequencies) * price_of_one(noise);
 }
 
 double net_of(const Hypothesis& hypothesis, const TrialScore& trial,
@@ -89,9 +105,10 @@ EffectPoint without(EffectPoint point, std::size_t place) {
 void add_nameless(const EffectRecordings& data, EffectSignals& signals,
                   const CompetitionResult& result, EvidenceSystem& system,
                   const std::vector<int>& but_for) {
-  for (const int joint : result.resting) {
-    if (std::find(but_for.begin(), but_for.end(), joint) != but_for.end()) continue;
-    system.leave_out(system.whitened(generic_columns(data, signals, impulses_at_reversals(joint))));
+  for (const RestingJoint& resting : result.resting) {
+    if (std::find(but_for.begin(), but_for.end(), resting.joint) != but_for.end()) continue;
+    system.leave_out(
+        system.whitened(generic_columns(data, signals, impulses_at_reversals(resting.joint))));
   }
   for (const Nameless& nameless : result.nameless) {
     system.add(system.whitened(nameless_columns(data, signals, nameless)));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/diagnosis/screening.h"
+#include "runtime/diagnosis/stops.h"
 #include "runtime/effects/effect_fit.h"
 
 namespace dyngen::runtime {
@@ -21,7 +22,8 @@ struct Winner {
   bool at_stops = false;
   double heldout_before = 0;  ///< whitened squares of held-out residuals of its joints
   double heldout_after = 0;
-  std::vector<NamedResult> others;  ///< its round's results, its own among them
+  std::vector<NamedResult> others;     ///< its round's results, its own among them
+  std::vector<GenericResult> generic;  ///< and those of structures without a name
 };
 
 /// Structure that no effect explains.
@@ -48,11 +50,11 @@ JointColumns nameless_columns(const EffectRecordings& data, EffectSignals& signa
 struct CompetitionResult {
   std::vector<Winner> winners;
   std::vector<Nameless> nameless;
-  std::vector<int> resting;  ///< joints that friction holds for an instant where they turn
-  EffectFit base;            ///< of the model alone
-  EffectFit fit;             ///< of the model with the winners
-  TorqueNoiseModel noise;    ///< of the last round
-  Screening first, last;     ///< of the model alone, and with everything that was found
+  std::vector<RestingJoint> resting;
+  EffectFit base;          ///< of the model alone
+  EffectFit fit;           ///< of the model with the winners
+  TorqueNoiseModel noise;  ///< of the last round
+  Screening first, last;   ///< of the model alone, and with everything that was found
 };
 
 /// The model with what is given beside it: regressor, and effects at their estimates with the
@@ -84,5 +86,8 @@ double price_of(const Hypothesis& hypothesis, int degrees, const TorqueNoiseMode
 /// Squares less their price. Of the linear parameters those are paid that are worth it, and for
 /// which of them they are (Chen and Chen 2008): a load needs no tensor of inertia to be seen.
 double net_of(const Hypothesis& hypothesis, const TrialScore& trial, const TorqueNoiseModel& noise);
+
+/// The same of structure without a name: its columns, and the frequencies that were looked for.
+double net_of(const GenericStructure& structure, const Score& score, const TorqueNoiseModel& noise);
 
 }  // namespace dyngen::runtime

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <set>
 #include <stdexcept>
 
@@ -17,6 +18,7 @@
 #include "runtime/diagnosis/next_experiment.h"
 #include "runtime/diagnosis/raw_residual.h"
 #include "runtime/diagnosis/reference.h"
+#include "runtime/diagnosis/repeated_motion.h"
 #include "runtime/diagnosis/standstill.h"
 #include "runtime/diagnosis/sufficiency.h"
 #include "runtime/diagnosis/undecidable.h"
@@ -53,6 +55,12 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
   return data;
 }
 
+std::vector<MotionSource> repeated(const std::vector<MotionSource>& sources) {
+  std::vector<MotionSource> result;
+  for (const MotionSource& source : sources) result.push_back(with_repeated_motion(source));
+  return result;
+}
+
 std::vector<ConditionLine> conditions_of(const DiagnosisInput& input) {
   std::vector<ConditionLine> lines;
   for (const MotionSource& source : input.train) {
@@ -85,6 +93,7 @@ class Diagnostician {
         rows_(diagnosis_rows(parts_.train, options.decimation)),
         train_(thinned(equations_of(input, parts_.train, rows_), kLongestSample)),
         slow_(thinned(equations_of(input, parts_.train, rows_, kSlow), kLongestSample)),
+        repeated_(thinned(equations_of(input, repeated(parts_.train), rows_), kLongestSample)),
         heldout_(equations_of(input, parts_.heldout, rows_)) {
     for (EffectRun& run : heldout_.runs) run.recording = -1;
   }
@@ -102,7 +111,11 @@ class Diagnostician {
     for (const EffectInstance& effect : input_.hypotheses) {
       hypotheses_.push_back(hypothesis_of(effect, scales.of(nothing, effect)));
     }
-    result_ = compete(train_, slow_, heldout_, hypotheses_, settings, progress_);
+    Witnesses witnesses;
+    for (const EffectRecordings* other : {&slow_, &repeated_}) {
+      witnesses.push_back(std::make_unique<Witness>(*other));
+    }
+    result_ = compete(train_, witnesses, heldout_, hypotheses_, settings, progress_);
     describe_noise();
     describe_tests();
     if (!worth_enough()) return std::move(answer_);
@@ -156,11 +169,11 @@ class Diagnostician {
                             ? "from what differs between periods of the same motion"
                             : "from what the last model leaves: a lower bound of what is missing, "
                               "since no motion repeats";
-    for (const int joint : result_.resting) {
+    for (const RestingJoint& resting : result_.resting) {
       answer_.noise.how += fmt::format(
           "; joint {} rests for an instant where it turns: friction there may be of "
           "any size, and an impulse at each reversal is left out of the judgement",
-          joint + 1);
+          resting.joint + 1);
     }
   }
 
@@ -245,7 +258,14 @@ class Diagnostician {
         "{} on {} explains {:.0f} squares of noise that the model cannot",
         finding.effect.law.family, where_it_acts(finding.effect) + when_it_acts(finding.where),
         finding.evidence.lambda);
-    if (naming.rivals.empty()) return text + "; nothing else comes near";
+    if (naming.unnamed_distance < kApart) {
+      text += fmt::format("; {}, which is no effect of the catalogue, is {:.0f} squares {}",
+                          naming.unnamed, std::abs(naming.unnamed_distance),
+                          naming.unnamed_distance < 0 ? "better" : "worse");
+    } else if (naming.rivals.empty()) {
+      text += "; nothing else comes near";
+    }
+    if (naming.rivals.empty()) return text;
     const Rival& next = naming.rivals.front();
     if (finding.aliases.size() > 1) {
       return text + fmt::format("; these data do not tell it from {}", next.name);
@@ -294,9 +314,19 @@ class Diagnostician {
       return fmt::format("of the form of {} ({}), which cannot be its name: {}", short_name(effect),
                          numbers, nameless.objection);
     }
-    if (nameless.structure.line) {
+    const GenericStructure& structure = nameless.structure;
+    if (structure.form == GenericStructure::Form::kLine) {
       return fmt::format("most of it a sinusoid of {:.3g} Hz, with a phase of its own in each run",
-                         nameless.structure.frequency);
+                         structure.frequency[0]);
+    }
+    if (structure.form == GenericStructure::Form::kWave) {
+      const std::vector<std::string> names = structure.names();
+      return fmt::format("most of it a sinusoid of about {:.2g} {} {} {:.2g} {}",
+                         structure.frequency[0], names[0], structure.frequency[1] < 0 ? "-" : "+",
+                         std::abs(structure.frequency[1]), names[1]);
+    }
+    if (structure.form == GenericStructure::Form::kSpeeds) {
+      return "a function of the product of velocities that no effect of the catalogue is";
     }
     return "in a shape that no effect of the catalogue has";
   }
@@ -391,7 +421,7 @@ class Diagnostician {
   const DiagnosisProgress& progress_;
   Division parts_;
   RowOptions rows_;
-  EffectRecordings train_, slow_, heldout_;
+  EffectRecordings train_, slow_, repeated_, heldout_;
   std::vector<Hypothesis> hypotheses_;
   CompetitionResult result_;
   Diagnosis answer_;

@@ -28,30 +28,40 @@ struct StructureVariable {
 /// "q2", "qd2", "qdd2", "tau_load2", "distance2", "t"; joints from 1.
 std::string variable_name(const StructureVariable& variable);
 
-/// Torque of a joint as any smooth function of one or two variables: piecewise linear between
-/// quantiles of the recordings, for two variables the products of coarser ones. Or impulses of
-/// their own wherever the joint turns or stops: for that instant it is held by friction of any size
-/// up to its own, which no function of the motion is. Or a sinusoid that goes on by itself, in
-/// every run with a phase of its own.
+/// Torque of a joint without the name of an effect.
 struct GenericStructure {
-  int joint = 0;  ///< coordinate, from 0
-  std::vector<StructureVariable> variables;
-  bool times_sign = false;    ///< times the sign of the joint's velocity
-  bool at_reversals = false;  ///< impulses; no variables
-  bool line = false;          ///< a sinusoid of its own frequency; no variables
-  double frequency = 0;       ///< Hz, of the sinusoid once it is known
+  enum class Form {
+    kFunction,  ///< any smooth function of one or two variables: piecewise linear between quantiles
+                ///< of the recordings, for two variables the products of coarser ones
+    kFriction,  ///< the same times the sign of the joint's velocity
+    kSpeeds,    ///< a function of the product of two velocities, or that product times a coarse
+                ///< function of a third variable
+    kImpulses,  ///< wherever the joint turns or stops: for that instant it is held by friction of
+                ///< any size up to its own, which no function of the motion is
+    kLine,      ///< a sinusoid that goes on by itself, in every run with a phase of its own
+    kWave       ///< a sinusoid of a sum of two positions
+  };
+  int joint = 0;                             ///< coordinate, from 0
+  std::vector<StructureVariable> variables;  ///< none of impulses and lines
+  Form form = Form::kFunction;
+  /// Of a line its Hz, and of a wave what it turns by with each of its positions, 1/rad or 1/m:
+  /// once that is known.
+  Eigen::Vector2d frequency = Eigen::Vector2d::Zero();
 
   [[nodiscard]] std::vector<std::string> names() const;
 };
 
 /// Those that are looked at for every joint: its own position, velocity, acceleration, load, time
 /// and distance since reversal, position, velocity and acceleration of the others, friction that
-/// depends on these, pairs of positions, of velocities and of a velocity with a position, impulses
-/// at reversals, and a sinusoid.
+/// depends on these, pairs of positions, of velocities and of a velocity with a position, products
+/// of velocities alone and with a position, impulses at reversals, lines and waves.
 std::vector<GenericStructure> generic_structures(int joints);
 
 /// Impulses at each reversal of a joint.
 GenericStructure impulses_at_reversals(int joint);
+
+/// Sign of the velocity as positions show it, at all samples of a run. @return (N)
+Eigen::VectorXd travelled_sign_of(const EffectRecordings& data, std::size_t run, int joint);
 
 /// A variable at all samples of a run. @return (N)
 Eigen::VectorXd variable_values(const EffectRecordings& data, EffectSignals& signals,
@@ -60,9 +70,5 @@ Eigen::VectorXd variable_values(const EffectRecordings& data, EffectSignals& sig
 /// The same at the equations of all runs, one after the other. @return (equations)
 Eigen::VectorXd values_at_equations(const EffectRecordings& data, EffectSignals& signals,
                                     const StructureVariable& variable);
-
-/// Its columns, behind the parallel filter. Impulses need the motion at all samples.
-JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
-                             const GenericStructure& structure);
 
 }  // namespace dyngen::runtime

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/heldout.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/estimation/whitener.h"
@@ -50,7 +51,8 @@ VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
 bool HeldoutProof::helps() const { return before - after >= kGain; }
 
 bool HeldoutProof::agrees() const {
-  return change >= kInformative && before - after >= change - kDeviations * 2 * std::sqrt(change);
+  return change >= kInformative &&
+         before - after >= std::max(0.0, change - kDeviations * 2 * std::sqrt(change));
 }
 
 bool HeldoutProof::harms() const { return after - before >= kRefit; }

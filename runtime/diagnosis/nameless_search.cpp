@@ -11,29 +11,49 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kCaution = 0.1;     // of the false alarms: nothing held out speaks for it
+constexpr double kCaution = 0.1;  // of the false alarms: nothing held out speaks for it
+constexpr std::size_t kCandidates = 4;
 constexpr double kRuledOutNet = 15;  // squares, net: a form that cannot be is no small thing
 
 }  // namespace
 
-bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screening) {
-  const GenericResult* strongest = nullptr;
+/// Structures that are more than noise, the strongest first, a few. Impulses of a joint that rests
+/// are known, and what is little beside them is nothing.
+std::vector<const GenericResult*> NamelessSearch::candidates(const Screening& screening) const {
+  std::vector<const GenericResult*> strongest;
   for (const GenericResult& generic : screening.generic) {
-    if (!strongest || generic.surprise > strongest->surprise) strongest = &generic;
+    const GenericStructure& structure = structures_[generic.structure];
+    const bool known =
+        structure.form == GenericStructure::Form::kImpulses && stops_.rests(structure.joint);
+    const double squares = generic.score.squares - generic.score.degrees;
+    if (known || squares < stops_.unseen_on({structure.joint})) continue;
+    if (screening.family_wise(generic.surprise) <= false_alarm_) strongest.push_back(&generic);
   }
-  if (!strongest || screening.family_wise(strongest->surprise) > false_alarm_) {
-    return next_ruled_out(system, screening);
-  }
-  const GenericStructure& structure = structures_[strongest->structure];
-  const std::vector<int> resting = stops_.resting(system, screening, structure);
-  if (!resting.empty()) {
-    result_.resting.insert(result_.resting.end(), resting.begin(), resting.end());
-    return true;
+  std::stable_sort(
+      strongest.begin(), strongest.end(),
+      [](const GenericResult* a, const GenericResult* b) { return a->surprise > b->surprise; });
+  if (strongest.size() > kCandidates) strongest.resize(kCandidates);
+  return strongest;
+}
+
+bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screening) {
+  const std::vector<const GenericResult*> strongest = candidates(screening);
+  if (!strongest.empty()) {
+    const std::vector<RestingJoint> resting =
+        stops_.resting(system, screening, structures_[strongest.front()->structure]);
+    if (!resting.empty()) {
+      result_.resting.insert(result_.resting.end(), resting.begin(), resting.end());
+      return true;
+    }
   }
   if (next_ruled_out(system, screening)) return true;
-  if (is_said(structure.joint) || !sure(screening, strongest->surprise)) return false;
-  describe(*strongest, system, "");
-  return true;
+  for (const GenericResult* generic : strongest) {
+    if (is_said(structures_[generic->structure].joint) || !sure(screening, generic->surprise)) {
+      return false;
+    }
+    if (describe(*generic, system, "")) return true;
+  }
+  return false;
 }
 
 bool NamelessSearch::sure(const Screening& screening, double surprise) const {
@@ -91,27 +111,32 @@ bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screenin
   nameless.surprise = strongest->surprise;
   nameless.ruled_out = strongest->best.effect;
   nameless.objection = strongest->best.objection;
-  add(std::move(nameless), system);
-  return true;
+  return add(std::move(nameless), system);
 }
 
-void NamelessSearch::describe(const GenericResult& generic, const EvidenceSystem& system,
+bool NamelessSearch::describe(const GenericResult& generic, const EvidenceSystem& system,
                               const std::string& costly) {
   Nameless nameless;
   nameless.structure = structures_[generic.structure];
   nameless.structure.frequency = generic.frequency;
   nameless.surprise = generic.surprise;
   nameless.costly = costly;
-  add(std::move(nameless), system);
+  return add(std::move(nameless), system);
 }
 
-void NamelessSearch::add(Nameless nameless, const EvidenceSystem& system) {
+bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system) {
   const int joint = nameless.structure.joint;
   const JointColumns plain = nameless_columns(data_, signals_, nameless);
   const JointColumns white = system.whitened(plain);
   nameless.score = score_of(system.products(white, false), false);
   const auto own = std::find(plain.joints.begin(), plain.joints.end(), joint);
   const auto place = static_cast<std::size_t>(own - plain.joints.begin());
+  if (result_.noise.from_periods &&
+      std::any_of(witnesses_.begin(), witnesses_.end(), [&](const auto& witness) {
+        return witness->contradicts(hypotheses_, result_, nameless, options_);
+      })) {
+    return false;
+  }
   const VectorXd& size = nameless.score.coefficients;
   // of the torque as much as the model does not absorb of its whitened squares
   const double left = (system.left_of(white, joint) * size).squaredNorm();
@@ -120,6 +145,7 @@ void NamelessSearch::add(Nameless nameless, const EvidenceSystem& system) {
       (plain.parts[place] * size).squaredNorm() / static_cast<double>(plain.parts[place].rows());
   nameless.rms = std::sqrt(whole > 0 ? mean * left / whole : 0);
   result_.nameless.push_back(std::move(nameless));
+  return true;
 }
 
 }  // namespace dyngen::runtime

@@ -6,6 +6,7 @@
 
 #include "runtime/diagnosis/competition_result.h"
 #include "runtime/diagnosis/stops.h"
+#include "runtime/diagnosis/witness.h"
 
 namespace dyngen::runtime {
 
@@ -17,12 +18,15 @@ class NamelessSearch {
   NamelessSearch(const EffectRecordings& data, EffectSignals& signals,
                  const std::vector<Hypothesis>& hypotheses,
                  const std::vector<GenericStructure>& structures, const Stops& stops,
+                 const Witnesses& witnesses, const EvidenceSystem::Options& options,
                  double false_alarm, CompetitionResult& result)
       : data_(data),
         signals_(signals),
         hypotheses_(hypotheses),
         structures_(structures),
         stops_(stops),
+        witnesses_(witnesses),
+        options_(options),
         false_alarm_(false_alarm),
         result_(result) {}
 
@@ -31,7 +35,8 @@ class NamelessSearch {
   bool next(const EvidenceSystem& system, const Screening& screening);
 
   /// Generic structure that `costly` would explain, for more parameters than the data pay for.
-  void describe(const GenericResult& generic, const EvidenceSystem& system,
+  /// @return false if a witness contradicts it
+  bool describe(const GenericResult& generic, const EvidenceSystem& system,
                 const std::string& costly);
 
   /// Whether structure may be said to be there although nothing that is held out speaks for it.
@@ -44,13 +49,16 @@ class NamelessSearch {
   [[nodiscard]] double structure_surprise(const Screening& screening,
                                           const std::vector<int>& joints) const;
   [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
-  void add(Nameless nameless, const EvidenceSystem& system);
+  [[nodiscard]] std::vector<const GenericResult*> candidates(const Screening& screening) const;
+  bool add(Nameless nameless, const EvidenceSystem& system);
 
   const EffectRecordings& data_;
   EffectSignals& signals_;
   const std::vector<Hypothesis>& hypotheses_;
   const std::vector<GenericStructure>& structures_;
   const Stops& stops_;
+  const Witnesses& witnesses_;
+  EvidenceSystem::Options options_;
   double false_alarm_;
   CompetitionResult& result_;
 };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/diagnosis/heldout.h"
+#include "runtime/diagnosis/unnamed_rival.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -116,6 +117,7 @@ void conclude(Naming& naming) {
       naming.families.push_back(rival.family);
     }
   }
+  rest += std::exp(-std::clamp(naming.unnamed_distance, -200.0, 200.0) / (2 * kCaution));
   naming.probability = 1 / (1 + rest);
 }
 
@@ -165,6 +167,9 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
                        std::move(trial)};
     }
   }
+  UnnamedRival unnamed = unnamed_rival(data, signals, hypotheses, result, own, system);
+  naming.unnamed = std::move(unnamed.what);
+  naming.unnamed_distance = best - unnamed.net;
   for (auto& [other, rival] : best_of) {
     rival.distance = best - rival.distance;
     naming.rivals.push_back(std::move(rival));

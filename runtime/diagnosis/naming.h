@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct Rival {
 struct Naming {
   std::vector<std::string> families;  ///< that these data cannot tell apart; the winner's first
   std::vector<Rival> rivals;          ///< one of each other family, nearest first
-  double probability = 0;             ///< of the winner's family, 0 .. 1
-  double lambda = 0;                  ///< squares of the winner beside all else, less its degrees
+  std::string unnamed;                ///< what has no name and comes nearest; or empty
+  double unnamed_distance = std::numeric_limits<double>::infinity();  ///< by which it is worse
+  double probability = 0;  ///< of the winner's family, 0 .. 1
+  double lambda = 0;       ///< squares of the winner beside all else, less its degrees
   double delta_bic = 0;
   double part_left = 0;  ///< of the winner's squares, after the refit of the model
 };
@@ -30,7 +33,8 @@ struct Naming {
 /// Winners are compared with all that was strong in their round, each beside the model with all
 /// other winners. For two effects of noncentrality lambda and likeness c the difference of squares
 /// has the mean lambda (1 - c^2) and four times that for its variance. A family joins the set if
-/// its best effect is worse by fewer than kApart squares, or if that mean is below kSeparable.
+/// its best effect is worse by fewer than kApart squares, or if that mean is below kSeparable. What
+/// has no name takes its part of the probability too.
 inline constexpr double kApart = 9;
 inline constexpr double kSeparable = 20;
 

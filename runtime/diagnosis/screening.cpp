@@ -9,9 +9,11 @@
 #include <stdexcept>
 #include <thread>
 
+#include "runtime/diagnosis/generic_columns.h"
 #include "runtime/diagnosis/line_scan.h"
 #include "runtime/diagnosis/order_scan.h"
 #include "runtime/diagnosis/time_windows.h"
+#include "runtime/diagnosis/wave_scan.h"
 #include "runtime/estimation/distributions.h"
 
 namespace dyngen::runtime {
@@ -229,19 +231,21 @@ class Screener {
                         NoiseSurprises& noise) const {
     GenericResult result;
     result.structure = place;
-    if (structures_[place].line) {
-      LineScan scan = scan_lines(data_.whole(), system_, structures_[place].joint, !before_);
+    const GenericStructure& structure = structures_[place];
+    if (structure.form == GenericStructure::Form::kLine) {
+      LineScan scan = scan_lines(data_.whole(), system_, structure.joint, !before_);
+      result.frequency[0] = scan.frequency;
+      result.score = std::move(scan.score);
+    } else if (structure.form == GenericStructure::Form::kWave) {
+      WaveScan scan = scan_waves(data_.coarse(), system_, structure, !before_);
       result.frequency = scan.frequency;
       result.score = std::move(scan.score);
-      if (!before_) noise.add(result.score.surrogates, result.score.degrees);
-      result.surprise = surprise_of(result.score.squares, result.score.degrees);
-      return result;
+    } else {
+      const bool whole = structure.form == GenericStructure::Form::kImpulses;
+      const JointColumns columns = generic_columns(whole ? data_.whole() : data_.coarse(),
+                                                   whole ? reader.whole : reader.coarse, structure);
+      result.score = score_of(system_.products(system_.whitened(columns), !before_), !before_);
     }
-    const bool whole = structures_[place].at_reversals;
-    const JointColumns columns =
-        generic_columns(whole ? data_.whole() : data_.coarse(),
-                        whole ? reader.whole : reader.coarse, structures_[place]);
-    result.score = score_of(system_.products(system_.whitened(columns), !before_), !before_);
     if (!before_) noise.add(result.score.surrogates, result.score.degrees);
     result.surprise = surprise_of(result.score.squares, result.score.degrees);
     return result;

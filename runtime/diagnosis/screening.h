@@ -26,8 +26,8 @@ struct NamedResult {
 NamedResult without_conditions(const NamedResult& named);
 
 struct GenericResult {
-  std::size_t structure = 0;  ///< its place
-  double frequency = 0;       ///< Hz, of a sinusoid
+  std::size_t structure = 0;                            ///< its place
+  Eigen::Vector2d frequency = Eigen::Vector2d::Zero();  ///< of a line or wave
   Score score;
   double surprise = 0;
 };

@@ -4,18 +4,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/diagnosis/generic_columns.h"
+
 namespace dyngen::runtime {
 namespace {
 
 using Eigen::VectorXd;
 
 constexpr double kGoodPart = 1.0 / 3;  // of the squares of impulses: what explains it makes them
+constexpr double kImperfect = 0.02;    // of the squares of impulses: what their shape leaves
 constexpr double kKnown = 4;  // squares: an effect that would have as many elsewhere is seen there
 
 }  // namespace
 
 bool Stops::rests(int joint) const {
-  return std::find(resting_.begin(), resting_.end(), joint) != resting_.end();
+  return std::any_of(resting_.begin(), resting_.end(),
+                     [&](const RestingJoint& resting) { return resting.joint == joint; });
+}
+
+double Stops::unseen_on(const std::vector<int>& joints) const {
+  double most = 0;
+  for (const RestingJoint& resting : resting_) {
+    if (std::find(joints.begin(), joints.end(), resting.joint) == joints.end()) continue;
+    most = std::max(most, kImperfect * resting.squares);
+  }
+  return most;
 }
 
 /// Whether a single test by itself would say so.
@@ -24,7 +37,8 @@ bool Stops::significant(double surprise) const { return std::exp(-surprise) < fa
 const GenericResult* Stops::impulses_at(const Screening& screening, int joint) const {
   for (const GenericResult& generic : screening.generic) {
     const GenericStructure& structure = structures_[generic.structure];
-    if (structure.at_reversals && structure.joint == joint) return &generic;
+    if (structure.form == GenericStructure::Form::kImpulses && structure.joint == joint)
+      return &generic;
   }
   return nullptr;
 }
@@ -90,10 +104,10 @@ bool Stops::hide(const EvidenceSystem& system, const Screening& screening,
   return screening.family_wise(surprise_of(left.squares, left.degrees)) > false_alarm_;
 }
 
-std::vector<int> Stops::resting(const EvidenceSystem& system, const Screening& screening,
-                                const GenericStructure& structure) const {
+std::vector<RestingJoint> Stops::resting(const EvidenceSystem& system, const Screening& screening,
+                                         const GenericStructure& structure) const {
   if (rests(structure.joint) || !significant(impulses_of(screening, structure.joint))) return {};
-  if (!structure.at_reversals) {
+  if (structure.form != GenericStructure::Form::kImpulses) {
     EvidenceSystem beside = system;
     const auto white = [&](const GenericStructure& own) {
       return beside.whitened(generic_columns(data_, signals_, own));
@@ -103,7 +117,10 @@ std::vector<int> Stops::resting(const EvidenceSystem& system, const Screening& s
     const double surprise = surprise_of(left.squares, left.degrees);
     if (screening.family_wise(surprise) <= false_alarm_) return {};
   }
-  std::vector<int> joints = {structure.joint};
+  const auto found = [&](int joint) {
+    return RestingJoint{joint, impulses_at(screening, joint)->score.squares};
+  };
+  std::vector<RestingJoint> joints = {found(structure.joint)};
   for (int j = 0; j < data_.joints(); ++j) {
     const double impulses = impulses_of(screening, j);
     if (j == structure.joint || rests(j)) continue;
@@ -112,7 +129,7 @@ std::vector<int> Stops::resting(const EvidenceSystem& system, const Screening& s
         screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
           return structures_[generic.structure].joint != j || generic.surprise <= impulses;
         });
-    if (strongest) joints.push_back(j);
+    if (strongest) joints.push_back(found(j));
   }
   return joints;
 }

@@ -10,14 +10,20 @@ namespace dyngen::runtime {
 /// Squares of impulses over their degrees: below it they are hardly more than noise.
 inline constexpr double kHardlyMoreThanNoise = 2;
 
+/// A joint that friction holds for an instant where it turns.
+struct RestingJoint {
+  int joint = 0;
+  double squares = 0;  ///< of the impulses at its reversals, beside the model and what was found
+};
+
 /// What dry friction does where a joint turns or stops: it holds the joint for an instant, with any
 /// torque up to its own, and the equations have an impulse there. That is neither a name nor
 /// structure: a joint of which it is seen `rests`, and has its impulses beside the model.
 class Stops {
  public:
-  /// All must outlive it. @param resting  coordinates, as they are found
+  /// All must outlive it. @param resting  as they are found
   Stops(const EffectRecordings& data, EffectSignals& signals,
-        const std::vector<GenericStructure>& structures, const std::vector<int>& resting,
+        const std::vector<GenericStructure>& structures, const std::vector<RestingJoint>& resting,
         double false_alarm)
       : data_(data),
         signals_(signals),
@@ -27,6 +33,10 @@ class Stops {
 
   /// Whether a joint was found to rest.
   [[nodiscard]] bool rests(int joint) const;
+
+  /// Squares that are nothing on joints one of which rests: the rest lasts, and an impulse has not
+  /// quite its shape. 0 where none rests.
+  [[nodiscard]] double unseen_on(const std::vector<int>& joints) const;
 
   /// What the stops of its joints have to do with an effect.
   enum class Part {
@@ -51,8 +61,9 @@ class Stops {
   /// Joints that begin to rest: the structure's, if impulses at its reversals are more than noise
   /// and beside them the structure is not; with it all others where impulses are the strongest
   /// structure. None if it is not so.
-  [[nodiscard]] std::vector<int> resting(const EvidenceSystem& system, const Screening& screening,
-                                         const GenericStructure& structure) const;
+  [[nodiscard]] std::vector<RestingJoint> resting(const EvidenceSystem& system,
+                                                  const Screening& screening,
+                                                  const GenericStructure& structure) const;
 
  private:
   [[nodiscard]] const GenericResult* impulses_at(const Screening& screening, int joint) const;
@@ -62,7 +73,7 @@ class Stops {
   const EffectRecordings& data_;
   EffectSignals& signals_;
   const std::vector<GenericStructure>& structures_;
-  const std::vector<int>& resting_;
+  const std::vector<RestingJoint>& resting_;
   double false_alarm_;
 };
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/diagnosis/sufficiency.h"
-#include "tests/runtime/effects/effect_arm.h"
+#include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -19,18 +19,14 @@ using Eigen::VectorXd;
 
 /// A small catalogue of laws made by hand, on both joints where they are of one.
 std::vector<EffectInstance> small_catalogue() {
-  std::vector<EffectInstance> hypotheses;
   EffectLaw asymmetry = test::coulomb_asymmetry_law();
   asymmetry.aliases.emplace_back("base");
-  for (const EffectLaw& law : {test::stribeck_law(), test::load_friction_law(), test::spring_law(),
-                               test::ripple_law(), asymmetry}) {
-    for (const int joint : {0, 1}) hypotheses.push_back(test::unknown(law, joint));
-  }
-  hypotheses.push_back(test::unknown(test::tilt_law(), -1));
-  for (EffectInstance& effect : hypotheses) {
-    effect.law.family = effect.law.name;
-    effect.link = effect.joint + 1;
-  }
+  std::vector<EffectInstance> hypotheses =
+      test::on_both_joints({test::stribeck_law(), test::load_friction_law(), test::spring_law(),
+                            test::ripple_law(), asymmetry});
+  EffectInstance tilt = test::unknown(test::tilt_law(), -1);
+  tilt.law.family = tilt.law.name;
+  hypotheses.push_back(std::move(tilt));
   return hypotheses;
 }
 
@@ -48,16 +44,11 @@ DiagnosisInput input_with(const std::vector<EffectInstance>& effects, unsigned s
   return input;
 }
 
-DiagnosisOptions every_sample() {
-  DiagnosisOptions options;
-  options.decimation = 1;
-  return options;
-}
-
 TEST(Diagnosis, OfNullsIsClean) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     const double coefficient = seed % 3 == 0 ? 0 : seed % 3 == 1 ? 0.5 : 0.95;
-    const Diagnosis diagnosis = diagnose(input_with({}, seed, 0.1, coefficient), every_sample());
+    const Diagnosis diagnosis =
+        diagnose(input_with({}, seed, 0.1, coefficient), test::every_sample());
     EXPECT_EQ(diagnosis.verdict, Verdict::kClean) << "seed " << seed << " AR " << coefficient;
     EXPECT_TRUE(diagnosis.findings.empty());
   }
@@ -75,7 +66,7 @@ TEST(Diagnosis, NamesWhatWasLeftOut) {
                                      {test::known(test::tilt_law(), -1, {0.2, 0.1}), -1}};
   for (const Truth& truth : truths) {
     for (const unsigned seed : {1U, 2U}) {
-      const Diagnosis diagnosis = diagnose(input_with({truth.effect}, seed), every_sample());
+      const Diagnosis diagnosis = diagnose(input_with({truth.effect}, seed), test::every_sample());
       ASSERT_FALSE(diagnosis.findings.empty()) << truth.effect.law.name << " seed " << seed;
       const Finding& finding = diagnosis.findings.front();
       EXPECT_EQ(finding.effect.law.name, truth.effect.law.name) << "seed " << seed;
@@ -99,7 +90,7 @@ TEST(Diagnosis, NamesWhatWasLeftOut) {
 
 TEST(Diagnosis, WhatIsAColumnOfTheModelIsUndecidable) {
   const Diagnosis diagnosis = diagnose(
-      input_with({test::known(test::coulomb_asymmetry_law(), 0, {1.0})}, 3), every_sample());
+      input_with({test::known(test::coulomb_asymmetry_law(), 0, {1.0})}, 3), test::every_sample());
   EXPECT_EQ(diagnosis.verdict, Verdict::kClean);
   const auto listed = std::any_of(
       diagnosis.undecidable.begin(), diagnosis.undecidable.end(), [](const Undecidable& entry) {
@@ -112,7 +103,7 @@ TEST(Diagnosis, WhatIsAColumnOfTheModelIsUndecidable) {
 TEST(Diagnosis, AReferenceDecidesWhatNoRecordingAloneCan) {
   DiagnosisInput input = input_with({test::known(test::coulomb_asymmetry_law(), 0, {1.0})}, 4);
   input.reference = input_with({}, 5).train;
-  const Diagnosis diagnosis = diagnose(input, every_sample());
+  const Diagnosis diagnosis = diagnose(input, test::every_sample());
   ASSERT_EQ(diagnosis.findings.size(), 1U);
   const Finding& finding = diagnosis.findings.front();
   EXPECT_TRUE(finding.since_reference);
@@ -120,7 +111,7 @@ TEST(Diagnosis, AReferenceDecidesWhatNoRecordingAloneCan) {
   EXPECT_EQ(finding.effect.joint, 0);
   EXPECT_NEAR(finding.effect.parameters[0], 1, 5 * finding.parameters[0].stddev);
   input.train = input_with({}, 6).train;
-  EXPECT_TRUE(diagnose(input, every_sample()).findings.empty());
+  EXPECT_TRUE(diagnose(input, test::every_sample()).findings.empty());
 }
 
 TEST(Diagnosis, StructureOutsideTheCatalogueHasNoName) {
@@ -130,7 +121,7 @@ TEST(Diagnosis, StructureOutsideTheCatalogueHasNoName) {
   foreign.scope = EffectScope::kPair;
   EffectInstance effect = test::known(foreign, 0, {0.6});
   effect.other = 1;
-  const Diagnosis diagnosis = diagnose(input_with({effect}, 7), every_sample());
+  const Diagnosis diagnosis = diagnose(input_with({effect}, 7), test::every_sample());
   EXPECT_EQ(diagnosis.verdict, Verdict::kUnexplainedStructure);
   ASSERT_FALSE(diagnosis.unexplained.empty());
   EXPECT_EQ(diagnosis.unexplained.front().joint, 0);
@@ -139,7 +130,8 @@ TEST(Diagnosis, StructureOutsideTheCatalogueHasNoName) {
 
 TEST(Diagnosis, IsTheSameTwice) {
   const DiagnosisInput input = input_with({test::known(test::spring_law(), 1, {0.4})}, 8);
-  const Diagnosis a = diagnose(input, every_sample()), b = diagnose(input, every_sample());
+  const Diagnosis a = diagnose(input, test::every_sample()),
+                  b = diagnose(input, test::every_sample());
   EXPECT_EQ(a.findings.size(), b.findings.size());
   EXPECT_EQ(a.fit.point.beta, b.fit.point.beta);
   EXPECT_EQ(a.heldout.after, b.heldout.after);
@@ -153,7 +145,7 @@ TEST(Diagnosis, IsTheSameTwice) {
 TEST(Diagnosis, OfAFewSamplesIsRefused) {
   DiagnosisInput input = input_with({}, 9);
   input.train = test::measured({test::sines(0.3, 0.01)}, test::planar_arm_values(), {}, 0.1, 0, 1);
-  const Diagnosis diagnosis = diagnose(input, every_sample());
+  const Diagnosis diagnosis = diagnose(input, test::every_sample());
   EXPECT_EQ(diagnosis.verdict, Verdict::kInsufficientData);
   EXPECT_FALSE(diagnosis.sentence.empty());
 }
@@ -179,7 +171,7 @@ TEST(Diagnosis, OfAMotionTooShortForItsParametersIsRefused) {
   for (const double seconds : {0.8, 1.2}) {
     input.train =
         test::measured({test::sines(seconds, 0.01)}, test::planar_arm_values(), {}, 0.1, 0.5, 1);
-    const Diagnosis diagnosis = diagnose(input, every_sample());
+    const Diagnosis diagnosis = diagnose(input, test::every_sample());
     EXPECT_EQ(diagnosis.verdict, Verdict::kInsufficientData) << seconds;
     EXPECT_NE(diagnosis.sentence.find("too little motion"), std::string::npos)
         << diagnosis.sentence;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "runtime/diagnosis/generic_structure.h"
+#include "runtime/diagnosis/generic_columns.h"
 #include "runtime/diagnosis/screening.h"
 #include "runtime/diagnosis/standstill.h"
 #include "runtime/effects/absorption.h"
@@ -67,7 +67,7 @@ TEST(EvidenceSystem, NoiseGivesChiSquare) {
   const EvidenceSystem system(data, residuals_at_truth(data), white(0.1), options);
   EffectSignals signals(data);
   signals.set_beta(test::planar_arm_values());
-  const GenericStructure structure{0, {{StructureVariable::Kind::kPosition, 1}}, false};
+  const GenericStructure structure{0, {{StructureVariable::Kind::kPosition, 1}}};
   const Score score =
       score_of(system.products(system.whitened(generic_columns(data, signals, structure))));
   EXPECT_GE(score.degrees, 5);

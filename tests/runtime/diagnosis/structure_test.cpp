@@ -6,13 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "runtime/diagnosis/diagnosis.h"
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/line_scan.h"
 #include "runtime/diagnosis/naming.h"
 #include "runtime/diagnosis/time_windows.h"
-#include "runtime/effects/absorption.h"
-#include "tests/runtime/effects/effect_arm.h"
+#include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -20,30 +18,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kNoise = 0.1;  // N m, white
-
-TorqueNoiseModel white() {
-  return {white_noise(VectorXd::Constant(2, kNoise)).joints, VectorXd::Constant(2, 2000), false};
-}
-
-EffectRecordings recordings(const std::vector<MotionSource>& sources) {
-  return effect_recordings(test::planar_arm(), test::planar_arm_tangents(), sources, {1, -1},
-                           {true, true});
-}
-
-EvidenceSystem system_of(const EffectRecordings& data) {
-  RunResiduals residuals;
-  for (const EffectRun& run : data.runs) {
-    residuals.push_back(residual(run.rows, test::planar_arm_values()));
-  }
-  return {data, residuals, white(), {}};
-}
-
-std::vector<MotionSource> measured(const std::vector<EffectInstance>& effects, unsigned seed) {
-  return test::measured({test::sines(30, 0.01, 0.3), test::sines(30, 0.01, 2.3)},
-                        test::planar_arm_values(), effects, kNoise, 0, seed);
-}
 
 /// a sin(2 pi f t), whatever the arm does.
 EffectLaw hum_law() {
@@ -71,20 +45,22 @@ EffectLaw push_law() {
 /// What is recorded where an effect acts in one recording alone.
 std::vector<MotionSource> with_event_in(std::size_t place, const EffectInstance& effect,
                                         unsigned seed) {
-  std::vector<MotionSource> sources = measured({}, seed);
-  sources[place] = measured({effect}, seed)[place];
+  std::vector<MotionSource> sources = test::two_recordings({}, seed);
+  sources[place] = test::two_recordings({effect}, seed)[place];
   return sources;
 }
 
 TEST(LineScan, FindsTheFrequencyOfASinusoid) {
-  const EffectRecordings data = recordings(measured({test::known(hum_law(), 1, {0.05, 3.3})}, 1));
-  const EvidenceSystem system = system_of(data);
+  const EffectRecordings data =
+      test::arm_recordings(test::two_recordings({test::known(hum_law(), 1, {0.05, 3.3})}, 1));
+  const EvidenceSystem system = test::arm_system(data);
   const LineScan there = scan_lines(data, system, 1, true),
                  other = scan_lines(data, system, 0, true);
   EXPECT_NEAR(there.frequency, 3.3, 0.5 / 30);
   EXPECT_EQ(there.score.degrees, 4);  // a phase and a size in each of two runs
   // lambda = N a^2 / (2 sigma^2)
-  const double lambda = static_cast<double>(data.equations()) * 0.0025 / (2 * kNoise * kNoise);
+  const double lambda =
+      static_cast<double>(data.equations()) * 0.0025 / (2 * test::kArmNoise * test::kArmNoise);
   EXPECT_NEAR(there.score.squares, lambda + 4, 4 * std::sqrt(8 + 4 * lambda));
   // noise alone does not come near, and the other joint is noise
   EXPECT_LT(there.score.surrogates.maxCoeff(), 0.5 * lambda);
@@ -108,13 +84,13 @@ TEST(SquaresOfFew, RiseToThoseOfAllColumns) {
 
 TEST(WindowScan, SaysInWhichRecording) {
   const EffectRecordings data =
-      recordings(with_event_in(1, test::known(push_law(), 0, {0.3, 12, 12.8}), 2));
+      test::arm_recordings(with_event_in(1, test::known(push_law(), 0, {0.3, 12, 12.8}), 2));
   EffectSignals signals(data);
   signals.set_beta(test::planar_arm_values());
   const Hypothesis hypothesis = hypothesis_of(test::unknown(push_law(), 0),
                                               ScaleTable(data).at(test::planar_arm_values(), 0));
   ASSERT_TRUE(hypothesis.windowed);
-  const WindowScan scan = scan_windows(data, signals, system_of(data), hypothesis, true);
+  const WindowScan scan = scan_windows(data, signals, test::arm_system(data), hypothesis, true);
   EXPECT_EQ(scan.recording, 1);
   EXPECT_NEAR(scan.begin, 12, 0.3);
   EXPECT_NEAR(scan.end, 12.8, 0.3);
@@ -128,40 +104,15 @@ TEST(WindowScan, SaysInWhichRecording) {
   EXPECT_NEAR(columns.parts[0].bottomRows(half).maxCoeff(), 0.3, 1e-12);
 }
 
-DiagnosisInput input_of(std::vector<MotionSource> train, const std::vector<EffectInstance>& effects,
-                        const std::vector<EffectLaw>& laws) {
-  DiagnosisInput input;
-  input.model = test::planar_arm();
-  input.robot = test::planar_arm_tangents();
-  input.train = std::move(train);
-  input.heldout = test::measured({test::sines(20, 0.01, 4.3, 0.9)}, test::planar_arm_values(),
-                                 effects, kNoise, 0, 100);
-  for (const EffectLaw& law : laws) {
-    for (const int joint : {0, 1}) {
-      EffectInstance effect = test::unknown(law, joint);
-      effect.law.family = law.name;
-      effect.link = joint + 1;
-      input.hypotheses.push_back(std::move(effect));
-    }
-  }
-  return input;
-}
-
-DiagnosisOptions every_sample() {
-  DiagnosisOptions options;
-  options.decimation = 1;
-  return options;
-}
-
 TEST(Jolt, IsWhatAFewEquationsHold) {
   for (const double length : {0.02, 0.8}) {
     // the recording has it too
     EffectInstance push = test::known(push_law(), 0, {1, 12, 12 + length});
-    const EffectRecordings with = recordings(with_event_in(0, push, 7));
+    const EffectRecordings with = test::arm_recordings(with_event_in(0, push, 7));
     push.recording = 0;
     EffectSignals own(with);
     own.set_beta(test::planar_arm_values());
-    const EvidenceSystem system = system_of(with);
+    const EvidenceSystem system = test::arm_system(with);
     const JointColumns white = system.whitened(effect_columns(with, own, push, {0}));
     EXPECT_EQ(is_jolt(system, white), length < 0.1) << length;
   }
@@ -183,10 +134,10 @@ TEST(HeldoutProof, WeighsAGainByWhatTheChangeIsWorth) {
 
 TEST(HeldoutProof, IsOfSquaresBeforeAndAfter) {
   const EffectInstance spring = test::known(test::spring_law(), 1, {0.4});
-  const EffectRecordings data = recordings(measured({spring}, 8));
+  const EffectRecordings data = test::arm_recordings(test::two_recordings({spring}, 8));
   const EffectPoint before = at_rest(data, test::planar_arm_values(), {}),
                     after = at_rest(data, test::planar_arm_values(), {spring});
-  const HeldoutProof proof = heldout_proof(data, before, after, white());
+  const HeldoutProof proof = heldout_proof(data, before, after, test::arm_noise());
   const double gain = proof.before - proof.after;
   EXPECT_NEAR(gain, proof.change, 5 * 2 * std::sqrt(proof.change));
   EXPECT_NEAR(proof.after, 2.0 * static_cast<double>(data.equations()),
@@ -205,12 +156,12 @@ std::vector<EffectInstance> held_at_reversals() {
 
 TEST(Diagnosis, WhatFrictionHoldsAtReversalsIsNoNameAndNoStructure) {
   const std::vector<EffectInstance> held = held_at_reversals();
-  DiagnosisInput input =
-      input_of(measured(held, 9), held, {test::stribeck_law(), test::spring_law()});
+  DiagnosisInput input = test::arm_input(test::two_recordings(held, 9), held,
+                                         {test::stribeck_law(), test::spring_law()});
   EffectInstance delay = test::unknown(test::delay_law(), -1);
   delay.law.family = "time_delay";
   input.hypotheses.push_back(delay);
-  const Diagnosis diagnosis = diagnose(input, every_sample());
+  const Diagnosis diagnosis = diagnose(input, test::every_sample());
   EXPECT_EQ(diagnosis.verdict, Verdict::kClean) << diagnosis.sentence;
   EXPECT_TRUE(diagnosis.findings.empty());
   EXPECT_NE(diagnosis.noise.how.find("rests for an instant"), std::string::npos)
@@ -219,8 +170,9 @@ TEST(Diagnosis, WhatFrictionHoldsAtReversalsIsNoNameAndNoStructure) {
 
 TEST(Diagnosis, NamesAnEventOfOneRecording) {
   const EffectInstance event = test::known(push_law(), 0, {0.3, 12, 12.8});
-  const Diagnosis diagnosis = diagnose(
-      input_of(with_event_in(1, event, 3), {}, {push_law(), test::spring_law()}), every_sample());
+  const Diagnosis diagnosis =
+      diagnose(test::arm_input(with_event_in(1, event, 3), {}, {push_law(), test::spring_law()}),
+               test::every_sample());
   ASSERT_EQ(diagnosis.findings.size(), 1U);
   const Finding& finding = diagnosis.findings.front();
   EXPECT_EQ(finding.effect.law.name, "contact");
@@ -238,7 +190,8 @@ TEST(Diagnosis, NamesAnEventOfOneRecording) {
 TEST(Diagnosis, ASinusoidOfItsOwnFrequencyHasNoName) {
   const EffectInstance hum = test::known(hum_law(), 1, {0.05, 3.3});
   const Diagnosis diagnosis =
-      diagnose(input_of(measured({hum}, 4), {hum}, {test::spring_law()}), every_sample());
+      diagnose(test::arm_input(test::two_recordings({hum}, 4), {hum}, {test::spring_law()}),
+               test::every_sample());
   EXPECT_EQ(diagnosis.verdict, Verdict::kUnexplainedStructure);
   ASSERT_EQ(diagnosis.unexplained.size(), 1U);
   const Unexplained& unexplained = diagnosis.unexplained.front();
@@ -256,7 +209,8 @@ TEST(Diagnosis, AFormThatAConditionRulesOutIsNoName) {
   spring.falsifiers.push_back(stiff);
   const EffectInstance truth = test::known(test::spring_law(), 1, {0.4});
   const Diagnosis diagnosis = diagnose(
-      input_of(measured({truth}, 5), {truth}, {spring, test::ripple_law()}), every_sample());
+      test::arm_input(test::two_recordings({truth}, 5), {truth}, {spring, test::ripple_law()}),
+      test::every_sample());
   EXPECT_EQ(diagnosis.verdict, Verdict::kUnexplainedStructure);
   EXPECT_TRUE(diagnosis.findings.empty());
   ASSERT_FALSE(diagnosis.unexplained.empty());
@@ -271,8 +225,9 @@ TEST(Diagnosis, NamesThatImitateOneAnotherAreASet) {
   EffectLaw twin = test::spring_law();
   twin.name = "twin";
   const EffectInstance truth = test::known(test::spring_law(), 1, {0.4});
-  const Diagnosis diagnosis =
-      diagnose(input_of(measured({truth}, 6), {truth}, {test::spring_law(), twin}), every_sample());
+  const Diagnosis diagnosis = diagnose(
+      test::arm_input(test::two_recordings({truth}, 6), {truth}, {test::spring_law(), twin}),
+      test::every_sample());
   ASSERT_EQ(diagnosis.findings.size(), 1U);
   const Finding& finding = diagnosis.findings.front();
   EXPECT_EQ(finding.aliases.size(), 2U);

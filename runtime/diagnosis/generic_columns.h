@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "runtime/diagnosis/generic_structure.h"
+
+namespace dyngen::runtime {
+
+/// Columns of a structure, behind the parallel filter. Impulses need the motion at all samples;
+/// lines and waves their frequency.
+JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
+                             const GenericStructure& structure);
+
+/// Cosines and sines of a sum of two positions, two columns for each pair of frequencies.
+/// @param frequencies  (2 x m) 1/rad or 1/m
+JointColumns wave_columns(const EffectRecordings& data, const GenericStructure& structure,
+                          const Eigen::Matrix2Xd& frequencies);
+
+}  // namespace dyngen::runtime

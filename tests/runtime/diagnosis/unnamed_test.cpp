@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+/// Functions of the motion that no effect is: where they are found, and what they cost a name.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/diagnosis/generic_columns.h"
+#include "runtime/diagnosis/naming.h"
+#include "runtime/diagnosis/stops.h"
+#include "runtime/diagnosis/wave_scan.h"
+#include "tests/runtime/diagnosis/arm_diagnosis.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Kind = StructureVariable::Kind;
+using Form = GenericStructure::Form;
+
+/// a f(own, other) of positions or velocities, one of each joint.
+EffectInstance torque_of(const std::string& own, const std::string& other, double size,
+                         double (*shape)(double own, double other)) {
+  const EffectLaw law = test::algebraic_law(
+      "foreign", {own, other}, {{"a", EffectRole::kLinear, -10, 10, 0, 1}},
+      [shape](const VectorXd& v, const VectorXd& p) { return p[0] * shape(v[0], v[1]); });
+  EffectInstance effect = test::known(law, 1, {size});
+  effect.other = 0;
+  return effect;
+}
+
+EffectInstance wave(double size) {
+  return torque_of("q", "q_other", size,
+                   [](double own, double other) { return std::sin(2 * other + 3 * own); });
+}
+
+EffectInstance product(double size) {
+  return torque_of("qd", "qd_other", size,
+                   [](double own, double other) { return std::tanh(own * other); });
+}
+
+TEST(WaveScan, FindsWhatAWaveTurnsByWithEachPosition) {
+  const EffectRecordings data = test::arm_recordings(test::two_recordings({wave(0.05)}, 1));
+  const EvidenceSystem system = test::arm_system(data);
+  GenericStructure structure{1, {{Kind::kPosition, 0}, {Kind::kPosition, 1}}, Form::kWave};
+  const WaveScan there = scan_waves(data, system, structure, true);
+  structure.joint = 0;
+  const WaveScan other = scan_waves(data, system, structure, true);
+  // one of the grid, which is half a wave over the range of a position
+  EXPECT_NEAR(there.frequency[0], 2, 0.8);
+  EXPECT_NEAR(there.frequency[1], 3, 0.8);
+  EXPECT_GT(there.score.squares, 3 * there.score.surrogates.maxCoeff());
+  EXPECT_EQ(there.score.degrees, 2);
+  EXPECT_LT(other.score.squares, 2 * other.score.surrogates.maxCoeff());
+}
+
+TEST(GenericStructure, ProductOfVelocitiesIsWithinItsColumns) {
+  const EffectRecordings data = test::arm_recordings(test::two_recordings({}, 1));
+  EffectSignals signals(data);
+  const GenericStructure structure{
+      1, {{Kind::kVelocity, 0}, {Kind::kVelocity, 1}, {Kind::kPosition, 0}}, Form::kSpeeds};
+  EXPECT_EQ(structure.names(), (std::vector<std::string>{"qd1", "qd2", "q1"}));
+  const JointColumns columns = generic_columns(data, signals, structure);
+  const VectorXd expected =
+      values_at_equations(data, signals, {Kind::kVelocity, 0})
+          .cwiseProduct(values_at_equations(data, signals, {Kind::kVelocity, 1}));
+  // hats add up to 1
+  EXPECT_TRUE(columns.parts[0].rowwise().sum().isApprox(expected, 1e-12));
+}
+
+TEST(GenericStructure, NamesAVariableOnce) {
+  const GenericStructure squared{
+      0, {{Kind::kVelocity, 1}, {Kind::kVelocity, 1}, {Kind::kPosition, 0}}, Form::kSpeeds};
+  EXPECT_EQ(squared.names(), (std::vector<std::string>{"qd2", "q1"}));
+  const GenericStructure friction{1, {{Kind::kVelocity, 1}}, Form::kFriction};
+  EXPECT_EQ(friction.names(), std::vector<std::string>{"qd2"});
+}
+
+TEST(Diagnosis, AFunctionOfTwoJointsHasNoName) {
+  for (const EffectInstance& truth : {wave(0.06), product(0.08)}) {
+    const Diagnosis diagnosis =
+        diagnose(test::arm_input(test::two_recordings({truth}, 4), {truth},
+                                 {test::spring_law(), test::stribeck_law()}),
+                 test::every_sample());
+    EXPECT_EQ(diagnosis.verdict, Verdict::kUnexplainedStructure) << diagnosis.sentence;
+    ASSERT_FALSE(diagnosis.unexplained.empty());
+    const Unexplained& unexplained = diagnosis.unexplained.front();
+    EXPECT_EQ(unexplained.joint, 1);
+    EXPECT_GE(unexplained.variables.size(), 2U) << unexplained.description;
+  }
+}
+
+TEST(Naming, WhatHasNoNameTakesItsPartOfTheProbability) {
+  Naming naming;
+  naming.families = {"spring"};
+  conclude(naming);
+  EXPECT_EQ(naming.probability, 1);
+  naming.unnamed_distance = 0;
+  conclude(naming);
+  EXPECT_NEAR(naming.probability, 0.5, 1e-12);
+  naming.unnamed_distance = -50;
+  conclude(naming);
+  EXPECT_LT(naming.probability, 0.01);
+}
+
+TEST(Stops, LittleIsNothingOnAJointThatRests) {
+  const EffectRecordings data = test::arm_recordings(test::two_recordings({}, 1));
+  EffectSignals signals(data);
+  const std::vector<GenericStructure> structures;
+  const std::vector<RestingJoint> resting = {{1, 500}};
+  const Stops stops(data, signals, structures, resting, 0.01);
+  EXPECT_EQ(stops.unseen_on({0}), 0);
+  EXPECT_NEAR(stops.unseen_on({0, 1}), 10, 1e-12);
+  EXPECT_TRUE(stops.rests(1));
+  EXPECT_FALSE(stops.rests(0));
+}
+
+}  // namespace
+}  // namespace dyngen::runtime
