@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <set>
-#include <stdexcept>
 
 #include "runtime/diagnosis/heldout.h"
-#include "runtime/diagnosis/likelihood.h"
+#include "runtime/diagnosis/likely_search.h"
 #include "runtime/diagnosis/nameless_search.h"
 #include "runtime/diagnosis/second_scan.h"
 #include "runtime/diagnosis/stops.h"
@@ -26,12 +24,12 @@ using Eigen::VectorXd;
 constexpr std::size_t kRefined = 12;     // candidates whose shapes are refined in a round
 constexpr double kLeastExplained = 0.7;  // part of a joint's structure that a name must explain
 constexpr double kLeastAsGood = 0.5;     // of the winner's squares: rivals that are tried with it
-constexpr double kOutdone = 9;           // squares, net, by which a form that cannot be is better
+constexpr double kOutdone = 9;           // squares, net, by which what has no name is better
+constexpr double kOutdonePart = 0.1;     // and of the effect's, of a function of the motion
 constexpr std::size_t kAttempts = 4;     // effects that are fitted in a round before it gives up
 constexpr double kTie = 0.5;             // squares that decide nothing
 constexpr std::size_t kRivals = 5;       // that are compared again once the winner is fitted
 constexpr double kEventNet = 10;         // squares, net, of an event
-constexpr std::size_t kLikely = 3;       // families of a joint whose likelihoods are compared
 
 /// One competition's data and what was found so far.
 class Competition {
@@ -52,7 +50,9 @@ class Competition {
         witnesses_(witnesses),
         stops_(train_, signals_, structures_, result_.resting, options_.false_alarm),
         nameless_(train_, signals_, hypotheses_, structures_, stops_, witnesses_, system_options(),
-                  options_.false_alarm, result_) {}
+                  options_.false_alarm, result_),
+        likely_(train_, signals_, hypotheses_, scales_, result_,
+                [this](const EffectInstance& effect) { return with(effect); }) {}
 
   CompetitionResult run() {
     tell("the model alone", 0);
@@ -114,13 +114,6 @@ class Competition {
     return all;
   }
 
-  /// What the model leaves as if it were white.
-  [[nodiscard]] TorqueNoiseModel white_model() const {
-    TorqueNoiseModel white = result_.noise;
-    white.joints = white_noise(result_.fit.rms).joints;
-    return white;
-  }
-
   EvidenceSystem model_system() {
     EvidenceSystem system =
         system_at(train_, signals_, result_.fit.point, found(), result_.noise, system_options());
@@ -164,7 +157,7 @@ class Competition {
     at_stops_ = false;
     std::vector<std::size_t> order;
     for (const NamedResult& named : screening.named) {
-      if (named.seen && named.best.admissible && !already(named.hypothesis)) {
+      if (named.seen && named.best.admissible && !is_winner(result_, named.hypothesis)) {
         order.push_back(named.hypothesis);
       }
     }
@@ -232,22 +225,33 @@ class Competition {
                    system.whitened(effect_columns(train_, signals_, named.best.effect, {0})));
   }
 
-  /// Whether an effect that its file rules out explains more on the same joint: then the structure
-  /// is something else, of that form.
+  /// Whether what has no name explains more on the same joint: an effect that its file rules out,
+  /// since the structure is something else then, of that form; or a function of the motion.
   [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,
                              const Screening& screening) const {
     const std::vector<int> own = joints_of_hypothesis(named.hypothesis);
-    return std::any_of(
-        screening.named.begin(), screening.named.end(), [&](const NamedResult& each) {
+    const auto is_own = [&](int joint) {
+      return std::find(own.begin(), own.end(), joint) != own.end();
+    };
+    const bool by_form =
+        std::any_of(screening.named.begin(), screening.named.end(), [&](const NamedResult& each) {
           if (!each.seen || each.freest.admissible) return false;
           const NamedResult other = without_conditions(each);
           if (net(named) >= net(other) - kOutdone) return false;
           const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
-          const bool meet = std::any_of(joints.begin(), joints.end(), [&](int joint) {
-            return std::find(own.begin(), own.end(), joint) != own.end();
-          });
-          return meet && !stops_.hide(system, screening, hypotheses_[other.hypothesis], other);
+          return std::any_of(joints.begin(), joints.end(), is_own) &&
+                 !stops_.hide(system, screening, hypotheses_[other.hypothesis], other);
         });
+    if (by_form) return true;
+    // shapes of a strong effect are not quite found yet
+    const double much = (1 + kOutdonePart) * net(named) + kOutdone;
+    return std::any_of(screening.generic.begin(), screening.generic.end(),
+                       [&](const GenericResult& generic) {
+                         const GenericStructure& structure = structures_[generic.structure];
+                         return structure.form != GenericStructure::Form::kImpulses &&
+                                is_own(structure.joint) && !stops_.rests(structure.joint) &&
+                                net_of(structure, generic.score, result_.noise) > much;
+                       });
   }
 
   /// An effect that is more than noise and helps on held-out recordings, but has more parameters
@@ -270,110 +274,31 @@ class Competition {
     return nameless_.describe(*nearest, system, short_name(named.best.effect));
   }
 
-  /// Where no motion repeats, noise is known from what the model leaves alone, and an effect that
-  /// is most of that has made it seem slow and large. So the strongest effects of each joint are
-  /// fitted, and compared by their likelihoods, each with a noise of its own.
+  /// Where no motion repeats: see LikelySearch.
   bool next_likely(const EvidenceSystem& system, const Screening& screening) {
-    const LikelihoodRatio ratio(train_, residuals_of(train_, result_.fit.point));
-    for (auto& [place, likely] : likely_) likely.fresh = false;
-    // noise that has slow structure in it hides that structure: each joint's best beside white
-    // noise is compared too
-    EvidenceSystem::Options plain_options = system_options();
-    plain_options.surrogates = 0;
-    EvidenceSystem plain_system =
-        system_at(train_, signals_, result_.fit.point, found(), white_model(), plain_options);
-    add_nameless(train_, signals_, result_, plain_system);
-    const Screening plain = screen(screening_data_, plain_system, scales_, result_.fit.point.beta,
+    at_stops_ = false;
+    tell("likelihoods", 0);
+    const EvidenceSystem white = white_system();
+    const Screening plain = screen(screening_data_, white, scales_, result_.fit.point.beta,
                                    hypotheses_, structures_, &result_.first);
-    for (int joint = 0; joint < train_.joints(); ++joint) {
-      tell("likelihoods", static_cast<double>(joint) / train_.joints());
-      for (const std::size_t place : strongest_of(screening, joint)) {
-        if (!likely_.contains(place)) likely_[place] = compared(place, ratio, system, screening);
+    return likely_.next({system, screening}, {white, plain}, [&](const LikelyEffect& likely) {
+      if (screening.family_wise(likely.named.surprise) > options_.false_alarm) return false;
+      if (likely.net < stops_.unseen_on(joints_of_hypothesis(likely.named.hypothesis))) {
+        return false;
       }
-      for (const std::size_t place : strongest_of(plain, joint)) {
-        if (hypotheses_[place].windowed) continue;  // what is slow has a window that fits it
-        if (!likely_.contains(place)) likely_[place] = compared(place, ratio, plain_system, plain);
-        break;
-      }
-    }
-    // what an earlier round said of other joints orders them; the best is asked again
-    for (;;) {
-      const auto best = std::max_element(
-          likely_.begin(), likely_.end(),
-          [](const auto& a, const auto& b) { return a.second.net < b.second.net; });
-      if (best == likely_.end() || best->second.net <= 0) return false;
-      if (!best->second.fresh) {
-        best->second = compared(best->first, ratio, system, screening);
-        continue;
-      }
-      const Likely likely = best->second;
-      likely_.erase(best);
-      if (screening.family_wise(likely.named.surprise) > options_.false_alarm) continue;
-      if (likely.net < stops_.unseen_on(joints_of_hypothesis(likely.named.hypothesis))) continue;
-      if (accept(likely.named, screening, likely.fit)) {
-        const std::vector<int> joints = joints_of_hypothesis(likely.named.hypothesis);
-        std::erase_if(likely_, [&](const auto& entry) {
-          const std::vector<int> others = joints_of_hypothesis(entry.first);
-          return std::any_of(others.begin(), others.end(), [&](int joint) {
-            return std::find(joints.begin(), joints.end(), joint) != joints.end();
-          });
-        });
-        return true;
-      }
-    }
-  }
-
-  /// An effect that was fitted with all that was found before.
-  struct Likely {
-    NamedResult named;  ///< surprise: of the likelihoods' ratio
-    EffectFit fit;
-    double net = 0;  ///< the ratio less its price; 0: there is no such fit
-    bool fresh = true;
-  };
-
-  Likely compared(std::size_t place, const LikelihoodRatio& ratio, const EvidenceSystem& system,
-                  const Screening& screening) {
-    Likely likely{screening.named[place], {}};
-    NamedResult& named = likely.named;
-    const Hypothesis& hypothesis = hypotheses_[place];
-    named.best = refined(train_, signals_, system, hypothesis, named.best,
-                         scales_.of(result_.fit.point.beta, hypothesis.effect));
-    try {
-      likely.fit = with(named.best.effect);
-    } catch (const std::invalid_argument&) {
-      return likely;  // no finite torque at the shapes that were tried
-    }
-    const double squares = ratio.of(residuals_of(train_, likely.fit.point));
-    const auto degrees = named.best.score.degrees + static_cast<int>(hypothesis.shapes.size());
-    named.surprise = surprise_of(squares, degrees);
-    likely.net = squares - price_of(hypothesis, named.best.score.degrees, result_.noise);
-    return likely;
-  }
-
-  /// Admissible effects on a joint with the largest score, a few, one of each family.
-  [[nodiscard]] std::vector<std::size_t> strongest_of(const Screening& screening, int joint) const {
-    std::vector<std::size_t> places;
-    for (const NamedResult& named : screening.named) {
-      if (!named.seen || !named.best.admissible || already(named.hypothesis)) continue;
-      const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
-      if (std::find(joints.begin(), joints.end(), joint) == joints.end()) continue;
-      places.push_back(named.hypothesis);
-    }
-    std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
-      return net(screening.named[a]) > net(screening.named[b]);
+      return accept(likely.named, screening, likely.fit);
     });
-    std::set<std::string> families;
-    std::vector<std::size_t> few;
-    for (const std::size_t place : places) {
-      if (few.size() == kLikely) break;
-      if (families.insert(hypotheses_[place].effect.law.family).second) few.push_back(place);
-    }
-    return few;
   }
 
-  [[nodiscard]] bool already(std::size_t hypothesis) const {
-    return std::any_of(result_.winners.begin(), result_.winners.end(),
-                       [&](const Winner& winner) { return winner.hypothesis == hypothesis; });
+  /// The model beside white noise.
+  EvidenceSystem white_system() {
+    TorqueNoiseModel white = result_.noise;
+    white.joints = white_noise(result_.fit.rms).joints;
+    EvidenceSystem::Options options = system_options();
+    options.surrogates = 0;
+    EvidenceSystem system = system_at(train_, signals_, result_.fit.point, found(), white, options);
+    add_nameless(train_, signals_, result_, system);
+    return system;
   }
 
   /// What effects read of the model (the load on a gear) is wrong as long as the model has taken up
@@ -519,13 +444,13 @@ class Competition {
   EffectSignals signals_;
   ScreeningData screening_data_;
   std::vector<double> repeats_;
-  std::map<std::size_t, Likely> likely_;  // by hypothesis; of this round or an earlier one
   const Witnesses& witnesses_;
   std::optional<Doubt> doubt_;  // of this round
   bool at_stops_ = false;       // of the effect that is fitted
   CompetitionResult result_;
   Stops stops_;
   NamelessSearch nameless_;
+  LikelySearch likely_;
 };
 
 }  // namespace

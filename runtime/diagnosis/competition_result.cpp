@@ -78,6 +78,11 @@ double net_of(const Hypothesis& hypothesis, const TrialScore& trial,
   return best;
 }
 
+bool is_winner(const CompetitionResult& result, std::size_t hypothesis) {
+  return std::any_of(result.winners.begin(), result.winners.end(),
+                     [&](const Winner& winner) { return winner.hypothesis == hypothesis; });
+}
+
 EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
                          const EffectPoint& point, const std::vector<Hypothesis>& beside,
                          const TorqueNoiseModel& noise, const EvidenceSystem::Options& options) {

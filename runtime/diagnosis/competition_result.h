@@ -57,6 +57,9 @@ struct CompetitionResult {
   Screening first, last;   ///< of the model alone, and with everything that was found
 };
 
+/// Whether a hypothesis has won already.
+bool is_winner(const CompetitionResult& result, std::size_t hypothesis);
+
 /// The model with what is given beside it: regressor, and effects at their estimates with the
 /// columns of all their unknown parameters.
 EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,

@@ -13,6 +13,7 @@ using Eigen::VectorXd;
 
 constexpr double kGoodPart = 1.0 / 3;  // of the squares of impulses: what explains it makes them
 constexpr double kImperfect = 0.02;    // of the squares of impulses: what their shape leaves
+constexpr double kThrough = 0.002;     // of those of another joint: it jolts the whole arm
 constexpr double kKnown = 4;  // squares: an effect that would have as many elsewhere is seen there
 
 }  // namespace
@@ -25,8 +26,8 @@ bool Stops::rests(int joint) const {
 double Stops::unseen_on(const std::vector<int>& joints) const {
   double most = 0;
   for (const RestingJoint& resting : resting_) {
-    if (std::find(joints.begin(), joints.end(), resting.joint) == joints.end()) continue;
-    most = std::max(most, kImperfect * resting.squares);
+    const bool own = std::find(joints.begin(), joints.end(), resting.joint) != joints.end();
+    most = std::max(most, (own ? kImperfect : kThrough) * resting.squares);
   }
   return most;
 }
@@ -51,6 +52,9 @@ double Stops::impulses_of(const Screening& screening, int joint) const {
 
 Stops::Part Stops::part_in(const EvidenceSystem& system, const Screening& screening,
                            const Hypothesis& hypothesis, const NamedResult& named) const {
+  // what is late is late everywhere, not only where a joint that sticks lets go late
+  const bool everywhere = hypothesis.effect.law.kind == EffectKind::kAlignment;
+  if (everywhere && hide(system, screening, hypothesis, named)) return Part::kAll;
   EvidenceSystem beside = system, beside_effect = system;
   bool any = false, much_left = false;
   double squares = 0, degrees = 0, beside_it = 0;  // of the impulses
@@ -81,8 +85,6 @@ Stops::Part Stops::part_in(const EvidenceSystem& system, const Screening& screen
   if (screening.family_wise(surprise_of(left.squares, left.degrees)) <= false_alarm_) {
     return Part::kNone;
   }
-  // what is late is late everywhere
-  const bool everywhere = hypothesis.effect.law.kind == EffectKind::kAlignment;
   const bool makes_them = !everywhere &&
                           named.best.score.squares > kGoodPart * std::max(0.0, squares - degrees) &&
                           beside_it < kHardlyMoreThanNoise * degrees;

@@ -34,8 +34,8 @@ class Stops {
   /// Whether a joint was found to rest.
   [[nodiscard]] bool rests(int joint) const;
 
-  /// Squares that are nothing on joints one of which rests: the rest lasts, and an impulse has not
-  /// quite its shape. 0 where none rests.
+  /// Squares that are nothing on some joints where one of the robot rests: the rest lasts, an
+  /// impulse has not quite its shape, and what lets go jolts the others. 0 where none rests.
   [[nodiscard]] double unseen_on(const std::vector<int>& joints) const;
 
   /// What the stops of its joints have to do with an effect.

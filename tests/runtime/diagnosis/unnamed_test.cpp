@@ -109,9 +109,11 @@ TEST(Stops, LittleIsNothingOnAJointThatRests) {
   const EffectRecordings data = test::arm_recordings(test::two_recordings({}, 1));
   EffectSignals signals(data);
   const std::vector<GenericStructure> structures;
-  const std::vector<RestingJoint> resting = {{1, 500}};
+  std::vector<RestingJoint> resting;
   const Stops stops(data, signals, structures, resting, 0.01);
-  EXPECT_EQ(stops.unseen_on({0}), 0);
+  EXPECT_EQ(stops.unseen_on({0, 1}), 0);
+  resting = {{1, 500}};
+  EXPECT_NEAR(stops.unseen_on({0}), 1, 1e-12);  // through the arm
   EXPECT_NEAR(stops.unseen_on({0, 1}), 10, 1e-12);
   EXPECT_TRUE(stops.rests(1));
   EXPECT_FALSE(stops.rests(0));
