@@ -140,9 +140,10 @@ DiagnosisCase make_case(const CaseRequest& request, bool with_likeness) {
       result.truth = {drawn_theorem(bench, request.seed, result.noise, random)};
       break;
     case CaseKind::kUnknown:
-      while (result.foreign_lambda == 0) {
+      while (result.foreign_strength.lambda == 0) {
         result.foreign = random_foreign_torque(result.robot.joints(), random);
-        result.foreign_lambda = scale_foreign(bench, result.noise, request.lambda, *result.foreign);
+        result.foreign_strength =
+            scale_foreign(bench, result.noise, request.lambda, with_likeness, *result.foreign);
       }
       break;
     default:

@@ -47,7 +47,7 @@ struct DiagnosisCase {
   CaseRobot robot;
   std::vector<TrueEffect> truth;
   std::optional<ForeignTorque> foreign;
-  double foreign_lambda = 0;
+  ForeignStrength foreign_strength;
   runtime::DiagnosisInput input;
   runtime::AtlasNoise noise;  ///< behind the parallel filter, of the truth
 

@@ -223,6 +223,13 @@ std::vector<std::string> split(const std::string& text, char mark) {
   return parts;
 }
 
+void judge_nearest(const Nearest& nearest, double lambda, double absorbed, CaseScore& score) {
+  score.separable = nearest.separable(lambda);
+  score.likeness = nearest.likeness;
+  score.likest = nearest.family;
+  score.absorbed = absorbed;
+}
+
 }  // namespace
 
 CaseScore run_case(const CaseRequest& request, bool baselines) {
@@ -236,10 +243,10 @@ CaseScore run_case(const CaseRequest& request, bool baselines) {
     }
     if (!own.truth.empty()) {
       const TrueEffect& first = own.truth.front();
-      score.separable = first.separable();
-      score.likeness = first.likeness;
-      score.likest = first.likest;
-      score.absorbed = first.absorbed;
+      judge_nearest(first.nearest, first.lambda, first.absorbed, score);
+    } else if (own.foreign) {
+      const ForeignStrength& strength = own.foreign_strength;
+      judge_nearest(strength.nearest, strength.lambda, strength.absorbed, score);
     }
     const auto begin = std::chrono::steady_clock::now();
     const Diagnosis diagnosis = runtime::diagnose(own.input);

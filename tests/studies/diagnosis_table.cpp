@@ -260,6 +260,10 @@ std::string of_kind(CaseKind kind, const Scores& scores) {
           "Found: " + rate(scores, [](const CaseScore& s) { return s.detected; }).text() +
           "; flagged as unknown: " +
           rate(scores, [](const CaseScore& s) { return s.unknown; }).text() +
+          "; of those that no effect imitates: " +
+          rate(those(scores, [](const CaseScore& s) { return s.separable; }),
+               [](const CaseScore& s) { return s.unknown; })
+              .text() +
           "; flagged, or no confident name: " +
           rate(scores,
                [](const CaseScore& s) { return s.unknown || (s.detected && !s.confident_wrong); })

@@ -186,25 +186,24 @@ EffectInstance placed(const CaseRobot& robot, const EffectLaw& law, std::mt19937
   return effect;
 }
 
-double largest_likeness(StrengthMeter& meter, const Bench& bench, TrueEffect& truth,
-                        const runtime::EffectScales& scales) {
-  const int n = bench.robot.joints();
-  const std::vector<int> own = runtime::joints_of(truth.effect, n);
-  const VectorXd left = meter.left_of(torque_in(bench, truth.effect, truth.recording));
+/// @param left    what a refit of the model leaves of a torque, whitened
+/// @param joints  on which it acts
+/// @param family  that is not looked at
+Nearest nearest_effect(StrengthMeter& meter, const Bench& bench, const VectorXd& left,
+                       const std::vector<int>& joints, const std::string& family,
+                       const runtime::EffectScales& scales) {
+  Nearest nearest;
   for (const EffectInstance& other : all_hypotheses(bench.robot, scales)) {
-    if (other.law.family == truth.effect.law.family) continue;
-    const std::vector<int> joints = runtime::joints_of(other, n);
-    const bool meet = std::any_of(own.begin(), own.end(), [&](int j) {
-      return std::find(joints.begin(), joints.end(), j) != joints.end();
+    if (other.law.family == family) continue;
+    const std::vector<int> theirs = runtime::joints_of(other, bench.robot.joints());
+    const bool meet = std::any_of(joints.begin(), joints.end(), [&](int j) {
+      return std::find(theirs.begin(), theirs.end(), j) != theirs.end();
     });
     if (!meet) continue;
     const double likeness = meter.likeness(left, other);
-    if (likeness > truth.likeness) {
-      truth.likeness = likeness;
-      truth.likest = other.law.family;
-    }
+    if (likeness > nearest.likeness) nearest = {likeness, other.law.family};
   }
-  return truth.likeness;
+  return nearest;
 }
 
 /// One effect of the wanted family, or of any, with its strength.
@@ -230,7 +229,11 @@ std::optional<TrueEffect> drawn_effect(const Bench& bench, const std::string& fa
                        : -1;
   StrengthMeter meter(data, bench.robot.beta, noise);
   std::optional<TrueEffect> truth = scaled(bench, meter, effect, scales, request.lambda, only);
-  if (truth && request.with_likeness) largest_likeness(meter, bench, *truth, scales);
+  if (truth && request.with_likeness) {
+    truth->nearest = nearest_effect(
+        meter, bench, meter.left_of(torque_in(bench, truth->effect, truth->recording)),
+        runtime::joints_of(truth->effect, bench.robot.joints()), family, scales);
+  }
   return truth;
 }
 
@@ -306,21 +309,29 @@ TrueEffect drawn_theorem(const Bench& bench, unsigned seed, const runtime::Atlas
       fmt::format("seed {}: {} shows on every joint of {}", seed, name, bench.robot.name));
 }
 
-double scale_foreign(const Bench& bench, const runtime::AtlasNoise& noise, double lambda,
-                     ForeignTorque& foreign) {
+ForeignStrength scale_foreign(const Bench& bench, const runtime::AtlasNoise& noise, double lambda,
+                              bool with_likeness, ForeignTorque& foreign) {
   const EffectRecordings data = plain_recordings(bench, nullptr, -1);
-  const StrengthMeter meter(data, bench.robot.beta, noise);
-  std::vector<MatrixXd> torque;
-  for (std::size_t r = 0; r < kTrainRecordings; ++r) {
-    const Recording& motion = bench.plain[r].truth;
-    torque.push_back(MatrixXd::Zero(motion.samples(), motion.joints()));
-    torque.back().col(foreign.joint) = foreign_torque(foreign, motion);
-  }
-  const double whole = meter.whitened(torque).squaredNorm();
-  const double left = meter.left_of(torque).squaredNorm();
-  if (!(left > 1e-4 * whole)) return 0;
+  StrengthMeter meter(data, bench.robot.beta, noise);
+  const auto torque = [&] {
+    std::vector<MatrixXd> parts;
+    for (std::size_t r = 0; r < kTrainRecordings; ++r) {
+      const Recording& motion = bench.plain[r].truth;
+      parts.push_back(MatrixXd::Zero(motion.samples(), motion.joints()));
+      parts.back().col(foreign.joint) = foreign_torque(foreign, motion);
+    }
+    return parts;
+  };
+  const double whole = meter.whitened(torque()).squaredNorm();
+  const double left = meter.left_of(torque()).squaredNorm();
+  if (!(left > 1e-4 * whole)) return {};
   foreign.size = std::sqrt(lambda / left);
-  return lambda;
+  ForeignStrength strength{lambda, 1 - left / whole, {}};
+  if (with_likeness) {
+    strength.nearest = nearest_effect(meter, bench, meter.left_of(torque()), {foreign.joint}, "",
+                                      runtime::scales_of(data, bench.robot.beta, foreign.joint));
+  }
+  return strength;
 }
 
 }  // namespace dyngen::test

@@ -24,18 +24,22 @@ std::vector<runtime::EffectInstance> all_hypotheses(const CaseRobot& robot,
 /// Families that no motion shows beside the base model.
 const std::vector<std::string>& theorem_laws();
 
+/// The effect of another family that comes nearest to a torque.
+struct Nearest {
+  double likeness = 0;  ///< largest part of the squares that one can imitate, 0 .. 1
+  std::string family;   ///< empty: none can
+
+  /// It comes not so near that it could not be told from a torque of this noncentrality.
+  [[nodiscard]] bool separable(double lambda) const { return lambda * (1 - likeness) >= 20; }
+};
+
 /// An effect that is in the data.
 struct TrueEffect {
   runtime::EffectInstance effect;  ///< with its numbers
   double lambda = 0;               ///< noncentrality of what a refit of the model leaves
   double absorbed = 0;             ///< part of its squares that a refit takes up
   int recording = -1;              ///< training recording that it is in; -1: all, and the held-out
-  /// Largest part of its squares that an effect of another family can imitate, and which.
-  double likeness = 0;
-  std::string likest;
-
-  /// No other family comes so near that it could not be told apart.
-  [[nodiscard]] bool separable() const { return lambda * (1 - likeness) >= 20; }
+  Nearest nearest;
 };
 
 /// Which truth is drawn.
@@ -60,8 +64,16 @@ std::vector<TrueEffect> drawn_truth(const Bench& bench, const TruthRequest& requ
 TrueEffect drawn_theorem(const Bench& bench, unsigned seed, const runtime::AtlasNoise& noise,
                          std::mt19937_64& random);
 
-/// Scales a foreign torque to a strength; its noncentrality, 0 if a refit takes all of it up.
-double scale_foreign(const Bench& bench, const runtime::AtlasNoise& noise, double lambda,
-                     ForeignTorque& foreign);
+/// How strong a torque that is no effect is in the recordings.
+struct ForeignStrength {
+  double lambda = 0;  ///< noncentrality; 0: a refit takes all of it up
+  double absorbed = 0;
+  Nearest nearest;
+};
+
+/// Scales a foreign torque to a strength.
+/// @param with_likeness  whether the nearest family is looked for (some seconds)
+ForeignStrength scale_foreign(const Bench& bench, const runtime::AtlasNoise& noise, double lambda,
+                              bool with_likeness, ForeignTorque& foreign);
 
 }  // namespace dyngen::test
