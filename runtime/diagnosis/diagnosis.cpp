@@ -13,13 +13,13 @@
 #include "runtime/diagnosis/competition.h"
 #include "runtime/diagnosis/division.h"
 #include "runtime/diagnosis/heldout.h"
+#include "runtime/diagnosis/left_out_rows.h"
 #include "runtime/diagnosis/name_tests.h"
 #include "runtime/diagnosis/naming.h"
 #include "runtime/diagnosis/next_experiment.h"
 #include "runtime/diagnosis/raw_residual.h"
 #include "runtime/diagnosis/reference.h"
 #include "runtime/diagnosis/repeated_motion.h"
-#include "runtime/diagnosis/standstill.h"
 #include "runtime/diagnosis/sufficiency.h"
 #include "runtime/diagnosis/undecidable.h"
 #include "runtime/diagnosis/whereabouts.h"
@@ -96,6 +96,7 @@ class Diagnostician {
         repeated_(thinned(equations_of(input, repeated(parts_.train), rows_), kLongestSample)),
         heldout_(equations_of(input, parts_.heldout, rows_)) {
     for (EffectRun& run : heldout_.runs) run.recording = -1;
+    leave_out_unvisited(heldout_, train_);
   }
 
   Diagnosis run() {

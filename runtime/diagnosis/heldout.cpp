@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/heldout.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "runtime/estimation/whitener.h"
@@ -51,8 +50,7 @@ VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
 bool HeldoutProof::helps() const { return before - after >= kGain; }
 
 bool HeldoutProof::agrees() const {
-  return change >= kInformative &&
-         before - after >= std::max(0.0, change - kDeviations * 2 * std::sqrt(change));
+  return change >= kInformative && before - after >= change - kDeviations * 2 * std::sqrt(change);
 }
 
 bool HeldoutProof::harms() const { return after - before >= kRefit; }

@@ -26,8 +26,8 @@ struct HeldoutProof {
   double change = 0;  ///< squares of the change: what an effect that is there takes away, +-
                       ///< 2 sqrt(change); one that is not adds as much
   [[nodiscard]] bool helps() const;
-  /// It shows in them, they are not worse, and they are as an effect that is there makes them, all
-  /// but one in a hundred.
+  /// It shows in them, and they are as an effect that is there makes them, all but one in a
+  /// hundred.
   [[nodiscard]] bool agrees() const;
   /// They are worse by more than a refit's noise, where the effect does not act in them.
   [[nodiscard]] bool harms() const;

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "runtime/diagnosis/generic_columns.h"
+#include "runtime/diagnosis/left_out_rows.h"
 #include "runtime/diagnosis/screening.h"
-#include "runtime/diagnosis/standstill.h"
 #include "runtime/effects/absorption.h"
 #include "runtime/evidence/evidence_system.h"
 #include "tests/runtime/effects/effect_arm.h"
@@ -124,6 +124,24 @@ TEST(Standstill, IsLeftOutAndReversalsStayIn) {
   EXPECT_EQ(run.rows.counted.col(0).sum(), before / 2);
   EXPECT_NEAR(run.rows.counted.col(1).sum(), before / 2 - 300, 4);
   EXPECT_EQ(run.rows.tau(650, 1), 0);
+}
+
+TEST(Unvisited, IsLeftOutUnlessAJointIsNearlyAlwaysThere) {
+  const EffectRecordings train = arm_recordings(20, 0.1, 5);
+  const double all = train.runs.front().rows.counted.col(0).sum();
+  EffectRecordings heldout = train;
+  leave_out_unvisited(heldout, train);
+  EXPECT_EQ(heldout.runs.front().rows.counted.col(0).sum(), all);
+  const double beyond = train.runs.front().motion.q.col(0).maxCoeff() + 0.1;
+  heldout.runs.front().motion.q.col(0).segment(200, 400).setConstant(beyond);
+  leave_out_unvisited(heldout, train);
+  EXPECT_NEAR(heldout.runs.front().rows.counted.col(0).sum(), all - 400, 4);
+  EXPECT_EQ(heldout.runs.front().rows.counted.col(1).sum(), all);
+  EXPECT_EQ(heldout.runs.front().rows.tau(400, 0), 0);
+  heldout = train;
+  heldout.runs.front().motion.q.col(0).setConstant(beyond);
+  leave_out_unvisited(heldout, train);
+  EXPECT_EQ(heldout.runs.front().rows.counted.col(0).sum(), all);
 }
 
 }  // namespace

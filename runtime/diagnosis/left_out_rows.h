@@ -14,4 +14,9 @@ namespace dyngen::runtime {
 /// @param still_speed  (n) rad/s or m/s
 void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed);
 
+/// Takes out of held-out recordings the equations of joints that are where no fitted recording was:
+/// what a polynomial says there is no proof for or against it. A joint that is nearly always there
+/// keeps its equations.
+void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& train);
+
 }  // namespace dyngen::runtime

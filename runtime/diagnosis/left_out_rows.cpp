@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/left_out_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace dyngen::runtime {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr double kLongest = 0.1;  // s below the speed at a reversal
+constexpr double kEnough = 0.3;   // of a joint's equations that have to stay
+
+void leave_out(RowBlock& rows, Index row, Index joint, Index size) {
+  rows.counted(row, joint) = 0;
+  rows.tau(row, joint) = 0;
+  rows.Y.row(row).segment(joint * size, size).setZero();
+}
+
+}  // namespace
+
+void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed) {
+  const Motion& motion = run.motion;
+  const Index factor = run.decimator.factor, first = first_sample(run.decimator);
+  const Index reach = run.decimator.taps.size() / 2;  // of the filter around an equation
+  const auto least = static_cast<Index>(std::ceil(kLongest / motion.sample_time));
+  const Index size = run.rows.Y.cols() / motion.joints();
+  for (Index j = 0; j < motion.joints(); ++j) {
+    for (Index start = 0; start < motion.samples();) {
+      Index end = start;
+      while (end < motion.samples() && std::abs(motion.dq(end, j)) < still_speed[j]) ++end;
+      if (end - start >= least) {
+        for (Index k = 0; k < run.rows.Y.rows(); ++k) {
+          const Index at = first + k * factor;
+          if (at + reach < start || at - reach >= end) continue;
+          leave_out(run.rows, k, j, size);
+        }
+      }
+      start = std::max(end, start) + 1;
+    }
+  }
+}
+
+namespace {
+
+struct Range {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  [[nodiscard]] bool holds(double q) const { return q >= lowest && q <= highest; }
+};
+
+Range visited(const EffectRecordings& data, Index joint) {
+  Range range;
+  for (const EffectRun& run : data.runs) {
+    const auto q = run.motion.q.col(joint);
+    range.lowest = std::min(range.lowest, q.minCoeff());
+    range.highest = std::max(range.highest, q.maxCoeff());
+  }
+  return range;
+}
+
+}  // namespace
+
+void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& train) {
+  for (Index j = 0; j < heldout.joints(); ++j) {
+    const Range range = visited(train, j);
+    double all = 0;
+    std::vector<std::vector<Index>> outside;
+    double count = 0;
+    for (const EffectRun& run : heldout.runs) {
+      outside.emplace_back();
+      all += run.rows.counted.col(j).sum();
+      const Index first = first_sample(run.decimator);
+      for (Index k = 0; k < run.rows.Y.rows(); ++k) {
+        if (range.holds(run.motion.q(first + k * run.decimator.factor, j))) continue;
+        outside.back().push_back(k);
+        count += run.rows.counted(k, j);
+      }
+    }
+    if (count > (1 - kEnough) * all) continue;
+    for (std::size_t r = 0; r < heldout.runs.size(); ++r) {
+      EffectRun& run = heldout.runs[r];
+      const Index size = run.rows.Y.cols() / run.motion.joints();
+      for (const Index k : outside[r]) leave_out(run.rows, k, j, size);
+    }
+  }
+}
+
+}  // namespace dyngen::runtime
