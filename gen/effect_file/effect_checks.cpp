@@ -126,6 +126,8 @@ class Checks {
     std::vector<std::string> own;
     for (const EffectParameter& entry : effect_.parameters) own.push_back(entry.name);
     for (const EffectState& entry : effect_.states) own.push_back(entry.name);
+    std::vector<std::string> first;  // what a start may read: fits do not follow parameters there
+    for (const EffectVariable& entry : effect_variables()) first.emplace_back(entry.name);
     std::vector<std::string> scales;
     for (const EffectScale& scale : effect_scales()) scales.emplace_back(scale.name);
     std::vector<std::string> candidates = own;
@@ -149,6 +151,7 @@ class Checks {
       check(entry.rate, "state", candidates);
       if (entry.min) check(*entry.min, "min", own);
       if (entry.max) check(*entry.max, "max", own);
+      if (entry.start) check(*entry.start, "start", first);
     }
     for (const EffectParameter& entry : effect_.parameters) {
       if (has_own_start(entry)) check(entry.start, "start", scales);
@@ -194,6 +197,9 @@ class Checks {
     (void)effect_torque(effect_, record);
     (void)state_rates(effect_, record);
     (void)state_limits(effect_, record);
+    for (const EffectState& entry : effect_.states) {
+      if (entry.start) add_names(*entry.start, read);
+    }
     for (const EffectVariable& entry : effect_variables()) {
       if (read.contains(std::string(entry.name))) effect_.variables.emplace_back(entry.name);
     }
@@ -315,6 +321,7 @@ class Checks {
       expect(entry.rate, own - *dimension_of("s", joint), "the rate of '" + entry.name + "'");
       if (entry.min) expect(*entry.min, own, "min");
       if (entry.max) expect(*entry.max, own, "max");
+      if (entry.start && !is_plain_number(*entry.start)) expect(*entry.start, own, "start");
     }
     for (const EffectParameter& entry : effect_.parameters) {
       const auto expect_size = [&](const EffectExpression& value, std::string_view what) {

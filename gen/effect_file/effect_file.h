@@ -53,6 +53,7 @@ struct EffectState {
   std::string name;
   std::string unit;
   std::optional<EffectExpression> min, max;
+  std::optional<EffectExpression> start;  ///< at the first sample; none: 0
   EffectExpression rate;
   SourcePosition position;
 };

@@ -288,9 +288,10 @@ class Reader {
     while (std::optional<EffectText> word = cursor.word()) {
       const std::size_t equals = word->text.find('=');
       const std::string key = word->text.substr(0, equals);
-      if (equals == word->text.npos || (key != "unit" && key != "min" && key != "max")) {
-        error(*word,
-              fmt::format("expected unit=, min= or max=, found '{}'", printable(word->text)));
+      if (equals == word->text.npos ||
+          (key != "unit" && key != "min" && key != "max" && key != "start")) {
+        error(*word, fmt::format("expected unit=, min=, max= or start=, found '{}'",
+                                 printable(word->text)));
         continue;
       }
       const EffectText value{
@@ -299,6 +300,7 @@ class Reader {
       if (key == "unit") state.unit = value.text;
       if (key == "min") state.min = parse_effect_expression({value}, key, diagnostics_);
       if (key == "max") state.max = parse_effect_expression({value}, key, diagnostics_);
+      if (key == "start") state.start = parse_effect_expression({value}, key, diagnostics_);
     }
     if (state.unit.empty()) {
       error(state.position, fmt::format("state '{}' has no unit", *name),

@@ -105,6 +105,12 @@ struct EffectLaw {
                              const EffectWanted& wanted)>
       evaluate;
 
+  /// (states) at the first sample of a run that nothing is known before: what a link that does not
+  /// swing has. variables: (nv) of that sample. Empty: all 0.
+  std::function<Eigen::VectorXd(const Eigen::VectorXd& variables,
+                                const Eigen::VectorXd& parameters)>
+      start;
+
   /// Torque at given states, and dz/dt of them, for one moment: what a simulation integrates.
   /// variables: (nv), z: (states), torque: (outputs), rate: (states; 0 beyond a limit). A sign of
   /// something else than the joint's own velocity is smooth within 1e-3 (rad/s or m/s).
@@ -115,6 +121,10 @@ struct EffectLaw {
 
   [[nodiscard]] int size() const { return static_cast<int>(parameters.size()); }
 };
+
+/// What a run of a law begins with: its start, or 0. @param variables  (N x nv) of the run
+Eigen::VectorXd first_states(const EffectLaw& law, const Eigen::MatrixXd& variables,
+                             const Eigen::VectorXd& parameters);
 
 /// An effect of one robot with its numbers.
 struct EffectInstance {

@@ -104,10 +104,10 @@ class RunRows {
     wanted.by_variable = std::any_of(law.variables.begin(), law.variables.end(), depends_on_model);
     wanted.by_initial = unknowns_.initial[run_][k] >= 0;
     for (const Application& application : applications(effect, data_.joints())) {
-      VectorXd state = point_.initial[run_][k];
+      const MatrixXd variables = signals_.variables(run_, effect, application.target);
+      VectorXd state = point_.initial[run_][k] + first_states(law, variables, effect.parameters);
       const EffectTorque torque =
-          law.evaluate(signals_.variables(run_, effect, application.target), effect.parameters,
-                       here_.motion.sample_time, state, wanted);
+          law.evaluate(variables, effect.parameters, here_.motion.sample_time, state, wanted);
       for (std::size_t o = 0; o < application.outputs.size(); ++o) {
         const Index out = static_cast<Index>(o);
         JointColumns& joint = joints_[static_cast<std::size_t>(application.outputs[o])];
@@ -389,13 +389,13 @@ EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signal
   const Index np = effect.law.size();
   EffectSignature signature;
   for (const Application& application : applications(effect, data.joints())) {
-    VectorXd state = VectorXd::Zero(static_cast<Index>(effect.law.states.size()));
+    const MatrixXd variables = signals.variables(run, effect, application.target);
+    VectorXd state = first_states(effect.law, variables, effect.parameters);
     EffectWanted wanted;
     wanted.by_parameter = true;
     wanted.states_held = states_held;
     const EffectTorque torque =
-        effect.law.evaluate(signals.variables(run, effect, application.target), effect.parameters,
-                            here.motion.sample_time, state, wanted);
+        effect.law.evaluate(variables, effect.parameters, here.motion.sample_time, state, wanted);
     for (std::size_t o = 0; o < application.outputs.size(); ++o) {
       MatrixXd columns(here.motion.samples(), 1 + np);
       columns << torque.torque.col(static_cast<Index>(o)),

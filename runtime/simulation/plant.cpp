@@ -275,6 +275,7 @@ Plant::Plant(PlantModel model, const IntegrationOptions& options, const VectorXd
   state_ = std::make_unique<State>(std::move(model), options);
   std::copy(q.begin(), q.end(), state_->x.begin());
   std::copy(dq.begin(), dq.end(), state_->x.begin() + q.size());
+  state_->regime.start(state_->state(0, state_->x), state_->x.data() + 2 * state_->n);
 }
 Plant::~Plant() = default;
 Plant::Plant(Plant&&) noexcept = default;

@@ -105,6 +105,18 @@ void PlantEffects::run(const EffectInstance& instance, const EffectMotion& motio
                       rate_.data());
 }
 
+void PlantEffects::start(const EffectMotion& motion, double* z) {
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    const EffectInstance& instance = instances_[i];
+    if (!instance.law.start) continue;
+    fill(instance, motion);
+    const Eigen::VectorXd variables = Eigen::Map<const Eigen::VectorXd>(
+        variables_.data(), static_cast<Index>(instance.law.variables.size()));
+    const Eigen::VectorXd first = instance.law.start(variables, instance.parameters);
+    std::copy(first.begin(), first.end(), z + first_state_[i]);
+  }
+}
+
 void PlantEffects::act(const EffectMotion& motion, const double* z, double* torque, double* rate) {
   std::fill_n(torque, surroundings_.coulomb.size(), 0.0);
   for (std::size_t i = 0; i < instances_.size(); ++i) {

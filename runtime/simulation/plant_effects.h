@@ -45,6 +45,9 @@ class PlantEffects {
   [[nodiscard]] bool reads_acceleration() const { return reads_acceleration_; }
   [[nodiscard]] const Eigen::VectorXd& rotor() const { return surroundings_.rotor; }
 
+  /// States with which a robot begins: what the effects' files say. @param z  of all states
+  void start(const EffectMotion& motion, double* z);
+
   /// Torque that the actuators need in addition, (n), and dz/dt of all states.
   void act(const EffectMotion& motion, const double* z, double* torque, double* rate);
 

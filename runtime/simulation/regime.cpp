@@ -68,6 +68,12 @@ EffectMotion Regime::motion(const RobotState& state, const double* ddq) {
   return {state.time, state.q, state.dq, ddq, load_.data(), direction_values_.data()};
 }
 
+void Regime::start(const RobotState& state, double* z) {
+  if (effect_states() == 0) return;
+  const VectorXd no_acceleration = VectorXd::Zero(model.joints);
+  model.effects.start(motion(state, no_acceleration.data()), z);
+}
+
 /// Torque of the effects into effect_, rates of their states into rates_.
 void Regime::act(const RobotState& state, const double* ddq) {
   if (model.effects.empty()) return;

@@ -30,6 +30,8 @@ class Regime {
   Eigen::Array<bool, Eigen::Dynamic, 1> stuck;
 
   [[nodiscard]] std::size_t effect_states() const { return model.effects.states(); }
+  /// States of effects with which a robot begins, under the load that it has without acceleration.
+  void start(const RobotState& state, double* z);
   /// Which joints have dry friction at a state: what is_dry() says from then on.
   void find_dry_joints(const RobotState& state);
   [[nodiscard]] bool is_dry(Eigen::Index j) const { return dry_[j]; }

@@ -124,6 +124,40 @@ INSTANTIATE_TEST_SUITE_P(
         {"Missing", 9, "", "1:1: error: there is no row 'hidden'"}}),
     [](const testing::TestParamInfo<Mistake>& own) { return std::string(own.param.name); });
 
+std::string stateful_text(const std::string& start) {
+  std::string text;
+  for (const std::string& row : right_rows()) {
+    if (row.starts_with("kind")) {
+      text += "kind stateful\njoints revolute\n";
+    } else if (row.starts_with("torque")) {
+      text += "state z unit=torque " + start + " : -vs*z\n" + row + " + z\n";
+    } else {
+      text += row + "\n";
+    }
+  }
+  return text;
+}
+
+TEST(EffectFile, AStateBeginsWhereItsRowSays) {
+  const EffectFile effect = parse_effect_file(stateful_text("start=2*tau_load"), "bump.effect");
+  ASSERT_EQ(effect.states.size(), 1U);
+  ASSERT_TRUE(effect.states[0].start.has_value());
+  EXPECT_EQ(spell(*effect.states[0].start), "2*tau_load");
+  // what only a start reads is read as well
+  EXPECT_EQ(effect.variables, (std::vector<std::string>{"qd", "tau_load", "sign_qd"}));
+  EXPECT_FALSE(parse_effect_file(stateful_text(""), "bump.effect").states[0].start.has_value());
+  const auto first_line = [](const std::string& start) {
+    const std::string message = message_of(stateful_text(start));
+    return message.substr(0, message.find('\n'));
+  };
+  EXPECT_EQ(first_line("start=z"), "bump.effect:9:27: error: unknown name 'z' in 'start'");
+  EXPECT_EQ(first_line("start=A"), "bump.effect:9:27: error: unknown name 'A' in 'start'");
+  EXPECT_EQ(first_line("start=qd"),
+            "bump.effect:9:27: error: start has the unit s^-1, expected kg m^2 s^-2");
+  EXPECT_EQ(first_line("begin=1"),
+            "bump.effect:9:21: error: expected unit=, min=, max= or start=, found 'begin=1'");
+}
+
 TEST(EffectFile, SaysUpToTwentyMistakesAtOnce) {
   std::string text;
   for (int i = 0; i < 40; ++i) text += "nonsense\n";

@@ -289,6 +289,43 @@ EffectCondition condition_of(const ::dyngen::EffectCondition& condition,
 
 }  // namespace
 
+namespace {
+
+/// States at the first sample, by the file's expressions.
+class EffectStart {
+ public:
+  explicit EffectStart(const EffectFile& effect)
+      : file_(std::make_shared<const EffectFile>(effect)) {}
+
+  VectorXd operator()(const VectorXd& variables, const VectorXd& parameters) const {
+    const auto value = [&](const std::string& name) {
+      for (std::size_t p = 0; p < file_->parameters.size(); ++p) {
+        if (file_->parameters[p].name == name) return parameters[static_cast<Index>(p)];
+      }
+      const auto& read = file_->variables;
+      const auto found = std::find(read.begin(), read.end(), name);
+      if (found == read.end()) throw std::logic_error("start: there is no '" + name + "'");
+      return variables[found - read.begin()];
+    };
+    VectorXd states = VectorXd::Zero(static_cast<Index>(file_->states.size()));
+    for (Index s = 0; s < states.size(); ++s) {
+      const auto& start = file_->states[static_cast<std::size_t>(s)].start;
+      if (start) states[s] = evaluate(*start, value);
+    }
+    return states;
+  }
+
+ private:
+  std::shared_ptr<const EffectFile> file_;  // shared: GiNaC counts references without locks
+};
+
+bool has_start(const EffectFile& effect) {
+  return std::any_of(effect.states.begin(), effect.states.end(),
+                     [](const auto& state) { return state.start.has_value(); });
+}
+
+}  // namespace
+
 EffectLaw effect_law(const EffectFile& effect) {
   EffectLaw law;
   law.name = effect.name;
@@ -330,6 +367,7 @@ EffectLaw effect_law(const EffectFile& effect) {
   };
   law.evaluate = EffectEvaluation(effect);
   law.moment = EffectMoment(effect);
+  if (has_start(effect)) law.start = EffectStart(effect);
   return law;
 }
 

@@ -141,8 +141,8 @@ std::vector<Index> shown_samples(const EffectLaw& law, const VectorXd& typical,
 Series signature_of(const EffectFile& effect) {
   const EffectLaw law = effect_law(effect);
   const PendulumRun run = pendulum_run(law);
-  VectorXd state = VectorXd::Zero(static_cast<Index>(law.states.size()));
   const EffectSizes sizes = law.sizes(pendulum_scales());
+  VectorXd state = first_states(law, run.variables, sizes.typical);
   const VectorXd torque =
       law.evaluate(run.variables, sizes.typical, run.sample_time, state, {}).torque.col(0);
   const std::string over = effect.plot == "frequency" ? "t" : effect.plot;

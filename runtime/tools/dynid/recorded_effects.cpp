@@ -64,8 +64,8 @@ MatrixXd recorded_torque(const DescribedRobot& robot, const std::vector<EffectIn
     const std::vector<int> joints = joints_of(effect, motion.joints());
     const bool all = effect.law.acts_on_all;  // evaluated for each joint; else for all outputs
     for (const int target : all ? joints : std::vector<int>{joints.front()}) {
-      VectorXd state = VectorXd::Zero(static_cast<Index>(effect.law.states.size()));
       const MatrixXd variables = signals.variables(0, effect, target);
+      VectorXd state = first_states(effect.law, variables, effect.parameters);
       const MatrixXd own =
           effect.law.evaluate(variables, effect.parameters, sample_time, state, {}).torque;
       for (Index o = 0; o < own.cols(); ++o) {

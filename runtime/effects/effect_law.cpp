@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/effects/effect_law.h"
+
+namespace dyngen::runtime {
+
+Eigen::VectorXd first_states(const EffectLaw& law, const Eigen::MatrixXd& variables,
+                             const Eigen::VectorXd& parameters) {
+  if (!law.start || variables.rows() == 0) {
+    return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(law.states.size()));
+  }
+  return law.start(variables.row(0), parameters);
+}
+
+}  // namespace dyngen::runtime
