@@ -30,6 +30,7 @@ constexpr std::size_t kAttempts = 4;     // effects that are fitted in a round b
 constexpr double kTie = 0.5;             // squares that decide nothing
 constexpr std::size_t kRivals = 5;       // that are compared again once the winner is fitted
 constexpr double kEventNet = 10;         // squares, net, of an event
+constexpr double kShortest = 3;          // equations that an event lasts
 
 /// One competition's data and what was found so far.
 class Competition {
@@ -219,8 +220,14 @@ class Competition {
 
   /// Whether what would be an event is a wild value, or too little: nothing held out speaks for it.
   [[nodiscard]] bool is_no_event(const EvidenceSystem& system, const NamedResult& named) {
-    if (!hypotheses_[named.hypothesis].windowed) return false;
+    const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
+    if (!hypothesis.windowed) return false;
     if (net(named) < kEventNet) return true;
+    if (hypothesis.shapes.size() > 1) {  // it begins, and ends
+      const Eigen::VectorXd& p = named.best.effect.parameters;
+      const double duration = p[hypothesis.shapes[1]] - p[hypothesis.shapes[0]];
+      if (duration < kShortest * train_.row_time) return true;
+    }
     return is_jolt(system,
                    system.whitened(effect_columns(train_, signals_, named.best.effect, {0})));
   }

@@ -22,11 +22,14 @@ constexpr double kStrongEnough = 0.3;  // of the winner's squares in its round
 constexpr double kCaution = 2;
 constexpr double kTie = 0.5;  // squares that decide nothing
 
-/// Places of the strongest rivals of a winner in its round, itself first.
-std::vector<std::size_t> rivals_of(const Winner& winner) {
+/// Places of the strongest rivals of a winner in its round, itself first. An event is none of what
+/// always acts: held-out recordings, which do not have it, could not refuse it.
+std::vector<std::size_t> rivals_of(const Winner& winner,
+                                   const std::vector<Hypothesis>& hypotheses) {
   std::vector<std::size_t> places;
   for (const NamedResult& named : winner.others) {
     if (named.hypothesis == winner.hypothesis || !named.seen || !named.best.admissible) continue;
+    if (hypotheses[named.hypothesis].windowed && !hypotheses[winner.hypothesis].windowed) continue;
     if (named.best.score.squares < kStrongEnough * winner.trial.score.squares) continue;
     places.push_back(named.hypothesis);
   }
@@ -134,7 +137,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   const JointColumns torque =
       system.whitened(effect_columns(data, signals, result.fit.point.effects[winner], {0}));
   std::map<std::string, Rival> best_of;  // of each other family; distance: its squares, net
-  for (const std::size_t rival : rivals_of(own)) {
+  for (const std::size_t rival : rivals_of(own, hypotheses)) {
     const Hypothesis& hypothesis = hypotheses[rival];
     const EffectScales here = scales.of(result.fit.point.beta, hypothesis.effect);
     TrialScore trial = rival == own.hypothesis ? own.trial : own.others[rival].best;
