@@ -96,7 +96,8 @@ class Diagnostician {
         repeated_(thinned(equations_of(input, repeated(parts_.train), rows_), kLongestSample)),
         heldout_(equations_of(input, parts_.heldout, rows_)) {
     for (EffectRun& run : heldout_.runs) run.recording = -1;
-    leave_out_unvisited(heldout_, train_);
+    proof_ = heldout_;
+    leave_out_unvisited(proof_, train_);
   }
 
   Diagnosis run() {
@@ -116,7 +117,7 @@ class Diagnostician {
     for (const EffectRecordings* other : {&slow_, &repeated_}) {
       witnesses.push_back(std::make_unique<Witness>(*other));
     }
-    result_ = compete(train_, witnesses, heldout_, hypotheses_, settings, progress_);
+    result_ = compete(train_, witnesses, proof_, hypotheses_, settings, progress_);
     describe_noise();
     describe_tests();
     if (!worth_enough()) return std::move(answer_);
@@ -214,7 +215,7 @@ class Diagnostician {
     system.surrogates = 0;
     system.with_regressor = !options_.residual_only;
     const std::vector<Naming> namings =
-        settle_names(train_, heldout_, signals, hypotheses_, result_, system, progress_);
+        settle_names(train_, proof_, signals, hypotheses_, result_, system, progress_);
     answer_.fit = result_.fit;
     for (std::size_t i = 0; i < namings.size(); ++i) {
       answer_.findings.push_back(finding(i, namings[i], signals, system));
@@ -423,6 +424,7 @@ class Diagnostician {
   Division parts_;
   RowOptions rows_;
   EffectRecordings train_, slow_, repeated_, heldout_;
+  EffectRecordings proof_;  // what is held out, where the fitted recordings have been
   std::vector<Hypothesis> hypotheses_;
   CompetitionResult result_;
   Diagnosis answer_;
