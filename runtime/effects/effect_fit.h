@@ -84,8 +84,8 @@ using EffectProgress = std::function<void(const std::string& what, double done)>
 EffectFit fit_effects(const EffectRecordings& data, const std::vector<EffectInstance>& effects,
                       const EffectFitOptions& options = {}, const EffectProgress& progress = {});
 
-/// rms of tau less the model with its effects, (n) each; states begin at 0 unless the point has
-/// states for as many runs.
+/// rms of tau less the model with its effects, (n) each; states begin as first_states() says
+/// unless the point has states for as many runs.
 Eigen::VectorXd residual_with_effects(const EffectRecordings& data, const EffectPoint& point);
 
 /// The equations that are left for the model: tau less the effects, and Y. For what looks at beta

@@ -3,12 +3,11 @@
 
 namespace dyngen::runtime {
 
-Eigen::VectorXd first_states(const EffectLaw& law, const Eigen::MatrixXd& variables,
-                             const Eigen::VectorXd& parameters) {
+Eigen::VectorXd first_states(const EffectLaw& law, const Eigen::MatrixXd& variables) {
   if (!law.start || variables.rows() == 0) {
     return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(law.states.size()));
   }
-  return law.start(variables.row(0), parameters);
+  return law.start(variables.row(0));
 }
 
 }  // namespace dyngen::runtime

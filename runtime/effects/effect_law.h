@@ -107,9 +107,7 @@ struct EffectLaw {
 
   /// (states) at the first sample of a run that nothing is known before: what a link that does not
   /// swing has. variables: (nv) of that sample. Empty: all 0.
-  std::function<Eigen::VectorXd(const Eigen::VectorXd& variables,
-                                const Eigen::VectorXd& parameters)>
-      start;
+  std::function<Eigen::VectorXd(const Eigen::VectorXd& variables)> start;
 
   /// Torque at given states, and dz/dt of them, for one moment: what a simulation integrates.
   /// variables: (nv), z: (states), torque: (outputs), rate: (states; 0 beyond a limit). A sign of
@@ -123,8 +121,7 @@ struct EffectLaw {
 };
 
 /// What a run of a law begins with: its start, or 0. @param variables  (N x nv) of the run
-Eigen::VectorXd first_states(const EffectLaw& law, const Eigen::MatrixXd& variables,
-                             const Eigen::VectorXd& parameters);
+Eigen::VectorXd first_states(const EffectLaw& law, const Eigen::MatrixXd& variables);
 
 /// An effect of one robot with its numbers.
 struct EffectInstance {

@@ -105,7 +105,7 @@ class RunRows {
     wanted.by_initial = unknowns_.initial[run_][k] >= 0;
     for (const Application& application : applications(effect, data_.joints())) {
       const MatrixXd variables = signals_.variables(run_, effect, application.target);
-      VectorXd state = point_.initial[run_][k] + first_states(law, variables, effect.parameters);
+      VectorXd state = point_.initial[run_][k] + first_states(law, variables);
       const EffectTorque torque =
           law.evaluate(variables, effect.parameters, here_.motion.sample_time, state, wanted);
       for (std::size_t o = 0; o < application.outputs.size(); ++o) {
@@ -390,7 +390,7 @@ EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signal
   EffectSignature signature;
   for (const Application& application : applications(effect, data.joints())) {
     const MatrixXd variables = signals.variables(run, effect, application.target);
-    VectorXd state = first_states(effect.law, variables, effect.parameters);
+    VectorXd state = first_states(effect.law, variables);
     EffectWanted wanted;
     wanted.by_parameter = true;
     wanted.states_held = states_held;

@@ -16,11 +16,12 @@ namespace dyngen::runtime {
 struct EffectPoint {
   Eigen::VectorXd beta;                 ///< (nb)
   std::vector<EffectInstance> effects;  ///< parameters without NaN
-  /// States before the first sample: initial[run][effect], (states) each.
+  /// States before the first sample less what their laws begin with: initial[run][effect],
+  /// (states) each.
   std::vector<std::vector<Eigen::VectorXd>> initial;
 };
 
-/// All states 0 at the beginning of every run.
+/// All states as their laws begin with them, in every run.
 EffectPoint at_rest(const EffectRecordings& data, Eigen::VectorXd beta,
                     std::vector<EffectInstance> effects);
 
@@ -81,7 +82,7 @@ struct EffectSignature {
   /// Of each of these joints, (equations x 1 + np): torque, then its derivatives.
   std::vector<Eigen::MatrixXd> columns;
 };
-/// @param run          its states begin at 0
+/// @param run          its states begin as first_states() says
 /// @param states_held  as of EffectWanted
 EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signals, std::size_t run,
                              const EffectInstance& effect, bool states_held = false);

@@ -48,8 +48,7 @@ std::vector<VectorXd> reach_of_states(const EffectRecordings& data, EffectSignal
     if (effect.law.states.empty()) continue;
     for (std::size_t run = 0; run < data.runs.size(); ++run) {
       const MatrixXd variables = signals.variables(run, effect, effect.joint);
-      VectorXd state =
-          point.initial[run][k] + first_states(effect.law, variables, effect.parameters);
+      VectorXd state = point.initial[run][k] + first_states(effect.law, variables);
       const Index piece = std::max<Index>(1, variables.rows() / kLooks);
       for (Index start = 0; start < variables.rows(); start += piece) {
         effect.law.evaluate(variables.middleRows(start, std::min(piece, variables.rows() - start)),

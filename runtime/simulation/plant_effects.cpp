@@ -112,7 +112,7 @@ void PlantEffects::start(const EffectMotion& motion, double* z) {
     fill(instance, motion);
     const Eigen::VectorXd variables = Eigen::Map<const Eigen::VectorXd>(
         variables_.data(), static_cast<Index>(instance.law.variables.size()));
-    const Eigen::VectorXd first = instance.law.start(variables, instance.parameters);
+    const Eigen::VectorXd first = instance.law.start(variables);
     std::copy(first.begin(), first.end(), z + first_state_[i]);
   }
 }

@@ -287,21 +287,14 @@ EffectCondition condition_of(const ::dyngen::EffectCondition& condition,
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 /// States at the first sample, by the file's expressions.
 class EffectStart {
  public:
   explicit EffectStart(const EffectFile& effect)
       : file_(std::make_shared<const EffectFile>(effect)) {}
 
-  VectorXd operator()(const VectorXd& variables, const VectorXd& parameters) const {
+  VectorXd operator()(const VectorXd& variables) const {
     const auto value = [&](const std::string& name) {
-      for (std::size_t p = 0; p < file_->parameters.size(); ++p) {
-        if (file_->parameters[p].name == name) return parameters[static_cast<Index>(p)];
-      }
       const auto& read = file_->variables;
       const auto found = std::find(read.begin(), read.end(), name);
       if (found == read.end()) throw std::logic_error("start: there is no '" + name + "'");

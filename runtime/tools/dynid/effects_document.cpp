@@ -142,7 +142,7 @@ Series signature_of(const EffectFile& effect) {
   const EffectLaw law = effect_law(effect);
   const PendulumRun run = pendulum_run(law);
   const EffectSizes sizes = law.sizes(pendulum_scales());
-  VectorXd state = first_states(law, run.variables, sizes.typical);
+  VectorXd state = first_states(law, run.variables);
   const VectorXd torque =
       law.evaluate(run.variables, sizes.typical, run.sample_time, state, {}).torque.col(0);
   const std::string over = effect.plot == "frequency" ? "t" : effect.plot;

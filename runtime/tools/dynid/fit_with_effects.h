@@ -30,7 +30,8 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
                       const std::vector<MotionSource>& heldout, ProgressLine& progress,
                       FitReport& report);
 
-/// Equations of one recording with the file's effects taken off; their states begin at 0.
+/// Equations of one recording with the file's effects taken off; their states begin as
+/// first_states() says.
 /// @param beta  (nb)
 /// @throws ModelError  if an effect has a parameter without a number that has to be estimated
 RowSource rows_beside_effects(const EffectTask& task, const DescribedRobot& robot,

@@ -65,7 +65,7 @@ MatrixXd recorded_torque(const DescribedRobot& robot, const std::vector<EffectIn
     const bool all = effect.law.acts_on_all;  // evaluated for each joint; else for all outputs
     for (const int target : all ? joints : std::vector<int>{joints.front()}) {
       const MatrixXd variables = signals.variables(0, effect, target);
-      VectorXd state = first_states(effect.law, variables, effect.parameters);
+      VectorXd state = first_states(effect.law, variables);
       const MatrixXd own =
           effect.law.evaluate(variables, effect.parameters, sample_time, state, {}).torque;
       for (Index o = 0; o < own.cols(); ++o) {

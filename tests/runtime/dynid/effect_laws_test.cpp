@@ -400,15 +400,14 @@ TEST(LinkFlexibility, BeginsWhereItDoesNotSwing) {
   VectorXd parameters(3);
   parameters << 0.3, 10, 0.01;
   const MatrixXd load = MatrixXd::Constant(500, 1, 5);
-  const VectorXd first = first_states(law, load, parameters);
+  const VectorXd first = first_states(law, load);
   EXPECT_EQ(first[0], 5);
   EXPECT_EQ(first[1], 0);
   EXPECT_LT(torque_of(law, load, parameters, first).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_GT(torque_of(law, load, parameters, still(law)).cwiseAbs().maxCoeff(), 1);
   const EffectLaw dahl = law_of("dahl");  // its file says nothing of a start
-  EXPECT_TRUE(first_states(dahl, MatrixXd::Ones(3, static_cast<Index>(dahl.variables.size())),
-                           VectorXd::Zero(dahl.size()))
-                  .isZero(0));
+  EXPECT_TRUE(
+      first_states(dahl, MatrixXd::Ones(3, static_cast<Index>(dahl.variables.size()))).isZero(0));
 }
 
 }  // namespace

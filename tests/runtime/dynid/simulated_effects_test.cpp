@@ -172,7 +172,7 @@ TEST_P(EveryActingEffect, ActsOnTheRobotAsItsFileSays) {
   for (std::size_t v = 0; v < law.variables.size(); ++v) {
     if (law.variables[v] == "tau_load") first(0, static_cast<Index>(v)) = standing[1];
   }
-  VectorXd state = first_states(law, first, parameters);
+  VectorXd state = first_states(law, first);
   const MatrixXd expected = law.evaluate(variables, parameters, 1 / kRate, state, {}).torque;
   // States are integrated with error control there, and by steps of half a millisecond here. Signs
   // of anything but a joint's own velocity are smooth within 1e-3 there.
