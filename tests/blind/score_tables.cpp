@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "tests/blind/score.h"
+
+namespace blind {
+namespace {
+
+using Set = std::vector<const Judged*>;
+using Test = std::function<bool(const Judged&)>;
+
+Set part(const Set& all, const Test& test) {
+  Set some;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+               [&](const Judged* each) { return test(*each); });
+  return some;
+}
+
+/// "27 of 30, 90 % (73 to 98)": Clopper and Pearson's interval of 95 %.
+std::string rate(const Set& of, const Test& test) {
+  const auto right = std::count_if(of.begin(), of.end(), [&](const Judged* e) { return test(*e); });
+  const double n = static_cast<double>(of.size()), k = static_cast<double>(right);
+  if (of.empty()) return "none";
+  using Binomial = boost::math::binomial_distribution<>;
+  const double low = k == 0 ? 0 : Binomial::find_lower_bound_on_p(n, k, 0.025);
+  const double high = k == n ? 1 : Binomial::find_upper_bound_on_p(n, k, 0.025);
+  return fmt::format("{} of {}, {:.1f} % ({:.1f} to {:.1f})", right, of.size(), 100 * k / n,
+                     100 * low, 100 * high);
+}
+
+double quantile(const Set& of, double share, const std::function<double(const Judged&)>& value) {
+  std::vector<double> values;
+  for (const Judged* each : of) values.push_back(value(*each));
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto low = static_cast<std::size_t>(place);
+  const std::size_t high = std::min(low + 1, values.size() - 1);
+  return values[low] + (place - std::floor(place)) * (values[high] - values[low]);
+}
+
+std::string row(const std::string& what, const std::string& value) {
+  return fmt::format("| {} | {} |\n", what, value);
+}
+
+std::string family_of(const Judged& each) {
+  return each.truth["truths"].empty() ? "nothing" : each.truth["truths"][0]["family"];
+}
+
+std::string first_name(const Judged& each) {
+  if (!each.answered) return "no answer";
+  if (!each.answer["findings"].empty()) return each.answer["findings"][0]["family"];
+  return each.answer["unexplained"].empty() ? "clean" : "without a name";
+}
+
+std::string concealment(const Set& singles) {
+  std::string text = "| concealment of the single effects | |\n|---|---|\n";
+  text += row("absorbed by the refit, 70 % and more",
+              rate(singles, [](const Judged& e) { return e.absorbed >= 0.7; }));
+  text += row("absorbed by the refit, 90 % and more",
+              rate(singles, [](const Judged& e) { return e.absorbed >= 0.9; }));
+  text += row("residual above the floor, median",
+              fmt::format("{:.2f} %",
+                          100 * quantile(singles, 0.5, [](const Judged& e) { return e.excess; })));
+  text += row("forms that are not the catalogue's", rate(singles, [](const Judged& e) {
+                return e.truth["truths"][0]["own_form"].get<bool>();
+              }));
+  return text + "\n";
+}
+
+std::string single_table(const Set& singles) {
+  const Set strong = part(singles, [](const Judged& e) { return e.lambda >= 53; });
+  const Set found = part(strong, [](const Judged& e) { return e.found; });
+  const Set named =
+      part(strong, [](const Judged& e) { return e.answered && !e.answer["findings"].empty(); });
+  const Set separable = part(strong, [](const Judged& e) { return e.separable; });
+  std::string text = "| single effects, lambda of 60 and more | |\n|---|---|\n";
+  text += row("found", rate(strong, [](const Judged& e) { return e.found; }));
+  text += row("named", rate(strong, [](const Judged& e) { return !e.answer["findings"].empty(); }));
+  text += row("joint right, of those named", rate(named, [](const Judged& e) { return e.joint; }));
+  text += row("family first, of separable ones that are named",
+              rate(part(named, [](const Judged& e) { return e.separable; }),
+                   [](const Judged& e) { return e.first; }));
+  text += row("separable", rate(strong, [](const Judged& e) { return e.separable; }));
+  text += row("truth among the aliases, of those named",
+              rate(named, [](const Judged& e) { return e.among; }));
+  double names = 0;
+  for (const Judged* each : named) names += each->aliases;
+  text +=
+      row("names in a set, mean",
+          fmt::format("{:.2f}", names / std::max<double>(1, static_cast<double>(named.size()))));
+  text +=
+      row("confident wrong names", rate(strong, [](const Judged& e) { return e.confident_wrong; }));
+  const auto ratio = [](const Judged& e) { return e.heldout; };
+  text +=
+      row("held-out rms over the oracle's, median, 95th percentile",
+          fmt::format("{:.3f}, {:.3f}", quantile(found, 0.5, ratio), quantile(found, 0.95, ratio)));
+  text += row(
+      "held-out gap closed, median",
+      fmt::format("{:.2f}", quantile(found, 0.5, [](const Judged& e) { return e.gap_closed; })));
+  return text + "\n";
+}
+
+std::string ladder(const Set& singles) {
+  std::string text =
+      "| wanted lambda | found | family first | confident wrong |\n|---|---|---|---|\n";
+  std::set<double> steps;
+  for (const Judged* each : singles) steps.insert(each->truth["wanted_lambda"].get<double>());
+  for (const double step : steps) {
+    const Set here =
+        part(singles, [&](const Judged& e) { return e.truth["wanted_lambda"] == step; });
+    text += fmt::format("| {:g} | {} | {} | {} |\n", step,
+                        rate(here, [](const Judged& e) { return e.found; }),
+                        rate(here, [](const Judged& e) { return e.first; }),
+                        rate(here, [](const Judged& e) { return e.confident_wrong; }));
+  }
+  return text + "\n";
+}
+
+std::string confusion(const Set& all) {
+  std::map<std::string, std::map<std::string, int>> counts;
+  for (const Judged* each : all) ++counts[family_of(*each)][first_name(*each)];
+  std::string text = "| truth | first answer, how often |\n|---|---|\n";
+  for (const auto& [truth, answers] : counts) {
+    std::string said;
+    for (const auto& [name, count] : answers) {
+      said += fmt::format("{}{} {}", said.empty() ? "" : ", ", name, count);
+    }
+    text += row(truth, said);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string tables(const std::vector<Judged>& judged) {
+  Set all;
+  for (const Judged& each : judged) all.push_back(&each);
+  const auto kind = [&](const std::string& name) {
+    return part(all, [&](const Judged& e) { return e.kind == name; });
+  };
+  std::string text = "| | |\n|---|---|\n";
+  const auto add = [&](const std::string& what, const Set& of, const Test& test) {
+    if (!of.empty()) text += row(what, rate(of, test));
+  };
+  add("answered", all, [](const Judged& e) { return e.answered; });
+  add("nulls: false alarms", kind("null"), [](const Judged& e) { return e.found; });
+  add("pairs: both named", kind("pair"), [](const Judged& e) { return e.both; });
+  add("pairs: one at least", kind("pair"), [](const Judged& e) { return e.one; });
+  add("pairs: a third name", kind("pair"), [](const Judged& e) { return e.third; });
+  add("hidden: among the undecidable, and nothing found", kind("hidden"),
+      [](const Judged& e) { return e.undecidable && !e.found; });
+  add("hidden: anything found", kind("hidden"), [](const Judged& e) { return e.found; });
+  add("foreign: flagged, without a confident name", kind("foreign"),
+      [](const Judged& e) { return e.flagged; });
+  add("foreign: anything found", kind("foreign"), [](const Judged& e) { return e.found; });
+  add("foreign: confident names", kind("foreign"),
+      [](const Judged& e) { return e.confident_wrong; });
+  add("passing: family first", kind("passing"), [](const Judged& e) { return e.first; });
+  add("passing: found", kind("passing"), [](const Judged& e) { return e.found; });
+  text += "\n";
+  const Set singles = kind("single");
+  if (!singles.empty()) text += concealment(singles) + single_table(singles) + ladder(singles);
+  return text + confusion(all);
+}
+
+std::string lines(const std::vector<Judged>& all) {
+  std::string text;
+  for (const Judged& each : all) {
+    std::string truth, said;
+    for (const auto& one : each.truth["truths"]) {
+      truth += fmt::format("{}{} of joint {} ({}; lambda {:.0f}, {:.0f} % absorbed)",
+                           truth.empty() ? "" : " and ", one["family"].get<std::string>(),
+                           one["joint"].get<int>(), one["form"].get<std::string>(),
+                           one["lambda"].get<double>(), 100 * one["absorbed"].get<double>());
+    }
+    if (each.answered) {
+      for (const auto& one : each.answer["findings"]) {
+        said += fmt::format("{}{} of joint {} ({:.2f})", said.empty() ? "" : " and ",
+                            one["family"].get<std::string>(), one["joint"].get<int>(),
+                            one["probability"].get<double>());
+      }
+      for (const auto& one : each.answer["unexplained"]) {
+        said +=
+            fmt::format("{}{}", said.empty() ? "" : " and ", one["description"].get<std::string>());
+      }
+    }
+    text += fmt::format("{} {} {} {}: {} -> {}\n", each.name, each.kind,
+                        each.truth["arm"].get<std::string>(), each.truth["loop"].get<std::string>(),
+                        truth.empty() ? "nothing" : truth,
+                        each.answered ? (said.empty() ? "clean" : said) : "no answer");
+  }
+  return text;
+}
+
+}  // namespace blind
