@@ -120,10 +120,14 @@ struct Whitened {
       : whitener(training) {
     std::vector<MatrixXd> columns;
     for (const Recording& each : training) {
-      columns.push_back(whitener(base_columns(machine, each.log)));
+      const auto white = [&](MatrixXd rows) {
+        leave_out_rest(each.log, rows);
+        return whitener(rows);
+      };
+      columns.push_back(white(base_columns(machine, each.log)));
       const VectorXd tau = torque_rows(each.log.recorded);
-      torque.push_back(whitener(tau));
-      left_out.push_back(whitener(tau - base_torque(machine, each.log)));
+      torque.emplace_back(white(tau));
+      left_out.emplace_back(white(tau - base_torque(machine, each.log)));
     }
     refit.emplace(std::move(columns));
     left = refit->residual(torque);
@@ -198,8 +202,11 @@ std::vector<double> heldout_rms(const Draft& draft, const std::vector<Recording>
   std::vector<MatrixXd> columns;
   std::vector<VectorXd> torque;
   for (const Recording& each : training) {
-    columns.push_back(whitener(columns_of(each, each.log)));
-    torque.push_back(whitener(torque_rows(each.log.recorded + each.torque_noise)));
+    MatrixXd own = columns_of(each, each.log);
+    MatrixXd tau = torque_rows(each.log.recorded + each.torque_noise);
+    for (MatrixXd* rows : {&own, &tau}) leave_out_rest(each.log, *rows);
+    columns.push_back(whitener(own));
+    torque.emplace_back(whitener(tau));
   }
   const VectorXd answer = Refit(std::move(columns)).solve(torque);
   const Index joints = draft.machine.joints();

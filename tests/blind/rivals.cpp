@@ -252,6 +252,7 @@ std::map<std::string, double> imitated_shares(const Machine& machine, const Trut
         } else {
           rows.middleRows(joint * each.log.q.rows(), each.log.q.rows()) = own;
         }
+        leave_out_rest(each.log, rows);
         columns.push_back(whitener(rows));
       }
       best = std::max(best, share(columns, refit, left));

@@ -77,12 +77,12 @@ std::string concealment(const Set& singles) {
 std::string single_table(const Set& singles) {
   const Set strong = part(singles, [](const Judged& e) { return e.lambda >= 53; });
   const Set found = part(strong, [](const Judged& e) { return e.found; });
-  const Set named =
-      part(strong, [](const Judged& e) { return e.answered && !e.answer["findings"].empty(); });
+  const auto is_named = [](const Judged& e) { return e.answered && !e.answer["findings"].empty(); };
+  const Set named = part(strong, is_named);
   const Set separable = part(strong, [](const Judged& e) { return e.separable; });
   std::string text = "| single effects, lambda of 60 and more | |\n|---|---|\n";
   text += row("found", rate(strong, [](const Judged& e) { return e.found; }));
-  text += row("named", rate(strong, [](const Judged& e) { return !e.answer["findings"].empty(); }));
+  text += row("named", rate(strong, is_named));
   text += row("joint right, of those named", rate(named, [](const Judged& e) { return e.joint; }));
   text += row("family first, of separable ones that are named",
               rate(part(named, [](const Judged& e) { return e.separable; }),

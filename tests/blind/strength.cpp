@@ -96,6 +96,15 @@ VectorXd base_torque(const Machine& machine, const Log& log) {
   return torque_rows(tau);
 }
 
+void leave_out_rest(const Log& log, Eigen::Ref<MatrixXd> rows) {
+  const Index samples = log.q.rows();
+  for (Index j = 0; j < log.q.cols(); ++j) {
+    for (Index k = 0; k < samples; ++k) {
+      if (std::abs(log.sign(k, j)) < 1) rows.row(j * samples + k).setZero();
+    }
+  }
+}
+
 VectorXd torque_rows(const MatrixXd& by_joint) {
   return Eigen::Map<const VectorXd>(by_joint.data(), by_joint.size());
 }

@@ -26,7 +26,11 @@ Eigen::MatrixXd base_columns(const Machine& machine, const Log& log);
 /// what is left out.
 Eigen::VectorXd base_torque(const Machine& machine, const Log& log);
 
-/// Recorded torque in the order of those rows, without noise.
+/// Makes the equations 0 = 0 where a joint rests: friction holds it with any torque there.
+/// @param rows  (N j x k), in place
+void leave_out_rest(const Log& log, Eigen::Ref<Eigen::MatrixXd> rows);
+
+/// (N x j) in the order of those rows.
 Eigen::VectorXd torque_rows(const Eigen::MatrixXd& by_joint);
 
 /// Makes the noise of the equations white, of variance 1: torque noise, and what encoders add

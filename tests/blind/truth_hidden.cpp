@@ -11,7 +11,7 @@ Truth coulomb_asymmetry(const Machine& machine, Index joint, Random) {
   truth.typical = 0.2 * machine.coulomb[joint];
   truth.plant = [=](double size, int, Plant& plant) {
     add_strength(plant, joint, [=, c = plant.drive[at(joint)]](const Moment& m) {
-      const double way = m.v[c] != 0 ? m.v[c] : m.dry[joint];
+      const double way = std::abs(m.v[c]) > 1e-9 ? m.v[c] : m.dry[joint];  // held, it is nearly 0
       return way > 0 ? size : -size;
     });
   };
