@@ -16,7 +16,7 @@ struct CaseOptions {
   std::string kind = "null";  ///< null single pair hidden foreign passing
   double lambda = 80;         ///< wanted strength of each effect
   bool noisy = true;          ///< false: sensors without noise, to prove the simulation
-  std::string family;         ///< empty: drawn
+  std::string family, arm;    ///< empty: drawn
   std::uint64_t seed = 0;
 };
 

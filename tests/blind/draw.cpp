@@ -68,12 +68,13 @@ Noise draw_noise(bool noisy, Index joints, Random& random) {
 std::optional<Draft> draw_case(const CaseOptions& options, const std::string& arms) {
   Random random(options.seed);
   Draft draft;
-  draft.arm = read_arm(arms + "/" + kArms[random.below(kArms.size())] + ".xml");
+  const std::string drawn = kArms[random.below(kArms.size())];
+  draft.arm = read_arm(arms + "/" + (options.arm.empty() ? drawn : options.arm) + ".xml");
   draft.machine = draw_machine(draft.arm, random.part(1));
   draft.believed = mistaken(draft.machine, random.part(2));
   draft.engine = random.chance(0.5) ? mujoco_engine : dart_engine;
   constexpr std::array<Loop, 3> kLoops = {Loop::kPd, Loop::kPid, Loop::kComputedTorque};
-  draft.loop = {kLoops[random.below(kLoops.size())], random.between(12, 35)};
+  draft.loop = {kLoops[random.below(kLoops.size())], random.between(30, 80)};
   draft.noise = draw_noise(options.noisy, draft.arm.joints(), random);
   constexpr std::array<double, 3> kRates = {200, 250, 400};
   draft.rate = kRates[random.below(kRates.size())];

@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"null", "single", "pair", "hidden", "foreign", "passing"}));
   app.add_option("--lambda", order.options.lambda, "wanted strength")->check(CLI::PositiveNumber);
   app.add_option("--family", order.options.family, "of single effects; else drawn");
+  app.add_option("--arm", order.options.arm, "planar2 twisted4 puma560 ur10e panda; else drawn");
   app.add_option("--seed", order.options.seed, "of the first case");
   app.add_option("--cases", order.count, "how many");
   app.add_option("--part", order.part, "this process makes cases part, part + parts, ...");
