@@ -18,8 +18,9 @@ void close_loop(Plant& plant, const LoopOptions& options, const Engine& believed
   const auto measured = [drive, n](const Moment& m, VectorXd& q, VectorXd& dq) {
     for (Index j = 0; j < n; ++j) {
       const Index c = drive[static_cast<std::size_t>(j)];
-      q[j] = m.x[c] + m.q_error[j];
-      dq[j] = m.v[c] + m.dq_error[j];
+      const double since = m.t - m.t_error;
+      q[j] = m.x[c] + m.q_error[j] + since * m.q_error_rate[j];
+      dq[j] = m.v[c] + m.dq_error[j] + since * m.dq_error_rate[j];
     }
   };
   const Index first = static_cast<Index>(plant.states.size());

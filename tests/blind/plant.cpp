@@ -31,8 +31,8 @@ class Simulation {
     now_.x = x0;
     now_.v = v0;
     const Index joints = plant.joints();
-    for (VectorXd* zero :
-         {&now_.command, &now_.acting, &now_.load, &now_.dry, &now_.q_error, &now_.dq_error}) {
+    for (VectorXd* zero : {&now_.command, &now_.acting, &now_.load, &now_.dry, &now_.q_error,
+                           &now_.dq_error, &now_.q_error_rate, &now_.dq_error_rate}) {
       *zero = VectorXd::Zero(joints);
     }
     now_.z.resize(static_cast<Index>(plant.states.size()));

@@ -21,8 +21,10 @@ struct Moment {
   Eigen::VectorXd acting;    ///< (j) torque of the motor
   Eigen::VectorXd load;      ///< (j) torque through the gear: rigid bodies, gravity
   Eigen::VectorXd dry;       ///< (j) dry friction of each motor, with its sign
-  Eigen::VectorXd q_error;   ///< (j) what the controller's encoder adds, rad
+  Eigen::VectorXd q_error;   ///< (j) what the controller's encoder adds at t_error, rad
   Eigen::VectorXd dq_error;  ///< (j) rad/s
+  Eigen::VectorXd q_error_rate, dq_error_rate;  ///< (j) each per s: what was held would act late
+  double t_error = 0;                           ///< s
 };
 
 /// Dry friction against one combination of velocities. It sticks.
