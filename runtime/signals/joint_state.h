@@ -102,6 +102,7 @@ class JointStateStream {
 
   void add(const Recording& chunk, Eigen::Index from, Eigen::Index to);
   void begin_run(std::size_t joints);
+  void add_states(std::size_t joint, const double* here);
   void begin_filter();
   void filter_up_to(Eigen::Index end);
   void emit(Eigen::Index end, Eigen::Index filtered_end, std::vector<StreamPiece>& pieces);

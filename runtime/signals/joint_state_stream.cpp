@@ -109,21 +109,27 @@ void JointStateStream::add(const Recording& chunk, Index from, Index to) {
   }
 }
 
+/// Position, velocity and acceleration of one more sample. @param here  with neighbours
+void JointStateStream::add_states(std::size_t joint, const double* here) {
+  filtered_.columns[joint].push_back(*here);
+  filtered_.columns[joints_ + joint].push_back(wide_first_difference(here, sample_time_));
+  filtered_.columns[2 * joints_ + joint].push_back(wide_second_difference(here, sample_time_));
+}
+
 /// Puts the reflection in front of the first sample and passes it.
 void JointStateStream::begin_filter() {
   const Index padding = ends_.padding;
   states_.assign(3 * joints_, PassState{});
-  filtered_.begin = 1 - padding;
+  filtered_.begin = kDifferenceReach - padding;
   for (std::size_t j = 0; j < joints_; ++j) {
     const auto extended = [&](Index k) {
       return k >= 0 ? raw_.at(1 + j, k) : 2 * raw_.at(1 + j, 0) - raw_.at(1 + j, -k);
     };
-    for (Index k = 1 - padding; k <= 0; ++k) {
-      const double before = extended(k - 1), here = extended(k), after = extended(k + 1);
-      filtered_.columns[j].push_back(here);
-      filtered_.columns[joints_ + j].push_back(central_first(before, after, sample_time_));
-      filtered_.columns[2 * joints_ + j].push_back(
-          central_second(before, here, after, sample_time_));
+    // as far as differences read the reflection
+    std::vector<double> around;
+    for (Index k = -padding; k < 2 * kDifferenceReach; ++k) around.push_back(extended(k));
+    for (Index k = kDifferenceReach - padding; k < kDifferenceReach; ++k) {
+      add_states(j, around.data() + k + padding);
     }
   }
   for (std::size_t c = 0; c < filtered_.columns.size(); ++c) {
@@ -136,19 +142,13 @@ void JointStateStream::begin_filter() {
   filtering_ = true;
 }
 
-/// The forward pass of the samples before `end`; all of them have a neighbour on each side.
+/// The forward pass of the samples before `end`; all of them have their neighbours on each side.
 void JointStateStream::filter_up_to(Index end) {
   const Index begin = filtered_.end();
   if (begin >= end) return;
   for (std::size_t j = 0; j < joints_; ++j) {
-    for (Index k = begin; k < end; ++k) {
-      const double before = raw_.at(1 + j, k - 1), here = raw_.at(1 + j, k);
-      const double after = raw_.at(1 + j, k + 1);
-      filtered_.columns[j].push_back(here);
-      filtered_.columns[joints_ + j].push_back(central_first(before, after, sample_time_));
-      filtered_.columns[2 * joints_ + j].push_back(
-          central_second(before, here, after, sample_time_));
-    }
+    const double* const q = raw_.columns[1 + j].data();
+    for (Index k = begin; k < end; ++k) add_states(j, q + (k - raw_.begin));
   }
   for (std::size_t c = 0; c < filtered_.columns.size(); ++c) {
     double* fresh = filtered_.columns[c].data() + (begin - filtered_.begin);
@@ -190,10 +190,10 @@ void JointStateStream::emit(Index end, Index filtered_end, std::vector<StreamPie
 void JointStateStream::emit_certain(std::vector<StreamPiece>& pieces) {
   const Index samples = raw_.end();
   if (!filtering_) {
-    if (samples < ends_.padding + 2) return;
+    if (samples < ends_.padding + 2 * kDifferenceReach) return;
     begin_filter();
   }
-  filter_up_to(samples - 1);
+  filter_up_to(samples - kDifferenceReach);
   // Ahead of a piece stands what a pass needs to forget how it began, and what may yet be trimmed.
   // To wait for twice that much keeps the work of a sample constant.
   const Index ahead = std::max(ends_.padding, trim_);
@@ -201,7 +201,7 @@ void JointStateStream::emit_certain(std::vector<StreamPiece>& pieces) {
   if (end - emitted_ < 2 * ahead) return;
   emit(end - ahead, end, pieces);
   filtered_.drop_before(emitted_);
-  raw_.drop_before(std::min(emitted_, samples - 1 - ends_.padding));
+  raw_.drop_before(std::min(emitted_, samples - 1 - std::max(ends_.padding, 2 * kDifferenceReach)));
 }
 
 void JointStateStream::end_run(std::vector<StreamPiece>& pieces) {
@@ -221,7 +221,7 @@ void JointStateStream::end_run(std::vector<StreamPiece>& pieces) {
         q.push_back(2 * q[last] - q[last - static_cast<std::size_t>(i)]);
       }
     }
-    filter_up_to(samples + ends_.padding - 1);
+    filter_up_to(samples + ends_.padding - kDifferenceReach);
     emit(samples - trim_, filtered_.end(), pieces);
   }
   raw_ = {};
