@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr Index kSegment = 512;  // samples of Welch's segments
+constexpr double kSmooth = 0.12;  // of a frequency: lines on each side whose mean is its power
 
 /// Ten point masses of 1 kg whose pseudo-inertias span all.
 std::vector<Inertia> point_masses() {
@@ -110,29 +110,36 @@ VectorXd torque_rows(const MatrixXd& by_joint) {
 }
 
 Whitener::Whitener(const std::vector<Recording>& training) {
-  const Index joints = training.front().log.q.cols();
-  MatrixXd power = MatrixXd::Zero(kSegment / 2 + 1, joints);
-  double segments = 0, window_power = 0;
-  VectorXd window(kSegment);
-  for (Index k = 0; k < kSegment; ++k) {
-    window[k] = 0.5 - 0.5 * std::cos(2 * kPi * static_cast<double>(k) / kSegment);
-  }
-  window_power = window.squaredNorm();
+  const Index joints = training.front().log.q.cols(), samples = training.front().log.q.rows();
+  MatrixXd power = MatrixXd::Zero(samples / 2 + 1, joints);
   Eigen::FFT<double> fft;
+  VectorXd window(samples);
+  for (Index k = 0; k < samples; ++k) {
+    const double turn = 2 * kPi * static_cast<double>(k) / static_cast<double>(samples);
+    window[k] = 0.5 - 0.5 * std::cos(turn);
+  }
+  const double scale = window.squaredNorm() * static_cast<double>(training.size());
   for (const Recording& recording : training) {
     const MatrixXd error = equation_error(recording);
-    for (Index begin = 0; begin + kSegment <= error.rows(); begin += kSegment / 2) {
-      ++segments;
-      for (Index j = 0; j < joints; ++j) {
-        const VectorXd part = error.col(j).segment(begin, kSegment).cwiseProduct(window);
-        std::vector<double> time(part.begin(), part.end());
-        std::vector<std::complex<double>> lines;
-        fft.fwd(lines, time);
-        for (Index k = 0; k < power.rows(); ++k) power(k, j) += std::norm(lines[at(k)]);
-      }
+    for (Index j = 0; j < joints; ++j) {
+      const VectorXd part = error.col(j).cwiseProduct(window);
+      std::vector<double> time(part.begin(), part.end());
+      std::vector<std::complex<double>> lines;
+      fft.fwd(lines, time);
+      for (Index k = 0; k < power.rows(); ++k) power(k, j) += std::norm(lines[at(k)]) / scale;
     }
   }
-  deviation_ = (power / (segments * window_power)).cwiseSqrt();
+  // the mean over lines near in their logarithm: what is slow has few of them
+  MatrixXd sum = MatrixXd::Zero(power.rows() + 1, joints);
+  for (Index k = 0; k < power.rows(); ++k) sum.row(k + 1) = sum.row(k) + power.row(k);
+  deviation_.resize(power.rows(), joints);
+  for (Index k = 0; k < power.rows(); ++k) {
+    const auto reach = static_cast<Index>(2 + kSmooth * static_cast<double>(k));
+    const Index from = std::max<Index>(0, k - reach);
+    const Index to = std::min<Index>(power.rows(), k + reach + 1);
+    deviation_.row(k) =
+        ((sum.row(to) - sum.row(from)) / static_cast<double>(to - from)).cwiseSqrt();
+  }
 }
 
 VectorXd Whitener::column(Index joint, const VectorXd& values) const {

@@ -34,7 +34,7 @@ void leave_out_rest(const Log& log, Eigen::Ref<Eigen::MatrixXd> rows);
 Eigen::VectorXd torque_rows(const Eigen::MatrixXd& by_joint);
 
 /// Makes the noise of the equations white, of variance 1: torque noise, and what encoders add
-/// through the accelerations. Spectra by Welch's mean over all training recordings.
+/// through the accelerations. Spectra of all training recordings, smoothed over near lines.
 class Whitener {
  public:
   explicit Whitener(const std::vector<Recording>& training);
