@@ -277,8 +277,9 @@ std::optional<Case> make_case(const CaseOptions& options, const std::string& arm
   const std::size_t all = draft.motions.size();
   std::vector<Recording> recordings = record_all(draft, made.truths, made.sizes, 0, all);
   add_noise(draft, deviation, recordings);
-  made.training.assign(recordings.begin(), recordings.begin() + draft.training);
-  made.heldout.assign(recordings.begin() + draft.training, recordings.end());
+  const auto first_heldout = recordings.begin() + static_cast<std::ptrdiff_t>(draft.training);
+  made.training.assign(recordings.begin(), first_heldout);
+  made.heldout.assign(first_heldout, recordings.end());
   if (!options.noisy) return made;
   const Whitened whitened(draft.machine, made.training);
   double rows = 0;
