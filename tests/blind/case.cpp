@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/blind/case.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "tests/blind/draw.h"
