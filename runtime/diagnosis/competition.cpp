@@ -72,6 +72,7 @@ class Competition {
       const bool named = result_.noise.from_periods ? next_winner(system, screening)
                                                     : next_likely(system, screening);
       if (!named && !nameless_.next(system, screening)) break;
+      if (options_.until_rest && !result_.resting.empty()) return std::move(result_);
     }
     drop_superfluous();
     if (scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {
@@ -247,7 +248,8 @@ class Competition {
           if (net(named) >= net(other) - kOutdone) return false;
           const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
           return std::any_of(joints.begin(), joints.end(), is_own) &&
-                 !stops_.hide(system, screening, hypotheses_[other.hypothesis], other);
+                 !stops_.hide(system, screening, hypotheses_[other.hypothesis], other) &&
+                 !nameless_.is_contradicted(other, system);
         });
     if (by_form) return true;
     // shapes of a strong effect are not quite found yet

@@ -16,6 +16,8 @@ struct CompetitionOptions {
   int most_winners = 4;
   std::uint64_t seed = 1;
   bool with_regressor = true;
+  /// Whether it ends as soon as a joint is found to rest.
+  bool until_rest = false;
 };
 
 using CompetitionProgress = std::function<void(const std::string& stage, double done)>;

@@ -7,21 +7,21 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "runtime/diagnosis/competition.h"
 #include "runtime/diagnosis/division.h"
 #include "runtime/diagnosis/heldout.h"
-#include "runtime/diagnosis/left_out_rows.h"
 #include "runtime/diagnosis/name_tests.h"
 #include "runtime/diagnosis/naming.h"
 #include "runtime/diagnosis/next_experiment.h"
 #include "runtime/diagnosis/raw_residual.h"
 #include "runtime/diagnosis/reference.h"
-#include "runtime/diagnosis/repeated_motion.h"
 #include "runtime/diagnosis/sufficiency.h"
 #include "runtime/diagnosis/undecidable.h"
+#include "runtime/diagnosis/views.h"
 #include "runtime/diagnosis/whereabouts.h"
 #include "runtime/effects/absorption.h"
 
@@ -32,34 +32,10 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise's correlation
-constexpr double kBand = 0.9;  // of the cut-off: what is faster is damped in the joint state
-constexpr double kPass =
-    0.5;  // of the parallel filter: a short one, that standstill cuts less from
-constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
-constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
+constexpr double kLeastCounted = 0.35;    // of a joint's equations, beside its rests
 constexpr double kObjection =
     0.5;  // the most of a name against which a bound or a falsifier speaks
 constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
-
-EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
-                              RowOptions rows, double part_of_band = 1) {
-  rows.band *= part_of_band;
-  rows.row_time /= part_of_band;
-  const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
-  EffectRecordings data = effect_recordings(input.model, input.robot, sources, rows, all);
-  VectorXd still = VectorXd::Zero(data.joints());
-  for (const MotionSource& source : sources) {
-    still = still.cwiseMax(plan_rows(source, rows).still_speed);
-  }
-  for (EffectRun& run : data.runs) leave_out_standstill(run, still);
-  return data;
-}
-
-std::vector<MotionSource> repeated(const std::vector<MotionSource>& sources) {
-  std::vector<MotionSource> result;
-  for (const MotionSource& source : sources) result.push_back(with_repeated_motion(source));
-  return result;
-}
 
 std::vector<ConditionLine> conditions_of(const DiagnosisInput& input) {
   std::vector<ConditionLine> lines;
@@ -90,15 +66,8 @@ class Diagnostician {
         options_(options),
         progress_(progress),
         parts_(input.heldout.empty() ? divided(input.train) : Division{input.train, input.heldout}),
-        rows_(diagnosis_rows(parts_.train, options.decimation)),
-        train_(thinned(equations_of(input, parts_.train, rows_), kLongestSample)),
-        slow_(thinned(equations_of(input, parts_.train, rows_, kSlow), kLongestSample)),
-        repeated_(thinned(equations_of(input, repeated(parts_.train), rows_), kLongestSample)),
-        heldout_(equations_of(input, parts_.heldout, rows_)) {
-    for (EffectRun& run : heldout_.runs) run.recording = -1;
-    proof_ = heldout_;
-    leave_out_unvisited(proof_, train_);
-  }
+        seen_{diagnosis_rows(parts_.train, options.decimation), {}},
+        views_(views_of(input, parts_, seen_)) {}
 
   Diagnosis run() {
     answer_.condition = conditions_of(input_);
@@ -108,16 +77,12 @@ class Diagnostician {
     settings.most_winners = options_.most_findings;
     settings.seed = options_.seed;
     settings.with_regressor = !options_.residual_only;
-    const ScaleTable scales(train_);
+    const ScaleTable scales(views_.train);
     const VectorXd nothing = VectorXd::Zero(input_.model.size());
     for (const EffectInstance& effect : input_.hypotheses) {
       hypotheses_.push_back(hypothesis_of(effect, scales.of(nothing, effect)));
     }
-    Witnesses witnesses;
-    for (const EffectRecordings* other : {&slow_, &repeated_}) {
-      witnesses.push_back(std::make_unique<Witness>(*other));
-    }
-    result_ = compete(train_, witnesses, proof_, hypotheses_, settings, progress_);
+    compete(settings);
     describe_noise();
     describe_tests();
     if (!worth_enough()) return std::move(answer_);
@@ -138,9 +103,31 @@ class Diagnostician {
     if (progress_) progress_(stage, done);
   }
 
+  /// As soon as a joint is found to rest, everything is looked at again beside its rests.
+  void compete(CompetitionOptions settings) {
+    const auto result = [&] {
+      return runtime::compete(views_.train, views_.witnesses(), views_.proof, hypotheses_, settings,
+                              progress_);
+    };
+    settings.until_rest = true;
+    result_ = result();
+    if (result_.resting.empty()) return;
+    std::vector<int> joints;
+    for (const RestingJoint& resting : result_.resting) joints.push_back(resting.joint);
+    const ViewOptions beside = beside_rests(seen_, parts_.train, std::move(joints));
+    Views views = views_of(input_, parts_, beside);
+    if (least_counted(views.train) >= kLeastCounted) {
+      seen_ = beside;
+      whole_ = Whole{std::move(views_.train), std::move(views_.heldout)};
+      views_ = std::move(views);
+    }
+    settings.until_rest = false;
+    result_ = result();
+  }
+
   /// Whether there are samples enough to test anything.
   bool enough() {
-    answer_.sentence = why_insufficient(train_, heldout_, !options_.residual_only);
+    answer_.sentence = why_insufficient(views_.train, views_.heldout, !options_.residual_only);
     return answer_.sentence.empty();
   }
 
@@ -160,8 +147,8 @@ class Diagnostician {
 
   void describe_noise() {
     const TorqueNoiseModel& noise = result_.noise;
-    answer_.noise.correlation_time.resize(train_.joints());
-    for (int j = 0; j < train_.joints(); ++j) {
+    answer_.noise.correlation_time.resize(views_.train.joints());
+    for (int j = 0; j < views_.train.joints(); ++j) {
       answer_.noise.correlation_time[j] =
           noise.joints[static_cast<std::size_t>(j)].correlation_time;
     }
@@ -171,11 +158,15 @@ class Diagnostician {
                             ? "from what differs between periods of the same motion"
                             : "from what the last model leaves: a lower bound of what is missing, "
                               "since no motion repeats";
-    for (const RestingJoint& resting : result_.resting) {
+    const auto rests = [&](int joint, const char* what) {
       answer_.noise.how += fmt::format(
-          "; joint {} rests for an instant where it turns: friction there may be of "
-          "any size, and an impulse at each reversal is left out of the judgement",
-          resting.joint + 1);
+          "; joint {} rests for an instant where it turns: friction there may be of any size, and "
+          "{} left out of the judgement",
+          joint + 1, what);
+    };
+    for (const int joint : seen_.resting) rests(joint, "its equations there are");
+    for (const RestingJoint& resting : result_.resting) {
+      rests(resting.joint, "an impulse at each reversal is");
     }
   }
 
@@ -185,11 +176,11 @@ class Diagnostician {
   }
 
   std::vector<StructureTest> tests_of(const Screening& screening) const {
-    const std::vector<GenericStructure> structures = generic_structures(train_.joints());
+    const std::vector<GenericStructure> structures = generic_structures(views_.train.joints());
     std::vector<StructureTest> tests;
     const double threshold =
         -std::log(-std::expm1(std::log1p(-options_.false_alarm) / screening.tests));
-    for (int j = 0; j < train_.joints(); ++j) {
+    for (int j = 0; j < views_.train.joints(); ++j) {
       StructureTest test{j, 0, threshold, ""};
       for (const GenericResult& generic : screening.generic) {
         const GenericStructure& structure = structures[generic.structure];
@@ -207,15 +198,15 @@ class Diagnostician {
     if (result_.winners.empty()) return;
     tell("the final fit", 0);
     std::vector<EffectInstance> effects = result_.fit.point.effects;
-    answer_.fit = fit_effects(train_, effects);
+    answer_.fit = fit_effects(views_.train, effects);
     result_.fit = answer_.fit;
-    EffectSignals signals(train_);
+    EffectSignals signals(views_.train);
     EvidenceSystem::Options system;
     system.seed = options_.seed;
     system.surrogates = 0;
     system.with_regressor = !options_.residual_only;
     const std::vector<Naming> namings =
-        settle_names(train_, proof_, signals, hypotheses_, result_, system, progress_);
+        settle_names(views_.train, views_.proof, signals, hypotheses_, result_, system, progress_);
     answer_.fit = result_.fit;
     for (std::size_t i = 0; i < namings.size(); ++i) {
       answer_.findings.push_back(finding(i, namings[i], signals, system));
@@ -234,9 +225,9 @@ class Diagnostician {
     finding.absorbed = 1 - naming.part_left;
     finding.evidence = {naming.lambda, naming.delta_bic, 0};
     const EvidenceSystem system =
-        system_without(train_, signals, hypotheses_, result_, place, options);
-    finding.tests = name_tests(train_, signals, system, finding.effect);
-    finding.where = whereabouts_of(train_, signals, system, hypothesis, finding.effect);
+        system_without(views_.train, signals, hypotheses_, result_, place, options);
+    finding.tests = name_tests(views_.train, signals, system, finding.effect);
+    finding.where = whereabouts_of(views_.train, signals, system, hypothesis, finding.effect);
     if (finding.effect.recording >= 0) {
       finding.where.recording =
           parts_.train[static_cast<std::size_t>(finding.effect.recording)].name;
@@ -279,9 +270,9 @@ class Diagnostician {
   void describe_changes() {
     if (input_.reference.empty()) return;
     tell("changes since the reference", 0);
-    const EffectRecordings reference = equations_of(input_, input_.reference, rows_);
+    const EffectRecordings reference = equations_of(input_, input_.reference, seen_);
     for (Finding& change :
-         changes_since(reference, train_, hypotheses_, result_, options_.false_alarm)) {
+         changes_since(reference, views_.train, hypotheses_, result_, options_.false_alarm)) {
       answer_.findings.push_back(std::move(change));
     }
   }
@@ -366,11 +357,13 @@ class Diagnostician {
     EffectPoint before = result_.base.point, after = answer_.fit.point;
     before.initial.clear();
     after.initial.clear();
-    answer_.heldout.before = raw_rms(heldout_, raw_residuals(heldout_, before));
-    answer_.heldout.after = raw_rms(heldout_, raw_residuals(heldout_, after));
+    const EffectRecordings& train = whole_ ? whole_->train : views_.train;
+    const EffectRecordings& heldout = whole_ ? whole_->heldout : views_.heldout;
+    answer_.heldout.before = raw_rms(heldout, raw_residuals(heldout, before));
+    answer_.heldout.after = raw_rms(heldout, raw_residuals(heldout, after));
     EffectPoint fitted = answer_.fit.point;
     fitted.initial.clear();
-    answer_.noise.deviation = raw_floor(train_, raw_residuals(train_, fitted), repeats_of(train_));
+    answer_.noise.deviation = raw_floor(train, raw_residuals(train, fitted), repeats_of(train));
     answer_.heldout.floor = answer_.noise.deviation;
   }
 
@@ -379,7 +372,7 @@ class Diagnostician {
     double named = 0;
     for (std::size_t i = 0; i < result_.winners.size(); ++i) {
       const std::vector<int> joints =
-          joints_of(hypotheses_[result_.winners[i].hypothesis].effect, train_.joints());
+          joints_of(hypotheses_[result_.winners[i].hypothesis].effect, views_.train.joints());
       if (std::find(joints.begin(), joints.end(), nameless.structure.joint) == joints.end()) {
         continue;
       }
@@ -422,9 +415,14 @@ class Diagnostician {
   const DiagnosisOptions& options_;
   const DiagnosisProgress& progress_;
   Division parts_;
-  RowOptions rows_;
-  EffectRecordings train_, slow_, repeated_, heldout_;
-  EffectRecordings proof_;  // what is held out, where the fitted recordings have been
+  ViewOptions seen_;
+  Views views_;
+  /// Recordings with the joint state that was chosen and where joints rest, if the views are
+  /// others: those that an rms is of.
+  struct Whole {
+    EffectRecordings train, heldout;
+  };
+  std::optional<Whole> whole_;
   std::vector<Hypothesis> hypotheses_;
   CompetitionResult result_;
   Diagnosis answer_;
@@ -441,19 +439,6 @@ void DiagnosisOptions::validate() const {
     throw std::invalid_argument(
         fmt::format("DiagnosisOptions: most_findings is {}, expected 0 or more", most_findings));
   }
-}
-
-RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Index decimation) {
-  RowOptions rows;
-  rows.decimation = decimation;
-  rows.band = kBand;
-  rows.multiple = kThinnedSamples;
-  rows.pass = kPass;
-  std::vector<double> times;
-  for (const MotionSource& source : train) times.push_back(plan_rows(source, rows).row_time);
-  std::sort(times.begin(), times.end());
-  if (!times.empty()) rows.row_time = times[times.size() / 2];
-  return rows;
 }
 
 Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,

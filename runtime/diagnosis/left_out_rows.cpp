@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kLongest = 0.1;  // s below the speed at a reversal
 constexpr double kEnough = 0.3;   // of a joint's equations that have to stay
+constexpr double kFaint = 0.02;   // of the parallel filter's largest tap: less is not felt
 
 void leave_out(RowBlock& rows, Index row, Index joint, Index size) {
   rows.counted(row, joint) = 0;
@@ -41,6 +42,38 @@ void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed) {
         }
       }
       start = std::max(end, start) + 1;
+    }
+  }
+}
+
+namespace {
+
+/// Samples around an equation that it is made of.
+Index felt(const Decimator& decimator) {
+  const Index middle = decimator.taps.size() / 2;
+  const double least = kFaint * decimator.taps.cwiseAbs().maxCoeff();
+  Index reach = middle;
+  while (reach > 0 && std::abs(decimator.taps[middle + reach]) < least) --reach;
+  return reach;
+}
+
+}  // namespace
+
+void leave_out_rests(EffectRun& run, const Eigen::VectorXd& still_speed,
+                     const std::vector<int>& joints) {
+  const Motion& motion = run.motion;
+  const Index factor = run.decimator.factor, first = first_sample(run.decimator);
+  // the joint state's own filter widens a rest by about the time between equations
+  const Index reach = felt(run.decimator) + factor;
+  const Index size = run.rows.Y.cols() / motion.joints();
+  for (const int j : joints) {
+    const auto speed = motion.dq.col(j);
+    for (Index at = 0; at < motion.samples(); ++at) {
+      const bool turns = at > 0 && (speed[at] < 0) != (speed[at - 1] < 0);
+      if (!turns && std::abs(speed[at]) >= still_speed[j]) continue;
+      const Index from = std::max<Index>(0, (at - reach - first + factor - 1) / factor);
+      const Index to = std::min<Index>(run.rows.Y.rows() - 1, (at + reach - first) / factor);
+      for (Index k = from; k <= to; ++k) leave_out(run.rows, k, j, size);
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "runtime/effects/effect_recordings.h"
 
@@ -13,6 +14,14 @@ namespace dyngen::runtime {
 /// @param run          its rows change
 /// @param still_speed  (n) rad/s or m/s
 void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed);
+
+/// Takes out the equations of joints where they turn or stop, as far as the filters reach from
+/// there: for joints that friction holds there for an instant.
+/// @param run          its rows change
+/// @param still_speed  (n) rad/s or m/s
+/// @param joints       from 0
+void leave_out_rests(EffectRun& run, const Eigen::VectorXd& still_speed,
+                     const std::vector<int>& joints);
 
 /// Takes out of held-out recordings the equations of joints that are where no fitted recording was:
 /// what a polynomial says there is no proof for or against it. A joint that is nearly always there

@@ -39,6 +39,10 @@ class NamelessSearch {
   bool describe(const GenericResult& generic, const EvidenceSystem& system,
                 const std::string& costly);
 
+  /// Whether a witness contradicts structure of the form of an effect that is ruled out.
+  [[nodiscard]] bool is_contradicted(const NamedResult& ruled_out,
+                                     const EvidenceSystem& system) const;
+
   /// Whether structure may be said to be there although nothing that is held out speaks for it.
   [[nodiscard]] bool sure(const Screening& screening, double surprise) const;
   /// Whether a joint has nameless structure already.
@@ -50,6 +54,8 @@ class NamelessSearch {
                                           const std::vector<int>& joints) const;
   [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
   [[nodiscard]] std::vector<const GenericResult*> candidates(const Screening& screening) const;
+  [[nodiscard]] Nameless as_nameless(const NamedResult& ruled_out) const;
+  [[nodiscard]] bool is_contradicted(const Nameless& nameless) const;
   bool add(Nameless nameless, const EvidenceSystem& system);
 
   const EffectRecordings& data_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/effects/effect_fit.h"
 #include "runtime/recordings/periods.h"
 
 namespace dyngen::runtime {
@@ -59,6 +60,7 @@ void append(Motion& run, const Motion& piece) {
 
 MotionSource with_repeated_motion(const MotionSource& source) {
   MotionSource result = source;
+  result.with_cutoff = nullptr;
   result.pieces = [all = source.pieces](const std::function<void(const StreamPiece&)>& visit) {
     std::vector<Motion> runs;
     all([&](const StreamPiece& piece) {
@@ -71,6 +73,21 @@ MotionSource with_repeated_motion(const MotionSource& source) {
     for (Motion& run : runs) visit({repeated(std::move(run)), false});
   };
   return result;
+}
+
+void leave_as_at(EffectRecordings& repeated, const EffectRecordings& own) {
+  const Eigen::VectorXd beta = fit_effects(own, {}).point.beta;
+  for (std::size_t run = 0; run < own.runs.size(); ++run) {
+    RowBlock& rows = repeated.runs[run].rows;
+    const RowBlock& as_recorded = own.runs[run].rows;
+    for (Index j = 0; j < rows.tau.cols(); ++j) {
+      const auto Y = [&](const RowBlock& block) {
+        return block.Y.middleCols(j * beta.size(), beta.size());
+      };
+      const auto both = rows.counted.col(j).cwiseProduct(as_recorded.counted.col(j));
+      rows.tau.col(j) += both.cwiseProduct((Y(rows) - Y(as_recorded)) * beta);
+    }
+  }
 }
 
 }  // namespace dyngen::runtime

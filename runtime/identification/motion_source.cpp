@@ -99,23 +99,28 @@ void check_runs(const JointStates& states, const std::string& name) {
   throw TooShortError(fmt::format("{}: no run is long enough{}", name, reason));
 }
 
-MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
-                              const MotionOptions& options) {
+/// @param recording  of uniform time, its condition looked at   @param start  s, before averaging
+MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
+                      RecordingCondition condition, const JointStateOptions& options) {
   MotionSource source;
-  source.name = recording.file_name;
-  source.start = recording.samples() > 0 ? recording.time[0] : 0;
-  look_at_signals(recording, condition);
-  recording = with_uniform_time(std::move(recording), condition);
-  recording = with_averaged_periods(std::move(recording), options, condition);
-  JointStates states = joint_states(recording, options.state);
+  source.name = recording->file_name;
+  source.start = start;
+  JointStates states = joint_states(*recording, options);
   check_runs(states, source.name);
   source.sample_time = states.runs.front().sample_time;
   source.cutoff = states.cutoff;
   source.position_noise =
-      noise_of_positions(recording, states, source.sample_time, condition.position_step);
-  source.fastest = VectorXd::Zero(recording.joints());
+      noise_of_positions(*recording, states, source.sample_time, condition.position_step);
+  source.fastest = VectorXd::Zero(recording->joints());
   for (const Motion& run : states.runs) {
     source.fastest = source.fastest.cwiseMax(run.dq.cwiseAbs().colwise().maxCoeff().transpose());
+  }
+  if (options.method == StateMethod::kLowPass && !(options.cutoff_hz > 0)) {
+    source.with_cutoff = [recording, start, condition, options](double hz) {
+      JointStateOptions other = options;
+      other.cutoff_hz = hz;
+      return filtered(recording, start, condition, other);
+    };
   }
   condition.messages.insert(condition.messages.end(), states.messages.begin(),
                             states.messages.end());
@@ -125,6 +130,16 @@ MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
     for (const Motion& run : *runs) visit({run, false});
   };
   return source;
+}
+
+MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
+                              const MotionOptions& options) {
+  const double start = recording.samples() > 0 ? recording.time[0] : 0;
+  look_at_signals(recording, condition);
+  recording = with_uniform_time(std::move(recording), condition);
+  recording = with_averaged_periods(std::move(recording), options, condition);
+  return filtered(std::make_shared<const Recording>(std::move(recording)), start,
+                  std::move(condition), options.state);
 }
 
 /// About how many bytes of text a file holds; 0 if it cannot be read, which its reader will say.
@@ -154,6 +169,7 @@ MotionSource stream_of_file(const std::string& path, MotionOptions options) {
   MotionOptions of_first = options;
   of_first.average_periods = false;
   MotionSource source = motion_in_memory(std::move(first), {}, of_first);
+  source.with_cutoff = nullptr;
   source.name = path;
   options.state.cutoff_hz = source.cutoff.hz;
   source.condition.messages.push_back("read piece by piece; periods were not looked for");
@@ -187,6 +203,11 @@ MotionSource motion_of_file(const std::string& path, const MotionOptions& option
 
 MotionSource part_of(const MotionSource& source, double from, double to) {
   MotionSource part = source;
+  if (source.with_cutoff) {
+    part.with_cutoff = [other = source.with_cutoff, from, to](double hz) {
+      return part_of(other(hz), from, to);
+    };
+  }
   // lengths of the runs first: pieces of a run do not know how long it is
   auto known = std::make_shared<std::vector<Index>>();
   part.pieces = [all = source.pieces, from, to,

@@ -56,6 +56,9 @@ struct MotionSource {
   RecordingCondition condition;
   /// Consecutive pieces of all runs.
   std::function<void(const std::function<void(const StreamPiece&)>&)> pieces;
+  /// The same recording with a cut-off, Hz, of the caller's. Empty where the cut-off was given, no
+  /// low-pass gives the joint state, or the file is too large to be in memory.
+  std::function<MotionSource(double hz)> with_cutoff;
 
   [[nodiscard]] int joints() const { return static_cast<int>(position_noise.size()); }
 };

@@ -15,6 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr std::uint64_t kOfEncoders = 1000;  // the first part of the noise's numbers that is theirs
 constexpr int kPilotRounds = 6, kRounds = 3;  // of the search for a size
 constexpr double kNear = 1.3;                 // of the wanted strength, either way
 
@@ -36,22 +37,24 @@ Plant plant_of(const Draft& draft, const std::vector<Truth>& truths,
   return plant;
 }
 
-/// What the encoders show less where the motors are: their last digit. The controller takes it in
+/// What the encoders show less where the motors are: their last digit, and noise of half of it, so
+/// that no two periods are read alike. The controller takes it in
 /// through a low-pass of 12 Hz, and between samples in a line from the value before to this one:
 /// torque that jumped at the samples would be recorded half a sample early, and faster torque would
 /// act between samples otherwise than a record shows. Either looks like physics.
 class Encoders {
  public:
-  Encoders(double digit, double rate, Index joints)
+  Encoders(double digit, double rate, Index joints, Random random)
       : digit_(digit),
         rate_(rate),
+        random_(random),
         pass_(1 - std::exp(-2 * std::numbers::pi * kPass / rate)),
         once_(VectorXd::Zero(joints)),
         twice_(once_),
         slope_(once_) {}
   void operator()(const VectorXd& q, Moment& moment) {
     const VectorXd before = twice_, slope_before = slope_;
-    once_ += pass_ * (shown(q) - q - once_);
+    once_ += pass_ * (error(q, moment.t) - once_);
     twice_ += pass_ * (once_ - twice_);
     slope_ = (twice_ - before) * rate_;
     moment.q_error = before;
@@ -60,13 +63,22 @@ class Encoders {
     moment.dq_error_rate = (slope_ - slope_before) * rate_;
     moment.t_error = moment.t;
   }
-  VectorXd shown(const VectorXd& q) const {
-    return (q / digit_).unaryExpr([](double u) { return std::round(u); }) * digit_;
+  /// The same whenever it is asked for.
+  VectorXd error(const VectorXd& q, double t) const {
+    Random random =
+        Random(random_).part(static_cast<std::uint64_t>(std::llround(t * rate_) + kEarlier));
+    VectorXd shown = q;
+    for (double& x : shown) x = std::round(x / digit_ + kNoise * random.normal()) * digit_;
+    return shown - q;
   }
 
  private:
-  static constexpr double kPass = 12;  // Hz
-  double digit_, rate_, pass_;
+  static constexpr double kPass = 12;               // Hz
+  static constexpr double kNoise = 0.5;             // of the last digit
+  static constexpr long long kEarlier = 1LL << 40;  // samples: no place is negative
+  double digit_, rate_;
+  Random random_;
+  double pass_;
   VectorXd once_, twice_, slope_;
 };
 
@@ -88,7 +100,8 @@ Recording record(const Draft& draft, const std::vector<Truth>& truths,
       v[c] = first.dq[j];
     }
   }
-  Encoders encoders(draft.noise.digit(), draft.rate, plant.joints());
+  Encoders encoders(draft.noise.digit(), draft.rate, plant.joints(),
+                    Random(draft.noise_seed).part(kOfEncoders + run));
   Recording recording;
   recording.log =
       blind::run(plant, x, v, options, [&](const VectorXd& q, Moment& m) { encoders(q, m); });
@@ -98,7 +111,8 @@ Recording record(const Draft& draft, const std::vector<Truth>& truths,
   const MatrixXd& q = recording.log.q;
   recording.encoder_error.resize(q.rows(), q.cols());
   for (Index k = 0; k < q.rows(); ++k) {
-    recording.encoder_error.row(k) = encoders.shown(q.row(k)) - q.row(k).transpose();
+    recording.encoder_error.row(k) =
+        encoders.error(q.row(k), static_cast<double>(k) / draft.rate).transpose();
   }
   return recording;
 }

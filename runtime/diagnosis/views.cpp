@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/views.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "runtime/diagnosis/left_out_rows.h"
+#include "runtime/diagnosis/repeated_motion.h"
+#include "runtime/evidence/joint_columns.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kBand = 0.9;  // of the cut-off: what is faster is damped in the joint state
+constexpr double kPass =
+    0.5;  // of the parallel filter: a short one, that standstill cuts less from
+constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
+constexpr double kJolts = 50;  // Hz, of jolts: a joint state of at least this cut-off has them
+constexpr double kHighest = 0.2;         // of the sampling frequency: a cut-off
+constexpr double kBesideJolts = 0.4;     // of the cut-off: what is slower is not damped at all
+constexpr double kBesideNoise = 0.3;     // of a cut-off that is quicker than motion is seen to be
+constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
+
+RowOptions slower(RowOptions rows) {
+  rows.band *= kSlow;
+  rows.row_time /= kSlow;
+  return rows;
+}
+
+VectorXd still_speed(const std::vector<MotionSource>& sources, const RowOptions& rows, int joints) {
+  VectorXd still = VectorXd::Zero(joints);
+  for (const MotionSource& source : sources) {
+    still = still.cwiseMax(plan_rows(source, rows).still_speed);
+  }
+  return still;
+}
+
+double quick_cutoff(const MotionSource& source) {
+  if (!source.with_cutoff) return source.cutoff.hz;
+  return std::max(source.cutoff.hz, std::min(kJolts, kHighest / source.sample_time));
+}
+
+/// Recordings with the joint state of a view.
+std::vector<MotionSource> seen(const std::vector<MotionSource>& sources,
+                               const ViewOptions& options) {
+  std::vector<MotionSource> result;
+  for (const MotionSource& source : sources) {
+    const double hz = options.resting.empty() ? source.cutoff.hz : quick_cutoff(source);
+    result.push_back(hz > source.cutoff.hz ? source.with_cutoff(hz) : source);
+  }
+  return result;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0 : values[values.size() / 2];
+}
+
+EffectRecordings equations(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
+                           const ViewOptions& options) {
+  const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
+  EffectRecordings data = effect_recordings(input.model, input.robot, sources, options.rows, all);
+  const VectorXd still = still_speed(sources, options.rows, data.joints());
+  for (EffectRun& run : data.runs) {
+    leave_out_standstill(run, still);
+    leave_out_rests(run, still, options.resting);
+  }
+  return data;
+}
+
+std::vector<MotionSource> with_repeated_motion(const std::vector<MotionSource>& sources) {
+  std::vector<MotionSource> result;
+  for (const MotionSource& source : sources) result.push_back(with_repeated_motion(source));
+  return result;
+}
+
+}  // namespace
+
+RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Index decimation) {
+  RowOptions rows;
+  rows.decimation = decimation;
+  rows.band = kBand;
+  rows.multiple = kThinnedSamples;
+  rows.pass = kPass;
+  std::vector<double> times;
+  for (const MotionSource& source : train) times.push_back(plan_rows(source, rows).row_time);
+  rows.row_time = median(std::move(times));
+  return rows;
+}
+
+ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
+                         std::vector<int> resting) {
+  RowOptions rows = options.rows;
+  rows.band = kBesideJolts;
+  rows.multiple = kThinnedSamples / 2;
+  std::vector<double> times;
+  for (const MotionSource& source : train) {
+    const double band =
+        std::max(kBesideJolts * source.cutoff.hz, kBesideNoise * quick_cutoff(source));
+    times.push_back(0.5 / band);
+  }
+  rows.row_time = median(std::move(times));
+  return {rows, std::move(resting)};
+}
+
+double least_counted(const EffectRecordings& data) {
+  VectorXd counted = VectorXd::Zero(data.joints());
+  for (const EffectRun& run : data.runs) counted += run.rows.counted.colwise().sum().transpose();
+  return counted.minCoeff() / static_cast<double>(data.equations());
+}
+
+EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
+                              const ViewOptions& options) {
+  return equations(input, seen(sources, options), options);
+}
+
+Witnesses Views::witnesses() const {
+  Witnesses all;
+  for (const EffectRecordings* other : {&slow, &repeated}) {
+    all.push_back(std::make_unique<Witness>(*other));
+  }
+  return all;
+}
+
+Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options) {
+  const auto of = [&](const std::vector<MotionSource>& sources, const ViewOptions& own) {
+    return thinned(equations(input, sources, own), kLongestSample);
+  };
+  const std::vector<MotionSource> train = seen(parts.train, options);
+  Views views{of(train, options),
+              equations_of(input, parts.heldout, options),
+              {},
+              of(train, {slower(options.rows), options.resting}),
+              of(with_repeated_motion(train), options)};
+  leave_as_at(views.repeated, views.train);
+  for (EffectRun& run : views.heldout.runs) run.recording = -1;
+  views.proof = views.heldout;
+  leave_out_unvisited(views.proof, views.train);
+  return views;
+}
+
+}  // namespace dyngen::runtime
