@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -60,6 +61,7 @@ class Competition {
     result_.base = result_.fit = fit({});
     for (int round = 0;; ++round) {
       measure_noise();
+      contradicted_forms_.clear();
       const EvidenceSystem system = model_system();
       const std::string stage = round == 0 ? "structure beside the model"
                                            : "structure beside the model and what was found";
@@ -236,7 +238,7 @@ class Competition {
   /// Whether what has no name explains more on the same joint: an effect that its file rules out,
   /// since the structure is something else then, of that form; or a function of the motion.
   [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,
-                             const Screening& screening) const {
+                             const Screening& screening) {
     const std::vector<int> own = joints_of_hypothesis(named.hypothesis);
     const auto is_own = [&](int joint) {
       return std::find(own.begin(), own.end(), joint) != own.end();
@@ -249,7 +251,7 @@ class Competition {
           const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
           return std::any_of(joints.begin(), joints.end(), is_own) &&
                  !stops_.hide(system, screening, hypotheses_[other.hypothesis], other) &&
-                 !nameless_.is_contradicted(other, system);
+                 !is_contradicted_form(other, system);
         });
     if (by_form) return true;
     // shapes of a strong effect are not quite found yet
@@ -261,6 +263,27 @@ class Competition {
                                 is_own(structure.joint) && !stops_.rests(structure.joint) &&
                                 net_of(structure, generic.score, result_.noise) > much;
                        });
+  }
+
+  /// Whether a witness contradicts the form of an effect that its file rules out.
+  bool is_contradicted_form(const NamedResult& ruled_out, const EvidenceSystem& system) {
+    const auto known = contradicted_forms_.find(ruled_out.hypothesis);
+    if (known != contradicted_forms_.end()) return known->second;
+    const bool contradicted = nameless_.is_contradicted(ruled_out, system);
+    contradicted_forms_[ruled_out.hypothesis] = contradicted;
+    return contradicted;
+  }
+
+  /// Results of a round without forms that a witness contradicts: those are no rivals.
+  std::vector<NamedResult> without_contradicted(std::vector<NamedResult> all) {
+    if (!result_.noise.from_periods) return all;
+    const EvidenceSystem system = system_beside(result_.fit.point);
+    for (NamedResult& each : all) {
+      if (!each.seen || each.freest.admissible) continue;
+      const NamedResult form = without_conditions(each);
+      if (net(form) > 0 && is_contradicted_form(form, system)) each.seen = false;
+    }
+    return all;
   }
 
   /// An effect that is more than noise and helps on held-out recordings, but has more parameters
@@ -299,6 +322,15 @@ class Competition {
     });
   }
 
+  /// The model at a point with what was found, without surrogates.
+  EvidenceSystem system_beside(const EffectPoint& point) {
+    EvidenceSystem::Options options = system_options();
+    options.surrogates = 0;
+    EvidenceSystem system = system_at(train_, signals_, point, found(), result_.noise, options);
+    add_nameless(train_, signals_, result_, system);
+    return system;
+  }
+
   /// The model beside white noise.
   EvidenceSystem white_system() {
     TorqueNoiseModel white = result_.noise;
@@ -321,10 +353,7 @@ class Competition {
     std::vector<EffectInstance> all = effects();
     all.push_back(named.best.effect);
     const EffectPoint beside = without(fit(all).point, all.size() - 1);
-    EvidenceSystem::Options options = system_options();
-    options.surrogates = 0;
-    EvidenceSystem system = system_at(train_, signals_, beside, found(), result_.noise, options);
-    add_nameless(train_, signals_, result_, system);
+    const EvidenceSystem system = system_beside(beside);
     NamedResult best = named;
     bool first = true;
     std::size_t tried = 0;
@@ -391,16 +420,17 @@ class Competition {
   }
 
   /// @param point  a fit with the winners and, as its last, the effect
-  [[nodiscard]] bool contradicted(const Hypothesis& hypothesis, const EffectPoint& point) const {
+  [[nodiscard]] bool contradicted(const NamedResult& named, const EffectPoint& point) const {
     return std::any_of(witnesses_.begin(), witnesses_.end(), [&](const auto& witness) {
-      return witness->contradicts(hypotheses_, result_, hypothesis, point, system_options());
+      return witness->contradicts(hypotheses_, result_, hypotheses_[named.hypothesis], point,
+                                  named.best.score.squares, system_options());
     });
   }
 
   /// Keeps an effect that no witness contradicts and held-out recordings speak for, or,
   /// of one beyond doubt, agree with; an event is not in them and must only not harm them.
   bool keep(const NamedResult& named, const Screening& screening, EffectFit next) {
-    if (result_.noise.from_periods && contradicted(hypotheses_[named.hypothesis], next.point)) {
+    if (result_.noise.from_periods && contradicted(named, next.point)) {
       return false;
     }
     const HeldoutProof proof = proof_of(next);
@@ -415,7 +445,7 @@ class Competition {
     winner.at_stops = at_stops_;
     winner.heldout_before = proof.before;
     winner.heldout_after = proof.after;
-    winner.others = screening.named;
+    winner.others = without_contradicted(screening.named);
     winner.generic = screening.generic;
     result_.winners.push_back(std::move(winner));
     result_.fit = std::move(next);
@@ -454,8 +484,9 @@ class Competition {
   ScreeningData screening_data_;
   std::vector<double> repeats_;
   const Witnesses& witnesses_;
-  std::optional<Doubt> doubt_;  // of this round
-  bool at_stops_ = false;       // of the effect that is fitted
+  std::map<std::size_t, bool> contradicted_forms_;  // of this round, by hypothesis
+  std::optional<Doubt> doubt_;                      // of this round
+  bool at_stops_ = false;                           // of the effect that is fitted
   CompetitionResult result_;
   Stops stops_;
   NamelessSearch nameless_;

@@ -120,9 +120,8 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
 
 Witnesses Views::witnesses() const {
   Witnesses all;
-  for (const EffectRecordings* other : {&slow, &repeated}) {
-    all.push_back(std::make_unique<Witness>(*other));
-  }
+  all.push_back(std::make_unique<Witness>(slow, Witness::Kind::kSlow));
+  all.push_back(std::make_unique<Witness>(repeated, Witness::Kind::kRepeated));
   return all;
 }
 

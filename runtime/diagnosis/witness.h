@@ -16,14 +16,21 @@ namespace dyngen::runtime {
 /// Hausman (1978).
 class Witness {
  public:
+  enum class Kind {
+    kSlow,      ///< up to a part of the band
+    kRepeated,  ///< at the motion of the other periods
+  };
   /// @param data  must outlive it
-  explicit Witness(const EffectRecordings& data);
+  Witness(const EffectRecordings& data, Kind kind);
 
-  /// Whether an effect's size is another here: surely, and by half of it.
+  /// Whether an effect's size is another here: surely, and by half of it; or whether of what it
+  /// explains hardly anything is left at the motion of the other periods.
   /// @param point   a fit of the model with the winners and, as its last, the effect
+  /// @param squares  that it explains
   [[nodiscard]] bool contradicts(const std::vector<Hypothesis>& hypotheses,
                                  const CompetitionResult& result, const Hypothesis& hypothesis,
-                                 const EffectPoint& point, EvidenceSystem::Options options);
+                                 const EffectPoint& point, double squares,
+                                 EvidenceSystem::Options options);
   /// Whether structure of this size is not here: surely, and by half of it.
   [[nodiscard]] bool contradicts(const std::vector<Hypothesis>& hypotheses,
                                  const CompetitionResult& result, const Nameless& nameless,
@@ -34,7 +41,10 @@ class Witness {
                                       const CompetitionResult& result, const EffectPoint& point,
                                       EvidenceSystem::Options options);
 
+  [[nodiscard]] bool misses(double seen, double squares) const;
+
   const EffectRecordings& data_;
+  Kind kind_;
   EffectSignals signals_;
   std::vector<double> repeats_;
 };
