@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <set>
 
@@ -36,9 +35,9 @@ constexpr double kShortest = 3;          // equations that an event lasts
 /// One competition's data and what was found so far.
 class Competition {
  public:
-  Competition(const EffectRecordings& train, const Witnesses& witnesses,
-              const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
-              const CompetitionOptions& options, const CompetitionProgress& progress)
+  Competition(const EffectRecordings& train, Witness& witness, const EffectRecordings& heldout,
+              const std::vector<Hypothesis>& hypotheses, const CompetitionOptions& options,
+              const CompetitionProgress& progress)
       : train_(train),
         heldout_(heldout),
         hypotheses_(hypotheses),
@@ -49,9 +48,9 @@ class Competition {
         signals_(train),
         screening_data_(train),
         repeats_(repeats_of(train)),
-        witnesses_(witnesses),
+        witness_(witness),
         stops_(train_, signals_, structures_, result_.resting, options_.false_alarm),
-        nameless_(train_, signals_, hypotheses_, structures_, stops_, witnesses_, system_options(),
+        nameless_(train_, signals_, hypotheses_, structures_, stops_, witness_, system_options(),
                   options_.false_alarm, result_),
         likely_(train_, signals_, hypotheses_, scales_, result_,
                 [this](const EffectInstance& effect) { return with(effect); }) {}
@@ -61,7 +60,6 @@ class Competition {
     result_.base = result_.fit = fit({});
     for (int round = 0;; ++round) {
       measure_noise();
-      contradicted_forms_.clear();
       const EvidenceSystem system = model_system();
       const std::string stage = round == 0 ? "structure beside the model"
                                            : "structure beside the model and what was found";
@@ -70,6 +68,10 @@ class Competition {
                  round == 0 ? nullptr : &result_.first, [&](double done) { tell(stage, done); });
       if (round == 0) result_.first = screening;
       result_.last = screening;
+      if (round == 0 && options_.rests && options_.until_rest) {
+        result_.resting = stops_.strongest(screening);
+        if (!result_.resting.empty()) return std::move(result_);
+      }
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
       const bool named = result_.noise.from_periods ? next_winner(system, screening)
                                                     : next_likely(system, screening);
@@ -238,7 +240,7 @@ class Competition {
   /// Whether what has no name explains more on the same joint: an effect that its file rules out,
   /// since the structure is something else then, of that form; or a function of the motion.
   [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,
-                             const Screening& screening) {
+                             const Screening& screening) const {
     const std::vector<int> own = joints_of_hypothesis(named.hypothesis);
     const auto is_own = [&](int joint) {
       return std::find(own.begin(), own.end(), joint) != own.end();
@@ -250,8 +252,7 @@ class Competition {
           if (net(named) >= net(other) - kOutdone) return false;
           const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
           return std::any_of(joints.begin(), joints.end(), is_own) &&
-                 !stops_.hide(system, screening, hypotheses_[other.hypothesis], other) &&
-                 !is_contradicted_form(other, system);
+                 !stops_.hide(system, screening, hypotheses_[other.hypothesis], other);
         });
     if (by_form) return true;
     // shapes of a strong effect are not quite found yet
@@ -263,27 +264,6 @@ class Competition {
                                 is_own(structure.joint) && !stops_.rests(structure.joint) &&
                                 net_of(structure, generic.score, result_.noise) > much;
                        });
-  }
-
-  /// Whether a witness contradicts the form of an effect that its file rules out.
-  bool is_contradicted_form(const NamedResult& ruled_out, const EvidenceSystem& system) {
-    const auto known = contradicted_forms_.find(ruled_out.hypothesis);
-    if (known != contradicted_forms_.end()) return known->second;
-    const bool contradicted = nameless_.is_contradicted(ruled_out, system);
-    contradicted_forms_[ruled_out.hypothesis] = contradicted;
-    return contradicted;
-  }
-
-  /// Results of a round without forms that a witness contradicts: those are no rivals.
-  std::vector<NamedResult> without_contradicted(std::vector<NamedResult> all) {
-    if (!result_.noise.from_periods) return all;
-    const EvidenceSystem system = system_beside(result_.fit.point);
-    for (NamedResult& each : all) {
-      if (!each.seen || each.freest.admissible) continue;
-      const NamedResult form = without_conditions(each);
-      if (net(form) > 0 && is_contradicted_form(form, system)) each.seen = false;
-    }
-    return all;
   }
 
   /// An effect that is more than noise and helps on held-out recordings, but has more parameters
@@ -322,15 +302,6 @@ class Competition {
     });
   }
 
-  /// The model at a point with what was found, without surrogates.
-  EvidenceSystem system_beside(const EffectPoint& point) {
-    EvidenceSystem::Options options = system_options();
-    options.surrogates = 0;
-    EvidenceSystem system = system_at(train_, signals_, point, found(), result_.noise, options);
-    add_nameless(train_, signals_, result_, system);
-    return system;
-  }
-
   /// The model beside white noise.
   EvidenceSystem white_system() {
     TorqueNoiseModel white = result_.noise;
@@ -353,7 +324,10 @@ class Competition {
     std::vector<EffectInstance> all = effects();
     all.push_back(named.best.effect);
     const EffectPoint beside = without(fit(all).point, all.size() - 1);
-    const EvidenceSystem system = system_beside(beside);
+    EvidenceSystem::Options options = system_options();
+    options.surrogates = 0;
+    EvidenceSystem system = system_at(train_, signals_, beside, found(), result_.noise, options);
+    add_nameless(train_, signals_, result_, system);
     NamedResult best = named;
     bool first = true;
     std::size_t tried = 0;
@@ -420,17 +394,14 @@ class Competition {
   }
 
   /// @param point  a fit with the winners and, as its last, the effect
-  [[nodiscard]] bool contradicted(const NamedResult& named, const EffectPoint& point) const {
-    return std::any_of(witnesses_.begin(), witnesses_.end(), [&](const auto& witness) {
-      return witness->contradicts(hypotheses_, result_, hypotheses_[named.hypothesis], point,
-                                  named.best.score.squares, system_options());
-    });
+  bool contradicted(const Hypothesis& hypothesis, const EffectPoint& point) {
+    return witness_.contradicts(hypotheses_, result_, hypothesis, point, system_options());
   }
 
-  /// Keeps an effect that no witness contradicts and held-out recordings speak for, or,
+  /// Keeps an effect that the witness does not contradict and held-out recordings speak for, or,
   /// of one beyond doubt, agree with; an event is not in them and must only not harm them.
   bool keep(const NamedResult& named, const Screening& screening, EffectFit next) {
-    if (result_.noise.from_periods && contradicted(named, next.point)) {
+    if (result_.noise.from_periods && contradicted(hypotheses_[named.hypothesis], next.point)) {
       return false;
     }
     const HeldoutProof proof = proof_of(next);
@@ -445,7 +416,7 @@ class Competition {
     winner.at_stops = at_stops_;
     winner.heldout_before = proof.before;
     winner.heldout_after = proof.after;
-    winner.others = without_contradicted(screening.named);
+    winner.others = screening.named;
     winner.generic = screening.generic;
     result_.winners.push_back(std::move(winner));
     result_.fit = std::move(next);
@@ -483,10 +454,9 @@ class Competition {
   EffectSignals signals_;
   ScreeningData screening_data_;
   std::vector<double> repeats_;
-  const Witnesses& witnesses_;
-  std::map<std::size_t, bool> contradicted_forms_;  // of this round, by hypothesis
-  std::optional<Doubt> doubt_;                      // of this round
-  bool at_stops_ = false;                           // of the effect that is fitted
+  Witness& witness_;
+  std::optional<Doubt> doubt_;  // of this round
+  bool at_stops_ = false;       // of the effect that is fitted
   CompetitionResult result_;
   Stops stops_;
   NamelessSearch nameless_;
@@ -495,11 +465,11 @@ class Competition {
 
 }  // namespace
 
-CompetitionResult compete(const EffectRecordings& train, const Witnesses& witnesses,
+CompetitionResult compete(const EffectRecordings& train, Witness& witness,
                           const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options, const CompetitionProgress& progress) {
-  return Competition(train, witnesses, heldout, hypotheses, options, progress).run();
+  return Competition(train, witness, heldout, hypotheses, options, progress).run();
 }
 
 }  // namespace dyngen::runtime

@@ -18,16 +18,19 @@ struct CompetitionOptions {
   bool with_regressor = true;
   /// Whether it ends as soon as a joint is found to rest.
   bool until_rest = false;
+  /// Whether joints of this robot are known to rest: then another one does wherever impulses at its
+  /// reversals are its strongest structure, and that is looked for first.
+  bool rests = false;
 };
 
 using CompetitionProgress = std::function<void(const std::string& stage, double done)>;
 
 /// Round by round: everything is tested beside the model with what was found before; the best
 /// effect is fitted together with all of it and stays if noise alone would hardly have given it and
-/// it is proved on held-out recordings and, where motions repeat, no witness contradicts it. At the
-/// end each winner is tested again beside all others.
-/// @param witnesses  of the same recordings as `train`
-CompetitionResult compete(const EffectRecordings& train, const Witnesses& witnesses,
+/// it is proved on held-out recordings and, where motions repeat, the witness does not contradict
+/// it. At the end each winner is tested again beside all others.
+/// @param witness  of the same recordings as `train`
+CompetitionResult compete(const EffectRecordings& train, Witness& witness,
                           const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options,

@@ -103,26 +103,37 @@ class Diagnostician {
     if (progress_) progress_(stage, done);
   }
 
-  /// As soon as a joint is found to rest, everything is looked at again beside its rests.
+  /// As soon as joints are found to rest, everything is looked at again beside their rests.
   void compete(CompetitionOptions settings) {
-    const auto result = [&] {
-      return runtime::compete(views_.train, views_.witnesses(), views_.proof, hypotheses_, settings,
-                              progress_);
-    };
     settings.until_rest = true;
-    result_ = result();
-    if (result_.resting.empty()) return;
-    std::vector<int> joints;
-    for (const RestingJoint& resting : result_.resting) joints.push_back(resting.joint);
-    const ViewOptions beside = beside_rests(seen_, parts_.train, std::move(joints));
-    Views views = views_of(input_, parts_, beside);
-    if (least_counted(views.train) >= kLeastCounted) {
-      seen_ = beside;
-      whole_ = Whole{std::move(views_.train), std::move(views_.heldout)};
-      views_ = std::move(views);
+    for (;;) {
+      Witness slow(views_.slow);
+      result_ =
+          runtime::compete(views_.train, slow, views_.proof, hypotheses_, settings, progress_);
+      if (!settings.until_rest || result_.resting.empty()) return;
+      // where that would leave too little, impulses at their reversals are left out instead
+      settings.until_rest = look_beside(result_.resting);
+      settings.rests = true;
     }
-    settings.until_rest = false;
-    result_ = result();
+  }
+
+  /// @return whether equations were left out that had not been before
+  bool look_beside(const std::vector<RestingJoint>& found) {
+    std::vector<int> joints = seen_.resting;
+    for (const RestingJoint& resting : found) {
+      if (std::find(joints.begin(), joints.end(), resting.joint) == joints.end()) {
+        joints.push_back(resting.joint);
+      }
+    }
+    if (joints.size() == seen_.resting.size()) return false;
+    const ViewOptions beside =
+        beside_rests({diagnosis_rows(parts_.train, options_.decimation), {}}, parts_.train, joints);
+    Views views = views_of(input_, parts_, beside);
+    if (least_counted(views.train) < kLeastCounted) return false;
+    if (!whole_) whole_ = Whole{std::move(views_.train), std::move(views_.heldout)};
+    seen_ = beside;
+    views_ = std::move(views);
+    return true;
   }
 
   /// Whether there are samples enough to test anything.

@@ -106,31 +106,12 @@ bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screenin
   if (!strongest) return false;
   const std::vector<int> joints = joints_of_hypothesis(strongest->hypothesis);
   if (strongest->surprise < structure_surprise(screening, joints)) return false;
-  return add(as_nameless(*strongest), system);
-}
-
-Nameless NamelessSearch::as_nameless(const NamedResult& ruled_out) const {
   Nameless nameless;
-  nameless.structure.joint = joints_of_hypothesis(ruled_out.hypothesis).front();
-  nameless.surprise = ruled_out.surprise;
-  nameless.ruled_out = ruled_out.best.effect;
-  nameless.objection = ruled_out.best.objection;
-  return nameless;
-}
-
-bool NamelessSearch::is_contradicted(const NamedResult& ruled_out,
-                                     const EvidenceSystem& system) const {
-  Nameless nameless = as_nameless(ruled_out);
-  nameless.score = score_of(
-      system.products(system.whitened(nameless_columns(data_, signals_, nameless)), false), false);
-  return is_contradicted(nameless);
-}
-
-bool NamelessSearch::is_contradicted(const Nameless& nameless) const {
-  return result_.noise.from_periods &&
-         std::any_of(witnesses_.begin(), witnesses_.end(), [&](const auto& witness) {
-           return witness->contradicts(hypotheses_, result_, nameless, options_);
-         });
+  nameless.structure.joint = joints.front();
+  nameless.surprise = strongest->surprise;
+  nameless.ruled_out = strongest->best.effect;
+  nameless.objection = strongest->best.objection;
+  return add(std::move(nameless), system);
 }
 
 bool NamelessSearch::describe(const GenericResult& generic, const EvidenceSystem& system,
@@ -150,7 +131,10 @@ bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system) {
   nameless.score = score_of(system.products(white, false), false);
   const auto own = std::find(plain.joints.begin(), plain.joints.end(), joint);
   const auto place = static_cast<std::size_t>(own - plain.joints.begin());
-  if (is_contradicted(nameless)) return false;
+  if (result_.noise.from_periods &&
+      witness_.contradicts(hypotheses_, result_, nameless, options_)) {
+    return false;
+  }
   const VectorXd& size = nameless.score.coefficients;
   // of the torque as much as the model does not absorb of its whitened squares
   const double left = (system.left_of(white, joint) * size).squaredNorm();

@@ -18,14 +18,14 @@ class NamelessSearch {
   NamelessSearch(const EffectRecordings& data, EffectSignals& signals,
                  const std::vector<Hypothesis>& hypotheses,
                  const std::vector<GenericStructure>& structures, const Stops& stops,
-                 const Witnesses& witnesses, const EvidenceSystem::Options& options,
-                 double false_alarm, CompetitionResult& result)
+                 Witness& witness, const EvidenceSystem::Options& options, double false_alarm,
+                 CompetitionResult& result)
       : data_(data),
         signals_(signals),
         hypotheses_(hypotheses),
         structures_(structures),
         stops_(stops),
-        witnesses_(witnesses),
+        witness_(witness),
         options_(options),
         false_alarm_(false_alarm),
         result_(result) {}
@@ -35,13 +35,9 @@ class NamelessSearch {
   bool next(const EvidenceSystem& system, const Screening& screening);
 
   /// Generic structure that `costly` would explain, for more parameters than the data pay for.
-  /// @return false if a witness contradicts it
+  /// @return false if the witness contradicts it
   bool describe(const GenericResult& generic, const EvidenceSystem& system,
                 const std::string& costly);
-
-  /// Whether a witness contradicts structure of the form of an effect that is ruled out.
-  [[nodiscard]] bool is_contradicted(const NamedResult& ruled_out,
-                                     const EvidenceSystem& system) const;
 
   /// Whether structure may be said to be there although nothing that is held out speaks for it.
   [[nodiscard]] bool sure(const Screening& screening, double surprise) const;
@@ -54,8 +50,6 @@ class NamelessSearch {
                                           const std::vector<int>& joints) const;
   [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
   [[nodiscard]] std::vector<const GenericResult*> candidates(const Screening& screening) const;
-  [[nodiscard]] Nameless as_nameless(const NamedResult& ruled_out) const;
-  [[nodiscard]] bool is_contradicted(const Nameless& nameless) const;
   bool add(Nameless nameless, const EvidenceSystem& system);
 
   const EffectRecordings& data_;
@@ -63,7 +57,7 @@ class NamelessSearch {
   const std::vector<Hypothesis>& hypotheses_;
   const std::vector<GenericStructure>& structures_;
   const Stops& stops_;
-  const Witnesses& witnesses_;
+  Witness& witness_;
   EvidenceSystem::Options options_;
   double false_alarm_;
   CompetitionResult& result_;

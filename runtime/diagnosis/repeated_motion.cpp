@@ -14,6 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double kWhole = 0.1;  // samples by which the last period may be off
+constexpr int kRounds = 4;      // of the model's own parameters
 
 /// The mean over all rows of the same phase but the own.
 MatrixXd of_the_others(const MatrixXd& rows, Index period) {
@@ -39,6 +40,20 @@ Motion repeated(Motion run) {
   if (periods.count < 2 || off * periods.count > kWhole) return run;
   for (MatrixXd* rows : {&run.q, &run.dq, &run.ddq}) *rows = of_the_others(*rows, periods.samples);
   return run;
+}
+
+/// @param repeated  as it was made  @param left  gets its torque
+void leave_as_at(const RowBlock& repeated, const RowBlock& own, const Eigen::VectorXd& beta,
+                 RowBlock& left) {
+  for (Index j = 0; j < own.tau.cols(); ++j) {
+    const auto Y = [&](const RowBlock& rows) {
+      return rows.Y.middleCols(j * beta.size(), beta.size());
+    };
+    const Eigen::VectorXd both = repeated.counted.col(j).cwiseProduct(own.counted.col(j));
+    left.counted.col(j) = both;
+    left.tau.col(j) = both.cwiseProduct(own.tau.col(j) + (Y(repeated) - Y(own)) * beta);
+    left.Y.middleCols(j * beta.size(), beta.size()) = both.asDiagonal() * Y(repeated);
+  }
 }
 
 void append(Motion& run, const Motion& piece) {
@@ -76,16 +91,12 @@ MotionSource with_repeated_motion(const MotionSource& source) {
 }
 
 void leave_as_at(EffectRecordings& repeated, const EffectRecordings& own) {
-  const Eigen::VectorXd beta = fit_effects(own, {}).point.beta;
-  for (std::size_t run = 0; run < own.runs.size(); ++run) {
-    RowBlock& rows = repeated.runs[run].rows;
-    const RowBlock& as_recorded = own.runs[run].rows;
-    for (Index j = 0; j < rows.tau.cols(); ++j) {
-      const auto Y = [&](const RowBlock& block) {
-        return block.Y.middleCols(j * beta.size(), beta.size());
-      };
-      const auto both = rows.counted.col(j).cwiseProduct(as_recorded.counted.col(j));
-      rows.tau.col(j) += both.cwiseProduct((Y(rows) - Y(as_recorded)) * beta);
+  Eigen::VectorXd beta = fit_effects(own, {}).point.beta;
+  const EffectRecordings recorded = repeated;
+  for (int round = 0; round < kRounds; ++round) {
+    if (round > 0) beta = fit_effects(repeated, {}).point.beta;
+    for (std::size_t run = 0; run < own.runs.size(); ++run) {
+      leave_as_at(recorded.runs[run].rows, own.runs[run].rows, beta, repeated.runs[run].rows);
     }
   }
 }

@@ -12,9 +12,10 @@ namespace dyngen::runtime {
 /// run that does not repeat, or not after a whole number of samples, stays as it is.
 MotionSource with_repeated_motion(const MotionSource& source);
 
-/// What the model leaves at the own motion becomes what it leaves at the repeated one: noise of the
-/// motion would be in both the columns and what they are held against, as it is at the own motion,
-/// only less.
+/// The torque becomes what the model has at the repeated motion and what it leaves at the own one:
+/// noise of the own motion is in what is left then, and not in the columns. A refit has the
+/// estimate of instrumental variables, as which the repeated motion's regressor serves: found in
+/// rounds, since what is left depends on it. Equations count that do at both.
 /// @param repeated  equations at the mean motion of the other periods  @param own  the same as they
 ///                  are recorded
 void leave_as_at(EffectRecordings& repeated, const EffectRecordings& own);

@@ -119,21 +119,29 @@ std::vector<RestingJoint> Stops::resting(const EvidenceSystem& system, const Scr
     const double surprise = surprise_of(left.squares, left.degrees);
     if (screening.family_wise(surprise) <= false_alarm_) return {};
   }
-  const auto found = [&](int joint) {
-    return RestingJoint{joint, impulses_at(screening, joint)->score.squares};
-  };
-  std::vector<RestingJoint> joints = {found(structure.joint)};
+  std::vector<RestingJoint> joints = {found(screening, structure.joint)};
+  for (const RestingJoint& other : strongest(screening)) {
+    if (other.joint != structure.joint) joints.push_back(other);
+  }
+  return joints;
+}
+
+std::vector<RestingJoint> Stops::strongest(const Screening& screening) const {
+  std::vector<RestingJoint> joints;
   for (int j = 0; j < data_.joints(); ++j) {
     const double impulses = impulses_of(screening, j);
-    if (j == structure.joint || rests(j)) continue;
-    if (screening.family_wise(impulses) > false_alarm_) continue;
+    if (rests(j) || screening.family_wise(impulses) > false_alarm_) continue;
     const bool strongest = std::all_of(
         screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
           return structures_[generic.structure].joint != j || generic.surprise <= impulses;
         });
-    if (strongest) joints.push_back(found(j));
+    if (strongest) joints.push_back(found(screening, j));
   }
   return joints;
+}
+
+RestingJoint Stops::found(const Screening& screening, int joint) const {
+  return {joint, impulses_at(screening, joint)->score.squares};
 }
 
 }  // namespace dyngen::runtime

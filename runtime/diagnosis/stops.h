@@ -64,10 +64,13 @@ class Stops {
   [[nodiscard]] std::vector<RestingJoint> resting(const EvidenceSystem& system,
                                                   const Screening& screening,
                                                   const GenericStructure& structure) const;
+  /// Joints, besides those that rest already, where impulses are the strongest structure.
+  [[nodiscard]] std::vector<RestingJoint> strongest(const Screening& screening) const;
 
  private:
   [[nodiscard]] const GenericResult* impulses_at(const Screening& screening, int joint) const;
   [[nodiscard]] double impulses_of(const Screening& screening, int joint) const;
+  [[nodiscard]] RestingJoint found(const Screening& screening, int joint) const;
   [[nodiscard]] bool significant(double surprise) const;
 
   const EffectRecordings& data_;

@@ -11,8 +11,8 @@ namespace {
 
 /// Below this part of its squares nothing is left of an effect but rounding and interpolation.
 constexpr double kNothingLeft = 1e-6;
-/// Columns that are made of the model's torque are its equations, but made at all samples: less than
-/// 5e-4 was left of them on simulated recordings.
+/// Columns that are made of the model's torque are its equations, but made at all samples: less
+/// than 5e-4 was left of them on simulated recordings.
 constexpr double kTorqueLeft = 1e-3;
 
 bool reads_torque(const EffectLaw& law) {

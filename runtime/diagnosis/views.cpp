@@ -2,11 +2,11 @@
 #include "runtime/diagnosis/views.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "runtime/diagnosis/left_out_rows.h"
 #include "runtime/diagnosis/repeated_motion.h"
+#include "runtime/diagnosis/repeated_rounding.h"
 #include "runtime/evidence/joint_columns.h"
 
 namespace dyngen::runtime {
@@ -22,7 +22,7 @@ constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as m
 constexpr double kJolts = 50;  // Hz, of jolts: a joint state of at least this cut-off has them
 constexpr double kHighest = 0.2;         // of the sampling frequency: a cut-off
 constexpr double kBesideJolts = 0.4;     // of the cut-off: what is slower is not damped at all
-constexpr double kBesideNoise = 0.3;     // of a cut-off that is quicker than motion is seen to be
+constexpr double kBesideNoise = 0.5;     // of a cut-off that is quicker than motion is seen to be
 constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
 
 RowOptions slower(RowOptions rows) {
@@ -49,8 +49,8 @@ std::vector<MotionSource> seen(const std::vector<MotionSource>& sources,
                                const ViewOptions& options) {
   std::vector<MotionSource> result;
   for (const MotionSource& source : sources) {
-    const double hz = options.resting.empty() ? source.cutoff.hz : quick_cutoff(source);
-    result.push_back(hz > source.cutoff.hz ? source.with_cutoff(hz) : source);
+    const double hz = quick_cutoff(source);
+    result.push_back(options.quick && hz > source.cutoff.hz ? source.with_cutoff(hz) : source);
   }
   return result;
 }
@@ -94,17 +94,19 @@ RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Index decimati
 
 ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
                          std::vector<int> resting) {
-  RowOptions rows = options.rows;
-  rows.band = kBesideJolts;
-  rows.multiple = kThinnedSamples / 2;
+  ViewOptions beside = options;
+  beside.resting = std::move(resting);
+  beside.quick = std::none_of(train.begin(), train.end(), repeats_rounding);
+  beside.rows.band = kBesideJolts;
+  beside.rows.multiple = kThinnedSamples / 2;
   std::vector<double> times;
   for (const MotionSource& source : train) {
-    const double band =
-        std::max(kBesideJolts * source.cutoff.hz, kBesideNoise * quick_cutoff(source));
+    double band = kBesideJolts * source.cutoff.hz;
+    if (beside.quick) band = std::max(band, kBesideNoise * quick_cutoff(source));
     times.push_back(0.5 / band);
   }
-  rows.row_time = median(std::move(times));
-  return {rows, std::move(resting)};
+  beside.rows.row_time = median(std::move(times));
+  return beside;
 }
 
 double least_counted(const EffectRecordings& data) {
@@ -118,24 +120,21 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
   return equations(input, seen(sources, options), options);
 }
 
-Witnesses Views::witnesses() const {
-  Witnesses all;
-  all.push_back(std::make_unique<Witness>(slow, Witness::Kind::kSlow));
-  all.push_back(std::make_unique<Witness>(repeated, Witness::Kind::kRepeated));
-  return all;
-}
-
 Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options) {
-  const auto of = [&](const std::vector<MotionSource>& sources, const ViewOptions& own) {
-    return thinned(equations(input, sources, own), kLongestSample);
-  };
   const std::vector<MotionSource> train = seen(parts.train, options);
-  Views views{of(train, options),
-              equations_of(input, parts.heldout, options),
-              {},
-              of(train, {slower(options.rows), options.resting}),
-              of(with_repeated_motion(train), options)};
-  leave_as_at(views.repeated, views.train);
+  const std::vector<MotionSource> others = with_repeated_motion(train);
+  const auto instrumental = [&](const ViewOptions& own) {
+    const auto of = [&](const std::vector<MotionSource>& sources) {
+      return thinned(equations(input, sources, own), kLongestSample);
+    };
+    EffectRecordings data = of(others);
+    leave_as_at(data, of(train));
+    return data;
+  };
+  Views views;
+  views.train = instrumental(options);
+  views.slow = instrumental({slower(options.rows), options.resting, options.quick});
+  views.heldout = equations_of(input, parts.heldout, options);
   for (EffectRun& run : views.heldout.runs) run.recording = -1;
   views.proof = views.heldout;
   leave_out_unvisited(views.proof, views.train);

@@ -5,7 +5,6 @@
 
 #include "runtime/diagnosis/diagnosis.h"
 #include "runtime/diagnosis/division.h"
-#include "runtime/diagnosis/witness.h"
 
 namespace dyngen::runtime {
 
@@ -14,12 +13,15 @@ struct ViewOptions {
   RowOptions rows;
   /// Joints, from 0, that rest for an instant where they turn, and have no equations there.
   std::vector<int> resting;
+  /// Whether the joint state passes as quick a filter as can be.
+  bool quick = false;
 };
 
 /// The view of recordings whose joints, as was found, rest. Where friction holds a joint it has any
 /// torque up to its own: equations there are left out. What lets go jolts the arm, and of jolts a
 /// slow joint state is not the state: it passes a filter that is as quick as can be, and the
-/// equations a much slower one, so that what noise is in it does not reach them.
+/// equations a much slower one, so that what noise is in it does not reach them. Where periods show
+/// the same digits again the state stays slow: no other motion tells such rounding from physics.
 /// @param train  recordings that the model is fitted to
 ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
                          std::vector<int> resting);
@@ -31,16 +33,14 @@ double least_counted(const EffectRecordings& data);
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
                               const ViewOptions& options);
 
-/// The recordings of a diagnosis as its competition reads them.
+/// The recordings of a diagnosis as its competition reads them. Where the motion of fitted ones
+/// repeats, columns are made of the mean motion of the other periods, and held against what the
+/// model leaves at the own: noise of positions is in what is left as well as in columns of the same
+/// motion, where it looks like physics (instrumental variables; Janot, Vandanjon and Gautier 2014).
 struct Views {
   EffectRecordings train, heldout;
   EffectRecordings proof;  ///< what is held out, where the fitted recordings have been
-  /// The fitted ones again, as witnesses: in half the band, and at the mean motion of the other
-  /// periods.
-  EffectRecordings slow, repeated;
-
-  /// All must outlive them.
-  [[nodiscard]] Witnesses witnesses() const;
+  EffectRecordings slow;   ///< the fitted ones again, in half the band: the witness
 };
 Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options);
 

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kChance = 1e-3;  // that what is there is contradicted
 constexpr double kPart = 0.25;    // of its squares: half of its size
-constexpr double kSeen = 0.4;     // of its squares, at the motion of the other periods
 
 bool is_linear(const Hypothesis& hypothesis) {
   return !hypothesis.windowed &&
@@ -30,13 +29,8 @@ bool wants_other(const Products& products, double said) {
 
 }  // namespace
 
-Witness::Witness(const EffectRecordings& data, Kind kind)
-    : data_(data), kind_(kind), signals_(data), repeats_(repeats_of(data)) {}
-
-/// Whether it sees too little of what was explained.
-bool Witness::misses(double seen, double squares) const {
-  return kind_ == Kind::kRepeated && seen < kSeen * squares;
-}
+Witness::Witness(const EffectRecordings& data)
+    : data_(data), signals_(data), repeats_(repeats_of(data)) {}
 
 EvidenceSystem Witness::system(const std::vector<Hypothesis>& hypotheses,
                                const CompetitionResult& result, const EffectPoint& point,
@@ -53,19 +47,15 @@ EvidenceSystem Witness::system(const std::vector<Hypothesis>& hypotheses,
 
 bool Witness::contradicts(const std::vector<Hypothesis>& hypotheses,
                           const CompetitionResult& result, const Hypothesis& hypothesis,
-                          const EffectPoint& point, double squares,
-                          EvidenceSystem::Options options) {
-  if (hypothesis.windowed) return false;
+                          const EffectPoint& point, EvidenceSystem::Options options) {
+  if (!is_linear(hypothesis)) return false;
   const EvidenceSystem own = system(hypotheses, result, point, options);
   const EffectInstance& effect = point.effects.back();
   const Products whole =
       own.products(own.whitened(effect_columns(data_, signals_, effect, {0})), false);
-  const double said = whole.left.trace();
-  if (said > 0 && misses(std::pow(whole.rest[0] + said, 2) / said, squares)) return true;
-  return is_linear(hypothesis) &&
-         wants_other(
-             own.products(hypothesis_columns(data_, signals_, own, hypothesis, effect), false),
-             said);
+  return wants_other(
+      own.products(hypothesis_columns(data_, signals_, own, hypothesis, effect), false),
+      whole.left.trace());
 }
 
 bool Witness::contradicts(const std::vector<Hypothesis>& hypotheses,
@@ -76,7 +66,6 @@ bool Witness::contradicts(const std::vector<Hypothesis>& hypotheses,
       own.products(own.whitened(nameless_columns(data_, signals_, nameless)), false);
   const Eigen::VectorXd& size = nameless.score.coefficients;
   if (size.size() != products.rest.size()) return false;
-  if (misses(score_of(products, false).squares, nameless.score.squares)) return true;
   const Eigen::VectorXd as_said = products.left * size;
   products.rest -= as_said;
   return wants_other(products, size.dot(as_said));

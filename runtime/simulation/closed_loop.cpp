@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -19,7 +20,8 @@ using Eigen::VectorXd;
 /// What the controller knows of the robot's state.
 class Sensors {
  public:
-  Sensors(const ClosedLoopOptions& options, const StartState& start) : step_(options.encoder_step) {
+  Sensors(const ClosedLoopOptions& options, const StartState& start)
+      : step_(options.encoder_step), noise_(options.encoder_noise), random_(options.seed + kSeed) {
     q = rounded(start.q);
     dq = start.dq;
     if (options.velocity_cutoff_hz > 0) {
@@ -36,14 +38,21 @@ class Sensors {
   VectorXd q, dq;
 
  private:
-  [[nodiscard]] VectorXd rounded(VectorXd position) const {
+  static constexpr std::uint64_t kSeed = 1000003;  // other numbers than the torque noise has
+
+  VectorXd rounded(VectorXd position) {
     for (Index j = 0; j < step_.size(); ++j) {
-      if (step_[j] > 0) position[j] = step_[j] * std::round(position[j] / step_[j]);
+      if (step_[j] == 0) continue;
+      const double noise = noise_ > 0 ? noise_ * normal_(random_) : 0;
+      position[j] = step_[j] * std::round(position[j] / step_[j] + noise);
     }
     return position;
   }
 
   VectorXd step_;
+  double noise_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
   std::optional<VelocityFilter> filter_;
 };
 
@@ -208,6 +217,7 @@ void ClosedLoopOptions::validate(int joints) const {
     }
   };
   not_negative("delay", delay);
+  not_negative("encoder_noise", encoder_noise);
   not_negative("duration", duration);
   not_negative("velocity_cutoff_hz", velocity_cutoff_hz);
   if (encoder_step.size() != 0 && (encoder_step.size() != joints || !encoder_step.allFinite() ||

@@ -24,7 +24,10 @@ struct ClosedLoopOptions {
   double delay = 0;                ///< s, from a sample to its torque at the joints
   double duration = 0;             ///< s; 0: as long as the trajectory
   Eigen::VectorXd encoder_step{};  ///< (n) rad or m, positions are rounded to it; empty or 0: exact
-  double velocity_cutoff_hz = 0;   ///< Hz, of VelocityFilter behind the encoder; 0: exact velocity
+  /// Standard deviation of white noise in the positions before they are rounded, in encoder steps:
+  /// 0: the same motion shows the same digits again, which hardly any real drive does.
+  double encoder_noise = 0;
+  double velocity_cutoff_hz = 0;  ///< Hz, of VelocityFilter behind the encoder; 0: exact velocity
   TorqueNoiseOptions torque_noise{};  ///< of the recorded torque; the drive's has none
   std::uint64_t seed = 1;
   IntegrationOptions integration{};

@@ -175,9 +175,23 @@ class Simulation {
     return first;
   }
 
+  /// What has just let go and would turn at once is held through this step: letting go with a
+  /// velocity of 0 that becomes one of the other direction, it would be pushed by its friction.
+  bool hold_on(const Moment& next) {
+    bool held = false;
+    for (std::size_t e = 0; e < slip_.size(); ++e) {
+      if (slip_[e] == 0 || slip_[e] * speed(e) > 0) continue;
+      if (slip_[e] * plant_.friction[e].along.dot(next.v) >= 0) continue;
+      stop(e);
+      held = true;
+    }
+    return held;
+  }
+
   void take(double h) {
     for (int events = 0; h > 1e-12 && events < kEventsAStep; ++events) {
       Moment next = stepped(h);
+      while (hold_on(next)) next = stepped(h);
       auto [turned, share] = first_turn(next);
       double taken = h;
       for (int round = 0; turned < slip_.size() && round < 4; ++round) {

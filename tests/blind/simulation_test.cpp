@@ -116,6 +116,23 @@ TEST(Simulation, HasTheWantedStrength) {
   ASSERT_EQ(made->heldout_oracle.size(), made->heldout_base.size());
 }
 
+// Arms that come to rest under a noisy encoder let go and hold on again.
+TEST(Simulation, FrictionNeverPushes) {
+  for (const std::uint64_t seed : {2605200, 4, 5}) {
+    CaseOptions options;
+    options.arm = "twisted4";
+    options.seed = seed;
+    const auto made = make_case(options, kArms);
+    ASSERT_TRUE(made) << seed;
+    for (const auto* part : {&made->training, &made->heldout}) {
+      for (const Recording& each : *part) {
+        const Eigen::ArrayXXd along = each.log.sign.array() * each.log.dq.array();
+        EXPECT_GT(along.minCoeff(), -1e-6) << seed;
+      }
+    }
+  }
+}
+
 TEST(Simulation, IsTheSameTwice) {
   CaseOptions options;
   options.seed = 11;

@@ -22,7 +22,10 @@ using runtime::EffectRecordings;
 
 constexpr std::array<const char*, 6> kKindNames = {"null",    "single",  "pair",
                                                    "theorem", "unknown", "time_local"};
-constexpr std::array<const char*, 4> kNoiseNames = {"white", "mixed", "slow", "closed_loop"};
+constexpr std::array<const char*, 5> kNoiseNames = {"white", "mixed", "slow", "closed_loop",
+                                                    "rounded_loop"};
+constexpr std::uint64_t kInTurn = 4;   // noises
+constexpr double kEncoderNoise = 0.5;  // of the last digit, in a loop
 
 template <class Names>
 std::size_t place_of(const Names& names, const std::string& name, const char* what) {
@@ -65,7 +68,8 @@ CaseSettings drawn_settings(const CaseRequest& request, CaseNoise noise, std::mt
   settings.rate = std::array<double, 3>{250, 400, 500}[random() % 3];
   settings.period = std::array<double, 4>{5, 6, 8, 10}[random() % 4];
   settings.periods = 4 + static_cast<int>(random() % 2);
-  settings.closed_loop = noise == CaseNoise::kClosedLoop;
+  settings.closed_loop = noise == CaseNoise::kClosedLoop || noise == CaseNoise::kRoundedLoop;
+  settings.encoder_noise = noise == CaseNoise::kClosedLoop ? kEncoderNoise : 0;
   settings.encoder_bits = settings.closed_loop ? 14 + static_cast<int>(random() % 7) : 20;
   settings.bandwidth = 3 + 3 * unit(random);
   settings.temperature = random() % 2 == 0;
@@ -117,7 +121,7 @@ DiagnosisCase make_case(const CaseRequest& request, bool with_likeness) {
   result.request = request;
   // a quarter of the cases each, whatever else the seed decides
   result.noise_kind =
-      request.noise ? *request.noise : static_cast<CaseNoise>((request.seed / 3) % 4);
+      request.noise ? *request.noise : static_cast<CaseNoise>((request.seed / 3) % kInTurn);
   result.settings = drawn_settings(request, result.noise_kind, random);
   result.robot = case_robot(request.robot, random);
   const CaseSettings& settings = result.settings;

@@ -161,6 +161,7 @@ CaseMotion controlled(const CaseRobot& robot, const CaseSettings& settings,
   runtime::ClosedLoopOptions loop;
   loop.rate = settings.rate;
   loop.encoder_step = VectorXd::Constant(n, step_of(settings));
+  loop.encoder_noise = settings.encoder_noise;
   loop.velocity_cutoff_hz = 40;
   loop.seed = seed;
   loop.integration.tolerance = 1e-8;

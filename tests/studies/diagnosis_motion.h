@@ -18,8 +18,9 @@ struct CaseSettings {
   int periods = 5;    ///< of each training recording
   double heldout_seconds = 15;
   bool closed_loop = false;
-  int encoder_bits = 20;  ///< of a turn of the joint
-  double bandwidth = 4;   ///< Hz, of the controller
+  int encoder_bits = 20;     ///< of a turn of the joint
+  double encoder_noise = 0;  ///< steps of the encoder, in a loop
+  double bandwidth = 4;      ///< Hz, of the controller
   bool temperature = false;
 
   [[nodiscard]] double train_seconds() const { return period * periods; }

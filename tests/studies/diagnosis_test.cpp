@@ -64,8 +64,8 @@ TEST(Cases, ComeAgainFromTheirSeed) {
 
 /// Without effects the truth leaves noise of the size that was put in, in open and closed loop.
 TEST(Nulls, LeaveTheNoiseAlone) {
-  for (const CaseNoise noise :
-       {CaseNoise::kWhite, CaseNoise::kMixed, CaseNoise::kSlow, CaseNoise::kClosedLoop}) {
+  for (const CaseNoise noise : {CaseNoise::kWhite, CaseNoise::kMixed, CaseNoise::kSlow,
+                                CaseNoise::kClosedLoop, CaseNoise::kRoundedLoop}) {
     const DiagnosisCase own = make_case(
         {.kind = CaseKind::kNull, .seed = 5, .robot = "planar2", .noise = noise, .family = ""});
     const runtime::EffectRecordings data = equations(own);

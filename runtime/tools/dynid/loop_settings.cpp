@@ -32,6 +32,11 @@ std::vector<CLI::Option*> add_loop_settings(CLI::App& command, LoopSettings& set
           ->allow_extra_args(false)
           ->check(CLI::NonNegativeNumber)
           ->capture_default_str());
+  all.push_back(command
+                    .add_option("--encoder-noise", settings.encoder_noise,
+                                "steps of --encoder: white noise before it rounds")
+                    ->check(CLI::NonNegativeNumber)
+                    ->capture_default_str());
   all.push_back(
       command
           .add_option("--velocity-cutoff", settings.velocity_cutoff,

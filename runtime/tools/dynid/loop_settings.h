@@ -19,6 +19,7 @@ struct LoopSettings {
   double bandwidth = 3;               ///< Hz
   double damping = 1;                 ///< ratio
   std::vector<double> encoder = {0};  ///< rad or m
+  double encoder_noise = 0;           ///< encoder steps
   double velocity_cutoff = 0;         ///< Hz; 0: exact
   double delay = 0;                   ///< s
   std::string friction = "auto";      ///< on, off, auto: on where the law has a model

@@ -78,6 +78,7 @@ ClosedLoopOptions loop_options(const LoopSettings& settings, int joints) {
   loop.rate = loop.continuous ? LoopSettings::kContinuousRecordRate : settings.rate;
   loop.delay = settings.delay;
   loop.encoder_step = per_joint("--encoder", settings.encoder, joints);
+  loop.encoder_noise = settings.encoder_noise;
   loop.velocity_cutoff_hz = settings.velocity_cutoff;
   loop.integration.tolerance = settings.tolerance;
   return loop;

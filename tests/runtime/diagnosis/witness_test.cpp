@@ -112,8 +112,8 @@ TEST(Witness, ContradictsWhatIsNotInItsEquations) {
 
   const Nameless nameless = said_of(with, {1, {{StructureVariable::Kind::kPosition, 1}}});
   ASSERT_GT(nameless.score.squares, 60);
-  EXPECT_FALSE(Witness(again, Witness::Kind::kSlow).contradicts({}, result, nameless, {}));
-  EXPECT_TRUE(Witness(without, Witness::Kind::kSlow).contradicts({}, result, nameless, {}));
+  EXPECT_FALSE(Witness(again).contradicts({}, result, nameless, {}));
+  EXPECT_TRUE(Witness(without).contradicts({}, result, nameless, {}));
 
   EffectInstance asked = test::unknown(test::spring_law(), 1);
   const Hypothesis hypothesis =
@@ -121,10 +121,8 @@ TEST(Witness, ContradictsWhatIsNotInItsEquations) {
   EffectPoint point = result.fit.point;
   point.effects = {spring};
   point.effects[0].parameters[0] = 0.4;
-  EXPECT_FALSE(Witness(again, Witness::Kind::kSlow)
-                   .contradicts({hypothesis}, result, hypothesis, point, 0, {}));
-  EXPECT_TRUE(Witness(without, Witness::Kind::kSlow)
-                  .contradicts({hypothesis}, result, hypothesis, point, 0, {}));
+  EXPECT_FALSE(Witness(again).contradicts({hypothesis}, result, hypothesis, point, {}));
+  EXPECT_TRUE(Witness(without).contradicts({hypothesis}, result, hypothesis, point, {}));
 }
 
 }  // namespace

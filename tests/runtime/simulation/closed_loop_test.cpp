@@ -126,6 +126,26 @@ TEST(ClosedLoop, SensorsSeeWhatTheyShould) {
             run.measured.tau);
 }
 
+TEST(ClosedLoop, EncodersHaveNoiseThatTheControllerSees) {
+  const test::NumericRobot robot = test::planar_arm();
+  Controller controller = computed_torque(robot, true);
+  ClosedLoopOptions options;
+  options.encoder_step = VectorXd::Constant(3, 1e-3);
+  options.encoder_noise = 2;
+  const Trajectory trajectory = test::cosine_trajectory(3, 2, 0.5, 0.5);
+  const ClosedLoopRun run = simulate(test::numeric_plant(robot), controller, trajectory, options);
+  const Eigen::MatrixXd error = run.measured.q - run.truth.q;
+  // rounding adds a twelfth of a step's square
+  const double expected = 1e-3 * std::sqrt(4 + 1.0 / 12);
+  EXPECT_NEAR(std::sqrt(error.squaredNorm() / static_cast<double>(error.size())), expected,
+              0.04 * expected);
+  EXPECT_LT((run.measured.q / 1e-3 - (run.measured.q / 1e-3).array().round().matrix()).norm(),
+            1e-6);
+  options.seed = 7;
+  EXPECT_NE(simulate(test::numeric_plant(robot), controller, trajectory, options).truth.q,
+            run.truth.q);
+}
+
 TEST(ClosedLoop, DelayShiftsTheTorque) {
   // The drive's force is seen in the acceleration of a mass without friction.
   test::NumericRobot mass = test::slide();
@@ -185,6 +205,7 @@ TEST(ClosedLoop, RefusesWhatDoesNotFit) {
   refused({.continuous = true, .velocity_cutoff_hz = 10});
   refused({.delay = -1});
   refused({.encoder_step = VectorXd::Ones(2)});
+  refused({.encoder_noise = -1});
   EXPECT_THROW(simulate(plant, controller, test::cosine_trajectory(2, 1, 0.5, 0.5), {}),
                std::invalid_argument);
   EXPECT_THROW(simulate(test::numeric_plant(test::slide()), controller, trajectory, {}),

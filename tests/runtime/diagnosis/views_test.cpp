@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/views.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "runtime/diagnosis/left_out_rows.h"
+#include "runtime/diagnosis/repeated_motion.h"
+#include "runtime/diagnosis/repeated_rounding.h"
+#include "tests/runtime/diagnosis/arm_diagnosis.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kRate = 500;      // Hz
+constexpr double kDigit = 2e-4;    // rad
+constexpr Index kSamples = 10000;  // five periods
+
+/// Two joints whose encoders round, with noise of some digits before.
+MotionSource rounded(double noise, double cutoff = 0) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  Recording recording;
+  recording.time = VectorXd::LinSpaced(kSamples, 0, (kSamples - 1) / kRate);
+  recording.q.resize(kSamples, 2);
+  recording.tau = Eigen::MatrixXd::Ones(kSamples, 2);
+  for (Index k = 0; k < kSamples; ++k) {
+    const double angle = 2 * std::numbers::pi * recording.time[k] / 4;
+    recording.q.row(k) << std::sin(angle), 0.5 * std::cos(angle) + 0.2 * std::sin(2 * angle);
+    for (Index j = 0; j < 2; ++j) {
+      double& q = recording.q(k, j);
+      q = kDigit * std::round(q / kDigit + noise * normal(random));
+    }
+  }
+  recording.run_starts = {0};
+  MotionOptions options;
+  options.average_periods = false;
+  options.state.cutoff_hz = cutoff;
+  return motion_of(std::move(recording), options);
+}
+
+TEST(RepeatedRounding, IsSeenWherePeriodsShowTheSameDigits) {
+  EXPECT_TRUE(repeats_rounding(rounded(0)));
+  EXPECT_FALSE(repeats_rounding(rounded(0.5)));
+  EXPECT_FALSE(repeats_rounding(part_of(rounded(0), 0, 0.25)));  // a period alone
+}
+
+TEST(BesideRests, TheJointStateIsQuickUnlessRoundingRepeats) {
+  const std::vector<MotionSource> noisy = {rounded(0.5)}, same = {rounded(0)};
+  ASSERT_LT(noisy[0].cutoff.hz, 50);
+  const ViewOptions options{diagnosis_rows(noisy, -1), {}};
+  EXPECT_FALSE(options.quick);
+  const ViewOptions quick = beside_rests(options, noisy, {1});
+  EXPECT_TRUE(quick.quick);
+  EXPECT_EQ(quick.resting, std::vector<int>{1});
+  EXPECT_FALSE(beside_rests(options, same, {1}).quick);
+}
+
+TEST(BesideRests, EquationsAreSlowerThanTheJointState) {
+  const std::vector<MotionSource> noisy = {rounded(0.5)}, same = {rounded(0)};
+  const auto band = [](const std::vector<MotionSource>& sources) {
+    return 0.5 / beside_rests({diagnosis_rows(sources, -1), {}}, sources, {0}).rows.row_time;
+  };
+  EXPECT_NEAR(band(noisy), 0.3 * 50, 1e-9);
+  EXPECT_NEAR(band(same), 0.4 * same[0].cutoff.hz, 1e-9);
+}
+
+TEST(MotionSource, ComesWithAnotherCutoffUnlessItWasGiven) {
+  const MotionSource source = rounded(0.5);
+  ASSERT_TRUE(source.with_cutoff);
+  const MotionSource quick = part_of(source, 0, 0.5).with_cutoff(50);
+  EXPECT_EQ(quick.cutoff.hz, 50);
+  EXPECT_EQ(quick.position_noise.size(), 2);
+  Index samples = 0, all = 0;
+  quick.pieces([&](const StreamPiece& piece) { samples += piece.motion.samples(); });
+  source.pieces([&](const StreamPiece& piece) { all += piece.motion.samples(); });
+  EXPECT_NEAR(static_cast<double>(samples), static_cast<double>(all) / 2, 200);  // edges are cut
+  EXPECT_FALSE(rounded(0.5, 20).with_cutoff);
+}
+
+TEST(Rests, AreLeftOutOfTheJointsThatAreNamed) {
+  EffectRecordings data = test::arm_recordings({test::source_of(test::sines(20, 0.01))});
+  EffectRun& run = data.runs.front();
+  const double all = run.rows.counted.col(1).sum();
+  leave_out_rests(run, VectorXd::Constant(2, 1e-4), {1});
+  EXPECT_EQ(run.rows.counted.col(0).sum(), all);
+  Index turns = 0;
+  const Index first = first_sample(run.decimator), last = run.rows.Y.rows() - 1;
+  for (Index k = 1; k < run.motion.samples(); ++k) {
+    if ((run.motion.dq(k, 1) < 0) == (run.motion.dq(k - 1, 1) < 0)) continue;
+    ++turns;
+    const Index row = std::clamp<Index>(k - first, 0, last);
+    EXPECT_EQ(run.rows.counted(row, 1), 0) << k;
+    EXPECT_EQ(run.rows.tau(row, 1), 0) << k;
+  }
+  ASSERT_GT(turns, 4);
+  const double left_out = all - run.rows.counted.col(1).sum();
+  EXPECT_GE(left_out, static_cast<double>(2 * turns));
+  EXPECT_LE(left_out, static_cast<double>(5 * turns));  // one equation a sample reaches one further
+  EXPECT_NEAR(least_counted(data), 1 - left_out / all, 1e-12);
+}
+
+/// tau at the other motion is what it would be if the model left there what it leaves at the own.
+TEST(RepeatedMotion, LeavesWhatTheModelLeavesAtTheOwnMotion) {
+  const EffectInstance spring = test::known(test::spring_law(), 1, {0.4});
+  const auto sources = test::two_recordings({spring}, 1);
+  const EffectRecordings own = test::arm_recordings(sources);
+  EffectRecordings other = test::arm_recordings(sources);
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal(0, 1e-2);
+  for (EffectRun& run : other.runs) {
+    for (double& y : run.rows.Y.reshaped()) {
+      if (y != 0) y += normal(random);
+    }
+  }
+  leave_as_at(other, own);
+  const VectorXd beta = fit_effects(other, {}).point.beta;
+  for (std::size_t r = 0; r < own.runs.size(); ++r) {
+    const Eigen::MatrixXd left = residual(own.runs[r].rows, beta);
+    EXPECT_GT(left.norm(), 1);
+    EXPECT_LT((residual(other.runs[r].rows, beta) - left).norm(), 1e-5 * left.norm());
+  }
+}
+
+/// Noise of the positions that the torque does not have is both in what the model leaves and in
+/// columns of the same motion, and not in columns of the motion of other periods.
+TEST(Views, NoiseOfPositionsIsNotInWhatColumnsAreHeldAgainst) {
+  constexpr double kPositionNoise = 0.2;
+  Motion exact = test::sines(40, 0.01);
+  for (Index k = 0; k < exact.samples(); ++k) {
+    const double w = 2 * std::numbers::pi / 4, angle = w * exact.time[k];
+    exact.q.row(k) << std::sin(2 * angle), std::cos(angle) + 0.5 * std::sin(3 * angle);
+    exact.dq.row(k) << 2 * std::cos(2 * angle), 1.5 * std::cos(3 * angle) - std::sin(angle);
+    exact.ddq.row(k) << -4 * std::sin(2 * angle), -std::cos(angle) - 4.5 * std::sin(3 * angle);
+    exact.dq.row(k) *= w;
+    exact.ddq.row(k) *= w * w;
+  }
+  std::vector<MotionSource> sources =
+      test::measured({exact}, test::planar_arm_values(), {}, 0.01, 0, 3);
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal(0, kPositionNoise);
+  sources[0].pieces([&](const StreamPiece& piece) {
+    Motion noisy = piece.motion;
+    for (double& x : noisy.ddq.reshaped()) x += normal(random);
+    sources[0] = test::source_of(noisy);
+  });
+  DiagnosisInput input = test::arm_input(sources, {}, {});
+  const Division parts{sources, input.heldout};
+  const auto lean = [&](const EffectRecordings& data) {
+    const EffectRun& run = data.runs.front();
+    const VectorXd left = residual(run.rows, fit_effects(data, {}).point.beta).col(0);
+    // as an elastic joint has it
+    const auto ddq = run.motion.ddq.col(0).middleRows(first_sample(run.decimator), left.size());
+    VectorXd column = VectorXd::Zero(left.size());
+    const Index n = left.size() - 2;
+    column.segment(1, n) = ddq.head(n) - 2 * ddq.segment(1, n) + ddq.tail(n);
+    return left.dot(column) / left.norm() / column.norm();
+  };
+  const EffectRecordings own = equations_of(input, sources, {{1, -1}, {}});
+  const Views views = views_of(input, parts, {{1, -1}, {}});
+  EXPECT_GT(lean(own), 0.3);
+  EXPECT_LT(std::abs(lean(views.train)), 0.03);
+}
+
+}  // namespace
+}  // namespace dyngen::runtime
