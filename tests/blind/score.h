@@ -31,6 +31,17 @@ struct Judged {
 
 Judged judge(const nlohmann::json& truth, const nlohmann::json& answer);
 
+/// Shares that a set must keep to; what a set does not hold is not judged.
+struct Bounds {
+  double most_false_alarms = 1;     ///< of nulls
+  double most_confident_wrong = 1;  ///< of single effects and foreign physics
+  double least_found = 0;           ///< of single effects of lambda 60 and more
+  double least_first = 0;           ///< of these, family first
+};
+
+/// A line for each bound that is broken; empty: none.
+std::string broken(const std::vector<Judged>& all, const Bounds& bounds);
+
 /// Tables of docs/proof.md, Markdown.
 std::string tables(const std::vector<Judged>& all);
 

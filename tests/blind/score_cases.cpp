@@ -27,6 +27,13 @@ int main(int argc, char** argv) {
       ->required()
       ->check(CLI::ExistingDirectory);
   app.add_option("--lines", cases, "writes a line for each case");
+  blind::Bounds bounds;
+  app.add_option("--most-false-alarms", bounds.most_false_alarms, "share of the nulls");
+  app.add_option("--most-confident-wrong", bounds.most_confident_wrong,
+                 "share of single effects and foreign physics");
+  app.add_option("--least-found", bounds.least_found,
+                 "share of single effects, lambda 60 and more");
+  app.add_option("--least-first", bounds.least_first, "share of these whose family is named first");
   CLI11_PARSE(app, argc, argv);
   const nlohmann::json truths = read(manifest);
   if (!truths.is_array()) {
@@ -40,5 +47,7 @@ int main(int argc, char** argv) {
   }
   fmt::print("{}", blind::tables(judged));
   if (!cases.empty()) std::ofstream(cases) << blind::lines(judged);
-  return 0;
+  const std::string broken = blind::broken(judged, bounds);
+  fmt::print(stderr, "{}", broken);
+  return broken.empty() ? 0 : 3;
 }

@@ -49,6 +49,9 @@ std::string row(const std::string& what, const std::string& value) {
   return fmt::format("| {} | {} |\n", what, value);
 }
 
+/// Of 60 and more, within the accuracy that sizes are found with.
+bool is_strong(const Judged& each) { return each.lambda >= 53; }
+
 std::string family_of(const Judged& each) {
   return each.truth["truths"].empty() ? "nothing" : each.truth["truths"][0]["family"];
 }
@@ -75,7 +78,7 @@ std::string concealment(const Set& singles) {
 }
 
 std::string single_table(const Set& singles) {
-  const Set strong = part(singles, [](const Judged& e) { return e.lambda >= 53; });
+  const Set strong = part(singles, is_strong);
   const Set found = part(strong, [](const Judged& e) { return e.found; });
   const auto is_named = [](const Judged& e) { return e.answered && !e.answer["findings"].empty(); };
   const Set named = part(strong, is_named);
@@ -138,6 +141,37 @@ std::string confusion(const Set& all) {
 }
 
 }  // namespace
+
+std::string broken(const std::vector<Judged>& judged, const Bounds& bounds) {
+  std::string text;
+  const auto share = [&](const Test& among, const Test& test) {
+    double of = 0, right = 0;
+    for (const Judged& each : judged) {
+      of += among(each);
+      right += among(each) && test(each);
+    }
+    return of > 0 ? right / of : std::nan("");
+  };
+  const auto most = [&](const char* what, double found, double bound) {
+    if (found > bound) text += fmt::format("{}: {:.3f}, at most {:g}\n", what, found, bound);
+  };
+  const auto least = [&](const char* what, double found, double bound) {
+    if (found < bound) text += fmt::format("{}: {:.3f}, at least {:g}\n", what, found, bound);
+  };
+  const Test strong = [](const Judged& e) { return e.kind == "single" && is_strong(e); };
+  most("false alarms of nulls",
+       share([](const Judged& e) { return e.kind == "null"; },
+             [](const Judged& e) { return e.found; }),
+       bounds.most_false_alarms);
+  most("confident wrong names",
+       share([](const Judged& e) { return e.kind == "single" || e.kind == "foreign"; },
+             [](const Judged& e) { return e.confident_wrong; }),
+       bounds.most_confident_wrong);
+  least("single effects found", share(strong, [](const Judged& e) { return e.found; }),
+        bounds.least_found);
+  least("family first", share(strong, [](const Judged& e) { return e.first; }), bounds.least_first);
+  return text;
+}
 
 std::string tables(const std::vector<Judged>& judged) {
   Set all;

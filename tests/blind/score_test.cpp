@@ -115,5 +115,27 @@ TEST(Score, StatesTheIntervalsOfClopperAndPearson) {
               testing::HasSubstr("| nulls: false alarms | 0 of 20, 0.0 % (0.0 to 16.8) |"));
 }
 
+TEST(Score, SaysWhichBoundsAreBroken) {
+  const Json two = truth("single", {{"stribeck", 2}});
+  const std::vector<Judged> all = {
+      judge(truth("null", {}), answer(Json::array())),
+      judge(truth("null", {}), answer(Json::array({finding("cable", 1, 0.3)}))),
+      judge(two, answer(Json::array({finding("stribeck", 2, 0.97)}))),
+      judge(two, answer(Json::array({finding("cable", 1, 0.95)}))),
+      judge(two, answer(Json::array()))};
+  EXPECT_EQ(broken(all, {}), "");
+  EXPECT_EQ(broken(all, {.most_false_alarms = 0.5,
+                         .most_confident_wrong = 0.34,
+                         .least_found = 0.66,
+                         .least_first = 0.33}),
+            "");
+  const std::string text = broken(all, {0.4, 0.3, 0.7, 0.4});
+  EXPECT_THAT(text, testing::HasSubstr("false alarms of nulls: 0.500, at most 0.4\n"));
+  EXPECT_THAT(text, testing::HasSubstr("confident wrong names: 0.333, at most 0.3\n"));
+  EXPECT_THAT(text, testing::HasSubstr("single effects found: 0.667, at least 0.7\n"));
+  EXPECT_THAT(text, testing::HasSubstr("family first: 0.333, at least 0.4\n"));
+  EXPECT_EQ(broken({all[0]}, {0, 0, 1, 1}), "");  // holds neither of the others
+}
+
 }  // namespace
 }  // namespace blind

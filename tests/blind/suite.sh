@@ -25,7 +25,7 @@ make_cases() {
   rm -rf "$out"
   mkdir -p "$out/sealed/entries"
   chmod 700 "$out/sealed"
-  grep -v '^#' "$here/sets/$set_name.txt" | while read -r kind lambda cases seed arm; do
+  grep -v -e '^#' -e '^bound' "$here/sets/$set_name.txt" | while read -r kind lambda cases seed arm; do
     [ "$lambda" = 0 ] && lambda=1
     part=0
     while [ $part -lt "$jobs" ]; do
@@ -77,7 +77,9 @@ diagnose_cases() {
 score_cases() {
   check_seal
   (cd "$out/answers" && sha256sum --quiet -c ../answers.sha256)
-  "$tools/blind_score" "$out/sealed/manifest.json" "$out/answers" --lines "$out/lines.txt"
+  # shellcheck disable=SC2046  # options, in words
+  "$tools/blind_score" "$out/sealed/manifest.json" "$out/answers" --lines "$out/lines.txt" \
+    $(sed -n 's/^bound //p' "$here/sets/$set_name.txt")
 }
 
 one_case() {
