@@ -22,7 +22,6 @@ constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as m
 constexpr double kJolts = 50;  // Hz, of jolts: a joint state of at least this cut-off has them
 constexpr double kHighest = 0.2;         // of the sampling frequency: a cut-off
 constexpr double kBesideJolts = 0.4;     // of the cut-off: what is slower is not damped at all
-constexpr double kBesideNoise = 0.5;     // of a cut-off that is quicker than motion is seen to be
 constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
 
 RowOptions slower(RowOptions rows) {
@@ -101,8 +100,7 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
   beside.rows.multiple = kThinnedSamples / 2;
   std::vector<double> times;
   for (const MotionSource& source : train) {
-    double band = kBesideJolts * source.cutoff.hz;
-    if (beside.quick) band = std::max(band, kBesideNoise * quick_cutoff(source));
+    const double band = kBesideJolts * (beside.quick ? quick_cutoff(source) : source.cutoff.hz);
     times.push_back(0.5 / band);
   }
   beside.rows.row_time = median(std::move(times));

@@ -67,7 +67,7 @@ TEST(BesideRests, EquationsAreSlowerThanTheJointState) {
   const auto band = [](const std::vector<MotionSource>& sources) {
     return 0.5 / beside_rests({diagnosis_rows(sources, -1), {}}, sources, {0}).rows.row_time;
   };
-  EXPECT_NEAR(band(noisy), 0.3 * 50, 1e-9);
+  EXPECT_NEAR(band(noisy), 0.4 * 50, 1e-9);
   EXPECT_NEAR(band(same), 0.4 * same[0].cutoff.hz, 1e-9);
 }
 
