@@ -186,7 +186,7 @@ TEST(ForwardSimulation, IsNearerToTheRecordingWithWhatWasFound) {
                  torque = values_of(run.out, "torque, findings");
   EXPECT_GT(position[1], 0);
   EXPECT_LT(position[1], 0.6 * position_alone[1]) << run.out;
-  EXPECT_GT(torque[1], 0.3);  // the noise
+  EXPECT_GT(torque[1], 0.28);  // the noise, within its chance
   EXPECT_LT(torque[1], 0.6 * torque_alone[1]) << run.out;
   EXPECT_NE(content(page).find("Simulated before and after"), std::string::npos);
   EXPECT_EQ(test::markup_fault(content(page)), "");
