@@ -227,7 +227,8 @@ class Competition {
   [[nodiscard]] bool is_no_event(const EvidenceSystem& system, const NamedResult& named) {
     const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
     if (!hypothesis.windowed) return false;
-    if (net(named) < kEventNet) return true;
+    const double slow = named.best.score.squares * (1 - 1 / named.slow_noise);
+    if (net(named) - slow < kEventNet) return true;
     if (hypothesis.shapes.size() > 1) {  // it begins, and ends
       const Eigen::VectorXd& p = named.best.effect.parameters;
       const double duration = p[hypothesis.shapes[1]] - p[hypothesis.shapes[0]];

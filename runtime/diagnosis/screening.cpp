@@ -204,6 +204,7 @@ class Screener {
         if (window.size() > 1) window[1] = scan.end;
         EffectInstance event = with_shapes(hypothesis, window);
         event.recording = scan.recording;
+        result.slow_noise = scan.elsewhere;
         result.best = try_hypothesis(data, signals, system_, hypothesis, event, scales, false);
         result.freest = result.best;
         if (!before_) noise.add(scan.score.surrogates, scan.score.degrees);
@@ -222,7 +223,8 @@ class Screener {
       result.seen = false;  // a signal is missing
     }
     if (result.seen) {
-      result.surprise = surprise_of(result.best.score.squares, result.best.score.degrees);
+      result.surprise =
+          surprise_of(result.best.score.squares / result.slow_noise, result.best.score.degrees);
     }
     return result;
   }

@@ -16,6 +16,8 @@ struct NamedResult {
   TrialScore best;             ///< of those that are admissible; of all where none is
   TrialScore freest;    ///< of all: more squares than the best where a condition holds that back
   double surprise = 0;  ///< -ln p of the chi-square distribution, at the best shape
+  double slow_noise =
+      1;  ///< of an event: times as many squares as white noise, WindowScan::elsewhere
   double typical_lambda = 0;  ///< noncentrality of the typical size, at the typical shapes
   double part_left = 0;       ///< of the typical size's squares, after the refit of the model
   Eigen::VectorXd typical;    ///< (linear) typical sizes

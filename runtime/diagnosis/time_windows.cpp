@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/time_windows.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -112,12 +113,54 @@ Running together(const std::vector<Running>& parts) {
   return sums;
 }
 
+/// Some consecutive blocks of one recording, or of all.
+struct Window {
+  const Running& sums;
+  std::size_t from = 0, to = 0;
+  [[nodiscard]] Products products() const { return between(sums, from, to); }
+  [[nodiscard]] MatrixXd inner() const { return sums.inner[to] - sums.inner[from]; }
+};
+
+/// The products of a window beside another one, which it does not overlap: what the model made of
+/// the one is not in the other then.
+Products beside(const Window& window, const Window& other) {
+  Products products = window.products();
+  const Products taken = other.products();
+  const MatrixXd common = -window.inner().transpose() * other.inner();
+  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> left(taken.left);
+  products.rest -= common * left.solve(taken.rest);
+  products.left -= common * left.solve(common.transpose());
+  return products;
+}
+
+/// Mean of the squares per degree of freedom in windows as long as the best one, end to end, of all
+/// recordings and beside it, less those that overlap it.
+/// @param recording  the best one's place, -1: all
+double squares_elsewhere(const std::vector<Running>& recordings, int recording,
+                         const Window& best) {
+  constexpr double kFewest = 4;  // degrees of freedom that say anything
+  const std::size_t length = best.to - best.from;
+  double squares = 0, degrees = 0;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const bool own = recording < 0 || recording == static_cast<int>(r);
+    // before the best window up to it, behind it on from it, so that none is lost to an overlap
+    for (std::size_t at = own ? best.from % length : 0; at + length <= kBlocks; at += length) {
+      if (own && at < best.to && best.from < at + length) continue;
+      const Score score = score_of(beside({recordings[r], at, at + length}, best), false);
+      squares += score.squares;
+      degrees += score.degrees;
+    }
+  }
+  return degrees < kFewest ? 1 : std::max(1.0, squares / degrees);
+}
+
 }  // namespace
 
 WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
                         const EvidenceSystem& system, const Hypothesis& hypothesis,
                         bool surrogates) {
   WindowScan scan;
+  std::size_t best_from = 0, best_to = 0;
   const EquationPlaces places = places_of(data);
   const double longest = places.times.maxCoeff();
   const bool ends = hypothesis.shapes.size() > 1;
@@ -156,6 +199,7 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
         scan.begin = static_cast<double>(from) * step;
         scan.end = static_cast<double>(to) * step;
         scan.recording = recording;
+        best_from = from, best_to = to;
         scan.found = true;
       }
     }
@@ -163,6 +207,10 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
   look(all, -1);
   for (std::size_t p = 0; parts.size() > 1 && p < parts.size(); ++p) {
     look(parts[p], static_cast<int>(p));
+  }
+  if (scan.found) {
+    const Running& own = scan.recording < 0 ? all : parts[static_cast<std::size_t>(scan.recording)];
+    scan.elsewhere = squares_elsewhere(parts, scan.recording, {own, best_from, best_to});
   }
   // the same number of surrogates as everywhere: those that were not scanned repeat the others
   if (scan.found && largest.size() > 0) {

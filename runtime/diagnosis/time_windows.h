@@ -15,6 +15,9 @@ struct WindowScan {
   double begin = 0, end = 0;  ///< s, of the best window
   int recording = -1;         ///< in which alone it acts, as EffectRun::recording; -1: in all
   Score score;                ///< of the best window; surrogates: the largest over all windows
+  /// Squares per degree of freedom in other windows as long, 1 for noise that is white; at least 1.
+  /// Noise slower than its model knows (1/f) has more, and the best window has them too.
+  double elsewhere = 1;
   bool found = false;
 };
 

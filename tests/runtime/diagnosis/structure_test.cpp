@@ -104,6 +104,26 @@ TEST(WindowScan, SaysInWhichRecording) {
   EXPECT_NEAR(columns.parts[0].bottomRows(half).maxCoeff(), 0.3, 1e-12);
 }
 
+TEST(WindowScan, SaysHowMuchSlowNoiseThereIsElsewhere) {
+  const Hypothesis hypothesis = hypothesis_of(
+      test::unknown(push_law(), 0), ScaleTable(test::arm_recordings(test::two_recordings({}, 1)))
+                                        .at(test::planar_arm_values(), 0));
+  const auto elsewhere = [&](const std::vector<MotionSource>& sources) {
+    const EffectRecordings data = test::arm_recordings(sources);
+    EffectSignals signals(data);
+    signals.set_beta(test::planar_arm_values());
+    return scan_windows(data, signals, test::arm_system(data), hypothesis, false).elsewhere;
+  };
+  EXPECT_LT(elsewhere(test::two_recordings({}, 5)), 2);
+  // a push that is there does not count as noise
+  EXPECT_LT(elsewhere(with_event_in(1, test::known(push_law(), 0, {0.3, 12, 18}), 6)), 2);
+  // an autoregressive process that the system takes for white
+  const std::vector<MotionSource> slow =
+      test::measured({test::sines(30, 0.01, 0.3), test::sines(30, 0.01, 2.3)},
+                     test::planar_arm_values(), {}, test::kArmNoise, 0.9, 7);
+  EXPECT_GT(elsewhere(slow), 4);
+}
+
 TEST(Jolt, IsWhatAFewEquationsHold) {
   for (const double length : {0.02, 0.8}) {
     // the recording has it too
