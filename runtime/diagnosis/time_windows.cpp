@@ -134,7 +134,7 @@ Products beside(const Window& window, const Window& other) {
 }
 
 /// Mean of the squares per degree of freedom in windows as long as the best one, end to end, of all
-/// recordings and beside it, less those that overlap it.
+/// recordings and beside it, less those that overlap it; 1 where white noise may have as many.
 /// @param recording  the best one's place, -1: all
 double squares_elsewhere(const std::vector<Running>& recordings, int recording,
                          const Window& best) {
@@ -151,7 +151,9 @@ double squares_elsewhere(const std::vector<Running>& recordings, int recording,
       degrees += score.degrees;
     }
   }
-  return degrees < kFewest ? 1 : std::max(1.0, squares / degrees);
+  if (degrees < kFewest) return 1;
+  const double by_chance = 1 + 2 * std::sqrt(2 / degrees);  // of white noise
+  return squares / degrees < by_chance ? 1 : squares / degrees;
 }
 
 }  // namespace
