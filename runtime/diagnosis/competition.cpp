@@ -68,7 +68,8 @@ class Competition {
                  round == 0 ? nullptr : &result_.first, [&](double done) { tell(stage, done); });
       if (round == 0) result_.first = screening;
       result_.last = screening;
-      if (round == 0 && options_.rests && options_.until_rest) {
+      const bool until_rest = options_.until_rest && result_.noise.from_periods;
+      if (round == 0 && options_.rests && until_rest) {
         result_.resting = stops_.strongest(screening);
         if (!result_.resting.empty()) return std::move(result_);
       }
@@ -76,7 +77,7 @@ class Competition {
       const bool named = result_.noise.from_periods ? next_winner(system, screening)
                                                     : next_likely(system, screening);
       if (!named && !nameless_.next(system, screening)) break;
-      if (options_.until_rest && !result_.resting.empty()) return std::move(result_);
+      if (until_rest && !result_.resting.empty()) return std::move(result_);
     }
     drop_superfluous();
     if (scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {

@@ -110,7 +110,8 @@ class Diagnostician {
       Witness slow(views_.slow);
       result_ =
           runtime::compete(views_.train, slow, views_.proof, hypotheses_, settings, progress_);
-      if (!settings.until_rest || result_.resting.empty()) return;
+      const bool whole = !settings.until_rest || !result_.noise.from_periods;
+      if (whole || result_.resting.empty()) return;
       // where that would leave too little, impulses at their reversals are left out instead
       settings.until_rest = look_beside(result_.resting);
       settings.rests = true;

@@ -14,6 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double kWhole = 0.1;  // samples by which the last period may be off
+constexpr int kFewest = 3;      // periods: the mean of one other is as noisy as the own
 constexpr int kRounds = 4;      // of the model's own parameters
 
 /// The mean over all rows of the same phase but the own.
@@ -37,7 +38,7 @@ Motion repeated(Motion run) {
   const Periods periods = find_periods(positions);
   const double off =
       std::abs(periods.period / run.sample_time - static_cast<double>(periods.samples));
-  if (periods.count < 2 || off * periods.count > kWhole) return run;
+  if (periods.count < kFewest || off * periods.count > kWhole) return run;
   for (MatrixXd* rows : {&run.q, &run.dq, &run.ddq}) *rows = of_the_others(*rows, periods.samples);
   return run;
 }

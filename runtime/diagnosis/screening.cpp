@@ -277,7 +277,7 @@ double surprise_of(double squares, int degrees) {
 NamedResult without_conditions(const NamedResult& named) {
   NamedResult free = named;
   free.best = named.freest;
-  free.surprise = surprise_of(free.best.score.squares, free.best.score.degrees);
+  free.surprise = surprise_of(free.best.score.squares / named.slow_noise, free.best.score.degrees);
   return free;
 }
 
