@@ -74,20 +74,24 @@ std::string joint_text(const SymbolicLink& link, int j) {
   return text;
 }
 
+/// Where weight pulls: against the base's acceleration, which the file has.
 std::string gravity_text(const SymbolicRobot& robot) {
-  constexpr std::array<const char*, 3> kAxes = {"x0", "y0", "z0"};
-  std::string components;
-  int count = 0;
+  constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+  std::string pull, rows;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (robot.gravity[k].is_zero()) continue;
-    ++count;
-    const std::string amount = is_number(robot.gravity[k])
-                                   ? fmt::format("{:.6g} m/s^2", to_double(robot.gravity[k]))
-                                   : "a run-time acceleration";
-    components += fmt::format("{}{} along {}", components.empty() ? "" : ", ", amount, kAxes[k]);
+    const GiNaC::ex& component = robot.gravity[k];
+    if (component.is_zero()) continue;
+    const bool known = is_number(component);
+    const double value = known ? to_double(component) : 1;
+    pull += fmt::format("{}{} along {}{}0", pull.empty() ? "" : ", ",
+                        known ? fmt::format("{:.6g} m/s^2", std::abs(value))
+                              : std::string("a run-time acceleration"),
+                        value > 0 ? '-' : '+', kAxes[k]);
+    rows += fmt::format("{}g{} = {}", rows.empty() ? "" : ", ", kAxes[k],
+                        known ? fmt::format("{:.6g}", value) : "*");
   }
-  if (count == 0) return "no gravity";
-  return "the base accelerates against gravity with " + components;
+  if (pull.empty()) return "no gravity";
+  return fmt::format("gravity pulls with {} ({}: the base's acceleration against it)", pull, rows);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "gen/base_parameters/base_parameters.h"
 #include "gen/explain/arm_text.h"
 #include "gen/explain/grouping_text.h"
+#include "gen/explain/place_text.h"
 #include "gen/explain/text.h"
 #include "gen/explain/visibility.h"
 #include "gen/symbols/exact.h"
@@ -141,6 +142,7 @@ std::string explain(const RobotModel& model) {
                        0);
   }
   text += describe_arm(robot);
+  text += describe_places(make_posture(model));
   text += base_text(model, robot, base);
   text += visibility_text(robot, base);
   return text + gravity_text(robot);

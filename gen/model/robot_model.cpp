@@ -26,6 +26,11 @@ GiNaC::ex number(const RobotFile& file, RowKey key, int index) {
   return value == nullptr ? GiNaC::ex(0) : value->value;
 }
 
+std::optional<GiNaC::ex> limit(const RobotFile& file, RowKey key, int index) {
+  const FieldValue* value = field(file, key, index);
+  return value == nullptr ? std::nullopt : std::optional<GiNaC::ex>(value->value);
+}
+
 int integer(const RobotFile& file, RowKey key, int index, int absent) {
   const FieldValue* value = field(file, key, index);
   return value == nullptr ? absent : GiNaC::ex_to<GiNaC::numeric>(value->value).to_int();
@@ -63,6 +68,8 @@ RobotModel build_model(const RobotFile& file) {
     joint.d = quantity(file, RowKey::kD, i);
     joint.r = quantity(file, RowKey::kR, i);
     for (std::size_t k = 0; k < kChiCount; ++k) joint.chi[k] = quantity(file, kChiRows[k], i);
+    joint.qmin = limit(file, RowKey::kQmin, i);
+    joint.qmax = limit(file, RowKey::kQmax, i);
     joint.name = file.joint_names.empty() ? fmt::format("joint{}", i + 1)
                                           : file.joint_names[static_cast<std::size_t>(i)];
     if (joint.type == JointType::kFixed) {

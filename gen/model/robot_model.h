@@ -4,6 +4,7 @@
 #include <ginac/ginac.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct JointModel {
   Quantity d;           ///< m
   Quantity r;           ///< m, added to q of a prismatic joint
   std::array<Quantity, kChiCount> chi;
+  std::optional<GiNaC::ex> qmin, qmax;  ///< rad or m; none: the file has no such row
   std::string name;
   int coordinate = -1;  ///< its place in q, dq, ddq, tau; -1 for a fixed joint
 };

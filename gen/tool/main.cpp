@@ -10,6 +10,7 @@
 
 #include "gen/algorithms/code_effects.h"
 #include "gen/diagnostic/assert.h"
+#include "gen/drawing/arm_drawing.h"
 #include "gen/explain/explain.h"
 #include "gen/generator/generator.h"
 #include "gen/model/robot_model.h"
@@ -104,18 +105,19 @@ int run(ToolOptions options) {
     options.generator.catalogue = read_catalogue(options);
   }
   print_warnings(file, model, options.generator);
+  std::vector<OutputFile> files;
   if (!options.output.empty()) {
     const CText text = generated_text(model, options.generator);
-    std::vector<OutputFile> files = {{options.output, text.source},
-                                     {options.header(), text.header}};
+    files = {{options.output, text.source}, {options.header(), text.header}};
     if (options.generator.cpp_wrapper) files.push_back({options.wrapper(), text.wrapper});
     if (!options.depfile.empty()) {
       std::vector<std::string> targets;
       for (const OutputFile& written : files) targets.push_back(written.path);
       files.push_back({options.depfile, depfile_text(targets, dependencies(options))});
     }
-    write_files(files);
   }
+  if (!options.drawing.empty()) files.push_back({options.drawing, arm_drawing(model)});
+  write_files(files);
   if (options.explain) print(explain(model));
   if (options.count) print(counted(model, options.generator));
   return kDone;

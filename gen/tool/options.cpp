@@ -32,13 +32,16 @@ Value meaning(const std::string& option, const std::string& word,
 
 /// No file may be written over another one of the same call.
 void check_paths(const ToolOptions& options) {
-  if (options.output.empty()) return;
+  std::vector<std::pair<std::string, std::string>> files = {{"the robot file", options.robot}};
+  if (!options.drawing.empty()) files.emplace_back("--drawing", options.drawing);
+  if (!options.output.empty()) {
+    files.emplace_back("-o", options.output);
+    files.emplace_back("the header", options.header());
+  }
   if (options.output.find_first_of("\"\\\n") != std::string::npos) {
     throw std::invalid_argument(
         "-o: a file name with quotes, backslashes or line ends cannot be included");
   }
-  std::vector<std::pair<std::string, std::string>> files = {
-      {"the robot file", options.robot}, {"-o", options.output}, {"the header", options.header()}};
   if (options.generator.cpp_wrapper) files.emplace_back("the C++ header", options.wrapper());
   if (!options.depfile.empty()) files.emplace_back("--depfile", options.depfile);
   std::error_code ignored;
@@ -54,8 +57,14 @@ void check_paths(const ToolOptions& options) {
 }
 
 void check(ToolOptions& options) {
-  if (options.output.empty() && !options.count && !options.explain) {
-    throw std::invalid_argument("nothing to do: give -o FILE, --count or --explain");
+  if (options.output.empty() && options.drawing.empty() && !options.count && !options.explain) {
+    throw std::invalid_argument(
+        "nothing to do: give -o FILE, --count, --explain or --drawing FILE");
+  }
+  if (!options.drawing.empty() &&
+      std::filesystem::path(options.drawing).extension().string() != ".svg") {
+    throw std::invalid_argument("--drawing: '" + options.drawing +
+                                "' is not a drawing; expected .svg");
   }
   if (!options.output.empty() && !is_source_name(options.output)) {
     throw std::invalid_argument("-o: '" + options.output +
@@ -150,8 +159,11 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_flag("--count", options.count,
                "Print multiplications and additions beside the bounds 105n-92 and 94n-86");
   app.add_flag("--explain", options.explain,
-               "Print what was read in words, the base parameters with their formulas, and what "
-               "cannot be identified");
+               "Print what was read in words, where every axis stands, the base parameters with "
+               "their formulas, and what cannot be identified");
+  app.add_option("--drawing", options.drawing,
+                 "Draw the arm and the frames of its links (.svg), at zero or what is stated there")
+      ->type_name("FILE");
   try {
     app.parse(argc, argv);
     options.generator.parameters = meaning<ParameterMode>(

@@ -13,6 +13,7 @@ struct ToolOptions {
   std::string robot;    ///< path of the robot file
   std::string output;   ///< the C or C++ source; its header stands beside it; empty: none
   std::string depfile;  ///< empty: none
+  std::string drawing;  ///< the arm's picture, SVG; empty: none
   std::vector<std::string> effect_folders;  ///< in the order of the command line
   bool count = false;
   bool explain = false;

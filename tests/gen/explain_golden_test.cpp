@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include "gen/drawing/arm_drawing.h"
 #include "gen/explain/explain.h"
 #include "tests/support/golden.h"
 #include "tests/support/model_bridge.h"
@@ -20,6 +21,10 @@ TEST_P(ExplainText, IsAsCommitted) {
   expect_golden("explained/" + file + ".txt", text);
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(ArmDrawing, IsAsCommitted) {
+  expect_golden("drawn/rp.svg", arm_drawing(read_model("tests/robots/rp.robot")));
 }
 
 INSTANTIATE_TEST_SUITE_P(golden, ExplainText,

@@ -139,6 +139,20 @@ refuse(2 "nothing to do" ARGUMENTS ${robot} SAYS "-o" "--count" "--explain")
 run(text 0 ${DYNGEN} ${robot} --explain)
 expect_text(--explain "${text}" "puma560: 6 joints" "ZZR2 = ZZ2 + IA2 + d3^2 (M3 + M4 + M5 + M6)" "d3 = 0.4318 m"
   "perpendicular" "only in sums" "Gravity alone")
+expect_text(--explain "${text}" "turns about +y through (0.4318, 0.1501, 0)" "gravity pulls with 9.81 m/s^2 along -z0")
+
+# The drawing: alone or beside other output; where it cannot be written nothing is.
+run(text 0 ${DYNGEN} --explain ${robot} --drawing puma.svg)
+expect_text("--explain --drawing" "${text}" "puma560: 6 joints")
+file(READ ${WORK}/puma.svg drawing)
+expect_text(--drawing "${drawing}" "<svg " "joint-6" "all joints at 0" "</svg>")
+run(text 0 ${DYNGEN} ${robot} --drawing again.svg)
+expect_text("--drawing alone" "[${text}]" "[]")
+expect_same_file("two drawings" ${WORK}/puma.svg ${WORK}/again.svg)
+refuse(1 "a drawing that cannot be written" ARGUMENTS ${robot} -o out/x.c --drawing out/none/x.svg
+  SAYS "out/none/x.svg: error: cannot write")
+refuse(2 "a drawing of another kind" ARGUMENTS ${robot} --drawing out/x.png SAYS --drawing ".svg")
+refuse(2 "the robot file as drawing" ARGUMENTS arm.svg --drawing arm.svg SAYS "same file")
 refuse(2 "unknown option" ARGUMENTS ${robot} -o out/x.c --frobnicate SAYS --frobnicate --help)
 refuse(2 "unknown function" ARGUMENTS ${robot} -o out/x.c --functions id,inverse
   SAYS "--functions" "'inverse'" "gravity")

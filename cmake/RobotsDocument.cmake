@@ -1,0 +1,73 @@
+# Writes robots.md and a drawing of each robot, OUTPUT/robots.md and OUTPUT/robots/NAME.svg, from robots/*.robot:
+# what heads each file, and what dyngen reads of it.
+#   cmake -DDYNGEN=dyngen -DSOURCE_DIR=the project -DOUTPUT=docs -P cmake/RobotsDocument.cmake
+foreach(name IN ITEMS DYNGEN SOURCE_DIR OUTPUT)
+  if(NOT DEFINED ${name})
+    message(FATAL_ERROR "RobotsDocument.cmake needs -D${name}=...")
+  endif()
+endforeach()
+file(MAKE_DIRECTORY ${OUTPUT}/robots)
+
+# dyngen_run(<variable> <arguments>...): what dyngen prints.
+function(dyngen_run variable)
+  execute_process(COMMAND ${DYNGEN} ${ARGN} WORKING_DIRECTORY ${SOURCE_DIR}
+    RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE errors)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "dyngen ${ARGN}:\n${errors}")
+  endif()
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
+# The comment that heads a robot file as Markdown: "# Word   text" begins an entry.
+function(heading_text variable file)
+  file(READ ${file} text)
+  string(REGEX MATCH "^(#[^\n]*\n)+" text "${text}")
+  string(REGEX REPLACE "^# SPDX[^\n]*\n" "" text "${text}")
+  string(REGEX REPLACE "(^|\n)# ([A-Z][A-Za-z]*)  +" "\\1- **\\2**: " text "${text}")
+  string(REGEX REPLACE "(^|\n)#  +" "\\1  " text "${text}")
+  string(REGEX REPLACE "(^|\n)# ?" "\\1" text "${text}")
+  string(STRIP "${text}" text)
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
+set(page "# The robots
+
+The files of `robots/` as dyngen reads them: a drawing, and where every axis stands. This page and its drawings are written by
+`cmake --build build --target robots_document`; a test holds them to what dyngen says today. The same for your own arm:
+
+```sh
+dyngen arm.robot --explain --drawing arm.svg
+```
+
+**How to read a drawing.** A cylinder is a revolute joint, about its z; a box a prismatic one, along its z; a flat grey plate a fixed
+one. They stand somewhere on their axis, not always at the frame's origin. Axes of frames are red (x), green (y) and blue (z), with
+the number of the link; those that point the same way from the same origin are one arrow. Joint j turns or slides about z of frame j.
+Links are grey, one light and one dark; a dashed end goes on beyond the last length of the file; the cross in a ring is the end
+of the last link. Weight pulls downwards on the paper. The configuration stands in the picture: all joints at 0, unless limits leave
+0 out, a prismatic joint would have no length, or links would lie on each other.
+")
+
+file(GLOB robots ${SOURCE_DIR}/robots/*.robot)
+list(SORT robots)
+foreach(robot IN LISTS robots)
+  cmake_path(GET robot STEM name)
+  dyngen_run(words robots/${name}.robot --explain --drawing ${OUTPUT}/robots/${name}.svg)
+  string(REGEX REPLACE "\n\nStandard parameters.*" "" words "${words}")
+  string(REGEX MATCH "Base parameters: [0-9]+" base "${words}")
+  string(REGEX REPLACE "\n\nBase parameters.*" "" words "${words}")
+  heading_text(heading ${robot})
+  string(APPEND page "
+## ${name}
+
+![${name}: its frames and joints](robots/${name}.svg)
+
+${heading}
+
+```text
+${words}
+```
+
+${base} ([file](../robots/${name}.robot))
+")
+endforeach()
+file(WRITE ${OUTPUT}/robots.md "${page}")
