@@ -184,7 +184,7 @@ class Competition {
       const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
       named.best = refined(train_, signals_, system, hypothesis, named.best,
                            scales_.of(result_.fit.point.beta, hypothesis.effect));
-      named.surprise = surprise_of(named.best.score.squares, named.best.score.degrees);
+      named.surprise = surprise_of(named);
     }
     std::stable_sort(order.begin(), order.end(), best_first);
     std::set<std::size_t> attempted, stopped;  // fitted and turned down; explained by stops
@@ -347,7 +347,7 @@ class Competition {
           train_, signals_, system, hypothesis,
           try_hypothesis(train_, signals_, system, hypothesis, start, scales, false), scales);
       if (!again.best.admissible) continue;
-      again.surprise = surprise_of(again.best.score.squares, again.best.score.degrees);
+      again.surprise = surprise_of(again);
       const double gain = net(again) - net(best);
       const bool better =
           gain > kTie || (gain > -kTie && size_of(place) < size_of(best.hypothesis));
@@ -406,7 +406,9 @@ class Competition {
     if (result_.noise.from_periods && contradicted(hypotheses_[named.hypothesis], next.point)) {
       return false;
     }
-    const HeldoutProof proof = proof_of(next);
+    HeldoutProof proof = proof_of(next);
+    proof.parameters = static_cast<double>(size_of(named.hypothesis));
+    proof.fitted = named.best.score.squares;
     const bool event = hypotheses_[named.hypothesis].windowed;  // is not in what is held out
     const bool beyond_doubt = nameless_.sure(screening, named.surprise);
     const bool proved = event ? !proof.harms() : proof.helps() || (beyond_doubt && proof.agrees());

@@ -61,10 +61,11 @@ std::string when_it_acts(const Whereabouts& where) {
 class Diagnostician {
  public:
   Diagnostician(const DiagnosisInput& input, const DiagnosisOptions& options,
-                const DiagnosisProgress& progress)
+                const DiagnosisProgress& progress, const DiagnosisWitness& witness)
       : input_(input),
         options_(options),
         progress_(progress),
+        witness_(witness),
         parts_(input.heldout.empty() ? divided(input.train) : Division{input.train, input.heldout}),
         seen_{diagnosis_rows(parts_.train, options.decimation), {}},
         views_(views_of(input, parts_, seen_)) {}
@@ -78,9 +79,9 @@ class Diagnostician {
     settings.seed = options_.seed;
     settings.with_regressor = !options_.residual_only;
     const ScaleTable scales(views_.train);
-    const VectorXd nothing = VectorXd::Zero(input_.model.size());
+    const VectorXd alone = model_alone();
     for (const EffectInstance& effect : input_.hypotheses) {
-      hypotheses_.push_back(hypothesis_of(effect, scales.of(nothing, effect)));
+      hypotheses_.push_back(hypothesis_of(effect, scales.of(alone, effect)));
     }
     compete(settings);
     describe_noise();
@@ -95,12 +96,20 @@ class Diagnostician {
     describe_heldout();
     answer_.next = next_experiment(answer_.findings);
     conclude();
+    show();
     return std::move(answer_);
   }
 
  private:
   void tell(const std::string& stage, double done) const {
     if (progress_) progress_(stage, done);
+  }
+
+  /// Parameters of the model without effects: typical sizes are parts of its friction.
+  [[nodiscard]] VectorXd model_alone() const {
+    EffectFitOptions once;
+    once.most_rounds = 1;
+    return fit_effects(views_.train, {}, once).point.beta;
   }
 
   /// As soon as joints are found to rest, everything is looked at again beside their rests.
@@ -369,14 +378,32 @@ class Diagnostician {
     EffectPoint before = result_.base.point, after = answer_.fit.point;
     before.initial.clear();
     after.initial.clear();
-    const EffectRecordings& train = whole_ ? whole_->train : views_.train;
-    const EffectRecordings& heldout = whole_ ? whole_->heldout : views_.heldout;
+    const EffectRecordings &train = shown_train(), &heldout = shown_heldout();
     answer_.heldout.before = raw_rms(heldout, raw_residuals(heldout, before));
     answer_.heldout.after = raw_rms(heldout, raw_residuals(heldout, after));
     EffectPoint fitted = answer_.fit.point;
     fitted.initial.clear();
     answer_.noise.deviation = raw_floor(train, raw_residuals(train, fitted), repeats_of(train));
     answer_.heldout.floor = answer_.noise.deviation;
+  }
+
+  /// Recordings that an rms is of.
+  [[nodiscard]] const EffectRecordings& shown_train() const {
+    return whole_ ? whole_->train : views_.train;
+  }
+  [[nodiscard]] const EffectRecordings& shown_heldout() const {
+    return whole_ ? whole_->heldout : views_.heldout;
+  }
+
+  void show() const {
+    if (!witness_) return;
+    tell("the report", 0);
+    DiagnosedRecordings shown{
+        answer_, shown_train(), shown_heldout(), result_.base.point, answer_.fit.point, {}};
+    shown.before.initial.clear();
+    shown.after.initial.clear();
+    for (const MotionSource& source : parts_.heldout) shown.heldout_names.push_back(source.name);
+    witness_(shown);
   }
 
   /// Part of a joint's structure that has no name.
@@ -426,6 +453,7 @@ class Diagnostician {
   const DiagnosisInput& input_;
   const DiagnosisOptions& options_;
   const DiagnosisProgress& progress_;
+  const DiagnosisWitness& witness_;
   Division parts_;
   ViewOptions seen_;
   Views views_;
@@ -454,10 +482,10 @@ void DiagnosisOptions::validate() const {
 }
 
 Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,
-                   const DiagnosisProgress& progress) {
+                   const DiagnosisProgress& progress, const DiagnosisWitness& witness) {
   options.validate();
   try {
-    return Diagnostician(input, options, progress).run();
+    return Diagnostician(input, options, progress, witness).run();
   } catch (const TooShortError& error) {
     Diagnosis answer;
     answer.condition = conditions_of(input);

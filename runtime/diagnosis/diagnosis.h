@@ -48,10 +48,22 @@ RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Eigen::Index d
 /// Told the stage's name and how far it is, 0 .. 1.
 using DiagnosisProgress = std::function<void(const std::string& stage, double done)>;
 
+/// What a diagnosis ended with, for who draws it.
+struct DiagnosedRecordings {
+  const Diagnosis& answer;
+  const EffectRecordings& train;
+  const EffectRecordings& heldout;
+  EffectPoint before;  ///< the model alone
+  EffectPoint after;   ///< with the findings; states begin as their laws say
+  std::vector<std::string> heldout_names;
+};
+/// Told at the end of a diagnosis that had data enough; what it is shown is gone afterwards.
+using DiagnosisWitness = std::function<void(const DiagnosedRecordings& recordings)>;
+
 /// Locates the mismatch between a model and recordings, names the physics that was left out, fits
 /// it, and says what the data cannot decide. The same input gives the same answer.
 /// @throws std::invalid_argument  if recordings do not fit the model
 Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options = {},
-                   const DiagnosisProgress& progress = {});
+                   const DiagnosisProgress& progress = {}, const DiagnosisWitness& witness = {});
 
 }  // namespace dyngen::runtime

@@ -54,6 +54,21 @@ std::string variable_name(const StructureVariable& variable) {
   return "t";
 }
 
+std::optional<StructureVariable> variable_of_name(const std::string& name) {
+  if (name == "t") return StructureVariable{Kind::kTime, -1};
+  const std::size_t digits = name.find_first_of("123456789");
+  if (digits == std::string::npos || name.size() > digits + 4 ||
+      name.find_first_not_of("0123456789", digits) != std::string::npos) {
+    return std::nullopt;
+  }
+  const int joint = std::stoi(name.substr(digits)) - 1;
+  for (const Kind kind :
+       {Kind::kPosition, Kind::kVelocity, Kind::kAcceleration, Kind::kLoad, Kind::kDistance}) {
+    if (variable_name({kind, joint}) == name) return StructureVariable{kind, joint};
+  }
+  return std::nullopt;
+}
+
 std::vector<std::string> GenericStructure::names() const {
   if (form == Form::kLine) return {"t"};
   if (form == Form::kImpulses) return {variable_name({Kind::kDistance, joint})};

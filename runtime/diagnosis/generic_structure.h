@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct StructureVariable {
 
 /// "q2", "qd2", "qdd2", "tau_load2", "distance2", "t"; joints from 1.
 std::string variable_name(const StructureVariable& variable);
+/// The variable of such a name; none if there is none.
+std::optional<StructureVariable> variable_of_name(const std::string& name);
 
 /// Torque of a joint without the name of an effect.
 struct GenericStructure {

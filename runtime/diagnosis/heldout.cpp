@@ -50,7 +50,10 @@ VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
 bool HeldoutProof::helps() const { return before - after >= kGain; }
 
 bool HeldoutProof::agrees() const {
-  return change >= kInformative && before - after >= change - kDeviations * 2 * std::sqrt(change);
+  const double ratio = fitted > 0 ? change / fitted : 0;
+  const double expected = change - 2 * parameters * ratio;
+  return change >= kInformative &&
+         before - after >= expected - kDeviations * 2 * std::sqrt(change * (1 + ratio));
 }
 
 bool HeldoutProof::harms() const { return after - before >= kRefit; }
@@ -64,7 +67,7 @@ HeldoutProof heldout_proof(const EffectRecordings& heldout, EffectPoint before, 
   for (std::size_t run = 0; run < change.size(); ++run) change[run] -= second[run];
   return {whitened_squares(heldout, first, noise).sum(),
           whitened_squares(heldout, second, noise).sum(),
-          whitened_squares(heldout, change, noise).sum()};
+          whitened_squares(heldout, change, noise).sum(), 0, 0};
 }
 
 }  // namespace dyngen::runtime

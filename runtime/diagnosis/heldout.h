@@ -21,10 +21,16 @@ Eigen::VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint poi
                                 const TorqueNoiseModel& noise);
 
 /// What held-out recordings say of one more effect: whitened squares of their residuals.
+///
+/// What is held out takes away `change` if the effect is there as it was estimated, within
+/// 2 sqrt(change) of its own noise; the estimate's errors, which the fit made with as much noise,
+/// take as many squares back as it has parameters, twice, in the ratio of both recordings'
+/// information, and are uncertain themselves.
 struct HeldoutProof {
   double before = 0, after = 0;
-  double change = 0;  ///< squares of the change: what an effect that is there takes away, +-
-                      ///< 2 sqrt(change); one that is not adds as much
+  double change = 0;      ///< squares of what the effect changes; one that is not there adds them
+  double parameters = 0;  ///< that were estimated
+  double fitted = 0;      ///< squares that it explains of the recordings that it was fitted to
   [[nodiscard]] bool helps() const;
   /// It shows in them, and they are as an effect that is there makes them, all but one in a
   /// hundred.

@@ -60,6 +60,10 @@ TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score s
     result.typical[i] = value - nothing[i];
     value = nothing[i] + score.coefficients[i];
   }
+  // of friction that the machine does not have no size is typical: one that would just be seen
+  if (k > 0 && result.typical.isZero() && products.left(0, 0) > 0) {
+    result.typical[0] = 1 / std::sqrt(products.left(0, 0));
+  }
   result.typical_lambda = result.typical.dot(products.left * result.typical);
   const EffectSizes sizes = trial.law.sizes(scales);
   for (Index i = 0; i < k && result.admissible; ++i) {
@@ -96,6 +100,8 @@ Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scale
     double& value = hypothesis.effect.parameters[p];
     const bool known = !std::isnan(value);
     if (!known) value = sizes.typical[p];
+    // a part of friction that the machine does not have: no size is typical, none is excluded
+    if (parameter.role == EffectRole::kLinear && !std::isfinite(value)) value = 0;
     // a number of poles, slots or teeth: what repeats within a turn of the motor
     hypothesis.fast = hypothesis.fast || (parameter.role == EffectRole::kGiven &&
                                           parameter.unit == "1" && reads(effect.law, "q"));

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kCaution = 0.1;  // of the false alarms: nothing held out speaks for it
+constexpr double kCaution = 0.01;  // of the false alarms: nothing held out speaks for it
 constexpr std::size_t kCandidates = 4;
 constexpr double kRuledOutNet = 15;  // squares, net: a form that cannot be is no small thing
 

@@ -101,17 +101,26 @@ RunResiduals raw_residuals(const EffectRecordings& data, const EffectPoint& poin
   return residuals;
 }
 
+std::vector<bool> counted_samples(const EffectRun& run, int joint) {
+  std::vector<bool> counted(static_cast<std::size_t>(run.motion.samples()), false);
+  const Index first = first_sample(run.decimator), factor = run.decimator.factor;
+  for (Index k = 0; k < run.rows.Y.rows(); ++k) {
+    if (run.rows.counted(k, joint) == 0) continue;
+    const Index begin = first + k * factor - factor / 2;
+    for (Index i = begin; i < begin + factor; ++i) counted[static_cast<std::size_t>(i)] = true;
+  }
+  return counted;
+}
+
 VectorXd raw_rms(const EffectRecordings& data, const RunResiduals& residuals) {
   VectorXd squares = VectorXd::Zero(data.joints()), counts = squares;
   for (std::size_t run = 0; run < residuals.size(); ++run) {
-    const EffectRun& here = data.runs[run];
-    const Index first = first_sample(here.decimator), factor = here.decimator.factor;
-    for (Index j = 0; j < squares.size(); ++j) {
-      for (Index k = 0; k < here.rows.Y.rows(); ++k) {
-        if (here.rows.counted(k, j) == 0) continue;
-        squares[j] +=
-            residuals[run].col(j).segment(first + k * factor - factor / 2, factor).squaredNorm();
-        counts[j] += static_cast<double>(factor);
+    for (int j = 0; j < data.joints(); ++j) {
+      const std::vector<bool> counted = counted_samples(data.runs[run], j);
+      for (Index k = 0; k < residuals[run].rows(); ++k) {
+        if (!counted[static_cast<std::size_t>(k)]) continue;
+        squares[j] += residuals[run](k, j) * residuals[run](k, j);
+        counts[j] += 1;
       }
     }
   }

@@ -15,6 +15,10 @@ namespace dyngen::runtime {
 /// @return  run by run, (N x n) N m or N
 RunResiduals raw_residuals(const EffectRecordings& data, const EffectPoint& point);
 
+/// Whether a joint has equations around a sample: where it stands still, friction may be anything.
+/// @return  (N) of the run
+std::vector<bool> counted_samples(const EffectRun& run, int joint);
+
 /// (n) rms over all samples at which a joint has equations around it.
 Eigen::VectorXd raw_rms(const EffectRecordings& data, const RunResiduals& residuals);
 

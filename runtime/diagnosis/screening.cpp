@@ -222,10 +222,10 @@ class Screener {
     } catch (const std::invalid_argument&) {
       result.seen = false;  // a signal is missing
     }
-    if (result.seen) {
-      result.surprise =
-          surprise_of(result.best.score.squares / result.slow_noise, result.best.score.degrees);
+    for (const int joint : joints_of(hypothesis.effect, data_.whole().joints())) {
+      result.worth = std::min(result.worth, system_.worth(joint));
     }
+    if (result.seen) result.surprise = surprise_of(result);
     return result;
   }
 
@@ -249,7 +249,8 @@ class Screener {
       result.score = score_of(system_.products(system_.whitened(columns), !before_), !before_);
     }
     if (!before_) noise.add(result.score.surrogates, result.score.degrees);
-    result.surprise = surprise_of(result.score.squares, result.score.degrees);
+    result.surprise =
+        surprise_of(result.score.squares, result.score.degrees, system_.worth(structure.joint));
     return result;
   }
 
@@ -274,10 +275,25 @@ double surprise_of(double squares, int degrees) {
   return squares / 2 - (half - 1) * std::log(squares / 2) + std::lgamma(half);
 }
 
+double surprise_of(double squares, int degrees, double worth) {
+  if (degrees == 0 || squares <= 0) return 0;
+  const double tail = variance_ratio_tail(squares / degrees, degrees, worth);
+  if (tail > 1e-290) return -std::log(tail);
+  // leading term of the incomplete beta function (Abramowitz and Stegun 1964, 26.5.4)
+  const double a = worth / 2, b = 0.5 * degrees, x = worth / (worth + squares);
+  return -a * std::log(x) - (b - 1) * std::log1p(-x) + std::log(a) + std::lgamma(a) +
+         std::lgamma(b) - std::lgamma(a + b);
+}
+
+double surprise_of(const NamedResult& named) {
+  return surprise_of(named.best.score.squares / named.slow_noise, named.best.score.degrees,
+                     named.worth);
+}
+
 NamedResult without_conditions(const NamedResult& named) {
   NamedResult free = named;
   free.best = named.freest;
-  free.surprise = surprise_of(free.best.score.squares / named.slow_noise, free.best.score.degrees);
+  free.surprise = surprise_of(free);
   return free;
 }
 

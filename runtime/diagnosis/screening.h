@@ -15,14 +15,18 @@ struct NamedResult {
   std::size_t hypothesis = 0;  ///< its place
   TrialScore best;             ///< of those that are admissible; of all where none is
   TrialScore freest;    ///< of all: more squares than the best where a condition holds that back
-  double surprise = 0;  ///< -ln p of the chi-square distribution, at the best shape
+  double surprise = 0;  ///< -ln p, at the best shape
   double slow_noise =
-      1;  ///< of an event: times as many squares as white noise, WindowScan::elsewhere
+      1;               ///< of an event: times as many squares as white noise, WindowScan::elsewhere
+  double worth = 1e9;  ///< independent samples that the noise of its joints is known by
   double typical_lambda = 0;  ///< noncentrality of the typical size, at the typical shapes
   double part_left = 0;       ///< of the typical size's squares, after the refit of the model
   Eigen::VectorXd typical;    ///< (linear) typical sizes
   bool seen = true;           ///< false: the motion does not excite it, or a signal is missing
 };
+
+/// Of its best trial; an event has as many squares from slow noise alone as windows elsewhere have.
+double surprise_of(const NamedResult& named);
 
 /// The same at what fits best whatever conditions say.
 NamedResult without_conditions(const NamedResult& named);
@@ -31,7 +35,7 @@ struct GenericResult {
   std::size_t structure = 0;                            ///< its place
   Eigen::Vector2d frequency = Eigen::Vector2d::Zero();  ///< of a line or wave
   Score score;
-  double surprise = 0;
+  double surprise = 0;  ///< -ln p
 };
 
 /// Every hypothesis beside one model.
@@ -90,5 +94,8 @@ TrialScore refined(const EffectRecordings& data, EffectSignals& signals,
 
 /// -ln P(X > squares), X of the chi-square distribution; also where P is too small for a double.
 double surprise_of(double squares, int degrees);
+/// The same where the level of the noise is itself estimated: of Fisher's F.
+/// @param worth  independent samples that it is known by
+double surprise_of(double squares, int degrees, double worth);
 
 }  // namespace dyngen::runtime

@@ -133,7 +133,7 @@ Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOpt
   views.train = instrumental(options);
   views.slow = instrumental({slower(options.rows), options.resting, options.quick});
   views.heldout = equations_of(input, parts.heldout, options);
-  for (EffectRun& run : views.heldout.runs) run.recording = -1;
+  for (EffectRun& run : views.heldout.runs) run.recording = -1 - run.recording;
   views.proof = views.heldout;
   leave_out_unvisited(views.proof, views.train);
   return views;

@@ -38,9 +38,10 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
 /// model leaves at the own: noise of positions is in what is left as well as in columns of the same
 /// motion, where it looks like physics (instrumental variables; Janot, Vandanjon and Gautier 2014).
 struct Views {
-  EffectRecordings train, heldout;
-  EffectRecordings proof;  ///< what is held out, where the fitted recordings have been
-  EffectRecordings slow;   ///< the fitted ones again, in half the band: the witness
+  EffectRecordings train;
+  EffectRecordings heldout;  ///< EffectRun::recording is -1 less the place of the recording
+  EffectRecordings proof;    ///< what is held out, where the fitted recordings have been
+  EffectRecordings slow;     ///< the fitted ones again, in half the band: the witness
 };
 Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options);
 

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 using Kind = StructureVariable::Kind;
 
 constexpr double kShare = 0.7;
-constexpr double kSpread = 0.5;  // of the samples: with more the range says nothing
+constexpr double kSpread = 0.4;  // of the samples: with more the range says nothing
 
 struct Range {
   double from = 0, to = 0;

@@ -253,20 +253,34 @@ class EffectFitter {
     fit_.base.covariance = all.covariance.topLeftCorner(unknowns_.base, unknowns_.base);
   }
 
+  /// Of values: where an unknown is a logarithm, by the chain rule.
+  static MatrixXd covariance_of(const EffectInstance& effect, const std::vector<int>& places,
+                                const MatrixXd& all) {
+    const Index n = effect.law.size();
+    MatrixXd chain = MatrixXd::Zero(n, all.rows());
+    for (Index p = 0; p < n; ++p) {
+      const auto place = static_cast<std::size_t>(p);
+      if (places[place] < 0) continue;
+      chain(p, places[place]) =
+          by_logarithm(effect.law.parameters[place]) ? std::abs(effect.parameters[p]) : 1;
+    }
+    return chain * all * chain.transpose();
+  }
+
   void conclude_parameters(const EffectPoint& point, const Estimate& all,
                            const EffectSearch::Held& held) {
     for (std::size_t k = 0; k < point.effects.size(); ++k) {
       const EffectInstance& effect = point.effects[k];
       fit_.parameters.emplace_back();
+      fit_.covariance.push_back(covariance_of(effect, unknowns_.parameters[k], all.covariance));
       for (std::size_t p = 0; p < effect.law.parameters.size(); ++p) {
         EffectParameterFit parameter;
         parameter.value = effect.parameters[static_cast<Index>(p)];
         const int place = unknowns_.parameters[k][p];
         parameter.held = place < 0;
         if (place >= 0) {
-          const double chain =
-              by_logarithm(effect.law.parameters[p]) ? std::abs(parameter.value) : 1;
-          parameter.stddev = chain * std::sqrt(all.covariance(place, place));
+          const auto own = static_cast<Index>(p);
+          parameter.stddev = std::sqrt(fit_.covariance.back()(own, own));
           parameter.seen = !unseen_[static_cast<std::size_t>(place)];
           for (std::size_t i = 0; i < held.constraints.names.size(); ++i) {
             const ConstraintName& name = held.constraints.names[i];

@@ -45,6 +45,8 @@ struct EffectRemark {
 struct EffectFit {
   EffectPoint point;                                        ///< the estimate
   std::vector<std::vector<EffectParameterFit>> parameters;  ///< [effect][parameter]
+  /// [effect] (np x np) covariance of the parameters' values; rows of what is held are 0
+  std::vector<Eigen::MatrixXd> covariance;
   Estimate base;                 ///< of beta, with its covariance in the presence of the effects
   Eigen::VectorXd textbook;      ///< (nb) standard deviations as if noise were white
   double interval = 1.96;        ///< a 95 % interval is value +- interval * stddev

@@ -31,7 +31,7 @@ struct EffectRobot {
 
 /// A run of a recording as effects see it: all samples, and the equations of the model alone.
 struct EffectRun {
-  int recording = 0;  ///< its place, from 0; -1: of none that events were found in
+  int recording = 0;  ///< its place, from 0; negative: of none that events were found in
   Motion motion;
   Eigen::VectorXd time;           ///< (N) s from the recording's first sample
   Eigen::VectorXd position_step;  ///< (n) rad or m of the encoder; 0: not known

@@ -35,4 +35,9 @@ double chi_square_tail(double x, double degrees) {
   return Eigen::numext::igammac(degrees / 2, x / 2);
 }
 
+double variance_ratio_tail(double f, double above, double below) {
+  if (f <= 0) return 1;
+  return Eigen::numext::betainc(below / 2, above / 2, below / (below + above * f));
+}
+
 }  // namespace dyngen::runtime

@@ -112,6 +112,7 @@ EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals&
     : data_(data),
       whiteners_(noise.joints.begin(), noise.joints.end()),
       left_out_(noise.joints.size()),
+      worth_(noise.worth),
       rows_(data.equations()) {
   const int n = data.joints();
   const Index size = data.model.size();

@@ -84,6 +84,8 @@ class EvidenceSystem {
   /// Inner products of the basis with whitened columns. @return (rank x k)
   [[nodiscard]] Eigen::MatrixXd absorbed(const JointColumns& whitened, Eigen::Index from,
                                          Eigen::Index to) const;
+  /// Independent samples that the noise of a joint is known by.
+  [[nodiscard]] double worth(int joint) const { return worth_[joint]; }
   [[nodiscard]] int surrogates() const { return static_cast<int>(noise_.cols()); }
 
  private:
@@ -93,6 +95,7 @@ class EvidenceSystem {
   const EffectRecordings& data_;
   std::vector<Whitener> whiteners_;                                // of each joint
   std::vector<std::shared_ptr<const LocalReflections>> left_out_;  // of each joint; or nothing
+  Eigen::VectorXd worth_;                                          // (n)
   Eigen::Index rows_ = 0;                                          // of one joint
   Eigen::MatrixXd basis_;                                          // (n rows x rank) orthonormal
   Eigen::VectorXd rest_;                                           // (n rows)

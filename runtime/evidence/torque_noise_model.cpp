@@ -10,6 +10,7 @@
 
 #include "runtime/effects/effect_rows.h"
 #include "runtime/effects/equation_stack.h"
+#include "runtime/evidence/lasting_noise.h"
 #include "runtime/recordings/periods.h"
 
 namespace dyngen::runtime {
@@ -21,6 +22,7 @@ using Eigen::VectorXd;
 
 constexpr Index kLags = 40;
 constexpr double kLeastPart = 0.6;  // of the equations that differences between periods must give
+constexpr double kLasting = 0.02;   // of the variance, w of lasting_part(): with less, it is none
 
 /// Sums of products at all lags, and of how many pairs of samples.
 struct LagProducts {
@@ -36,21 +38,44 @@ struct LagProducts {
     }
   }
 
+  void add(const LagProducts& other) {
+    sums += other.sums;
+    pairs += other.pairs;
+  }
+
   [[nodiscard]] double samples() const { return pairs[0]; }
   [[nodiscard]] VectorXd covariance() const { return sums.cwiseQuotient(pairs.cwiseMax(1)); }
 };
 
-/// (e_t - e_(t - P)) / sqrt(2) of whole runs, and where both count.
-void difference_of_periods(const VectorXd& e, const VectorXd& counted, double period,
-                           LagProducts& products) {
-  const auto whole = static_cast<Index>(std::llround(period));
-  if (whole < 1 || 2 * whole > e.size() + whole / 2) return;
-  const VectorXd moved = shifted(e, static_cast<double>(whole) - period);
+/// (e_t - e_(t - kP)) / sqrt(2) of whole runs, and where both count.
+LagProducts difference_of_periods(const VectorXd& e, const VectorXd& counted, double period,
+                                  int apart) {
+  LagProducts products;
+  const auto whole = static_cast<Index>(std::llround(apart * period));
   const Index rows = e.size() - whole;
-  VectorXd both = counted.tail(rows).cwiseProduct(counted.head(rows));
+  if (whole < 1 || 2 * static_cast<double>(rows) < period) return products;
+  const VectorXd moved = shifted(e, static_cast<double>(whole) - apart * period);
+  const VectorXd both = counted.tail(rows).cwiseProduct(counted.head(rows));
   const VectorXd difference = (e.tail(rows) - moved.head(rows)).cwiseProduct(both) / std::sqrt(2.0);
   products.add(difference, both);
+  return products;
 }
+
+/// Differences of one joint over one period, and over several, run by run.
+struct JointDifferences {
+  LagProducts neighbours;
+  std::vector<PeriodDifference> all;
+
+  void add(const VectorXd& e, const VectorXd& counted, double period) {
+    const int most = static_cast<int>(static_cast<double>(e.size()) / period);
+    for (int apart = 1; apart <= most; ++apart) {
+      const LagProducts products = difference_of_periods(e, counted, period, apart);
+      if (products.samples() < static_cast<double>(kLags)) return;
+      if (apart == 1) neighbours.add(products);
+      all.push_back({period, apart, products.covariance(), products.samples()});
+    }
+  }
+};
 
 }  // namespace
 
@@ -191,24 +216,31 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   TorqueNoiseModel model;
   model.worth.resize(data.joints());
   const OfJoints all = lag_products(data, residuals);
-  OfJoints repeated(all.size());
+  std::vector<JointDifferences> repeated(all.size());
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     if (!(repeats[run] > 0)) continue;
     for (std::size_t j = 0; j < all.size(); ++j) {
       const auto column = static_cast<Index>(j);
-      difference_of_periods(residuals[run].col(column), data.runs[run].rows.counted.col(column),
-                            repeats[run], repeated[j]);
+      repeated[j].add(residuals[run].col(column), data.runs[run].rows.counted.col(column),
+                      repeats[run]);
     }
   }
   model.from_periods = true;
+  // what one joint alone has may be physics that drifts; noise is of all of them
+  double lasting = 1;
   for (std::size_t j = 0; j < all.size(); ++j) {
     model.from_periods = model.from_periods && all[j].samples() > 0 &&
-                         repeated[j].samples() >= kLeastPart * all[j].samples();
+                         repeated[j].neighbours.samples() >= kLeastPart * all[j].samples();
+    lasting = std::min(lasting, lasting_part(repeated[j].all));
   }
   for (std::size_t j = 0; j < all.size(); ++j) {
-    const LagProducts& products = model.from_periods ? repeated[j] : all[j];
+    const LagProducts& products = model.from_periods ? repeated[j].neighbours : all[j];
     const double samples = std::max(products.samples(), 1.0);
-    model.joints.push_back(fit_autoregression(products.covariance(), samples));
+    VectorXd covariance = products.covariance();
+    if (model.from_periods && lasting > kLasting) {
+      covariance += lasting_covariance(repeated[j].all, lasting);
+    }
+    model.joints.push_back(fit_autoregression(covariance, samples));
     if (!(model.joints.back().innovation > 0)) {
       throw std::invalid_argument(
           fmt::format("the model explains the torque of joint {} exactly: there is no noise to "

@@ -25,11 +25,12 @@ using RunResiduals = std::vector<Eigen::MatrixXd>;
 /// An autoregressive process for each joint.
 ///
 /// Where the motion repeats: of (e_t - e_(t - P)) / sqrt(2), P the period, in which all that the
-/// motion determines cancels, whether a model knows it or not. Elsewhere of the residual itself,
-/// which still holds what the model left out: an upper bound of the noise where there is structure.
-/// What the fit took of the noise, its level and its slow part, is put back: the autocovariance is
-/// the one whose noise, simulated and fitted likewise, leaves what was left (indirect inference,
-/// Gourieroux, Monfort, Renault 1993).
+/// motion determines cancels, whether a model knows it or not; where noise of all joints outlasts a
+/// period, what the difference lacks of it is put back (lasting_part()). Elsewhere of the residual
+/// itself, which still holds what the model left out: an upper bound of the noise where there is
+/// structure. What the fit took of the noise, its level and its slow part, is put back: the
+/// autocovariance is the one whose noise, simulated and fitted likewise, leaves what was left
+/// (indirect inference, Gourieroux, Monfort, Renault 1993).
 /// @param repeats   of repeats_of()
 /// @param fitted    whether the model's parameters were fitted to these recordings
 /// @throws std::invalid_argument  if the residual of a joint is 0

@@ -60,6 +60,50 @@ TEST(TorqueNoiseModel, OfPeriodsDoesNotSeeWhatRepeats) {
   }
 }
 
+/// Variances of the noise that is found, mean of some draws: white of variance 1, and on some
+/// joints as much of an AR(1) whose memory is three periods.
+VectorXd variances_found(const EffectRecordings& data, Index period, bool first, bool second) {
+  constexpr int kDraws = 12;
+  std::mt19937_64 random(20261121);
+  std::normal_distribution<double> normal;
+  const double memory = std::exp(-1 / (3 * static_cast<double>(period)));
+  VectorXd found = VectorXd::Zero(2);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    MatrixXd e(data.equations(), 2);
+    for (Index j = 0; j < 2; ++j) {
+      const bool lasts = j == 0 ? first : second;
+      double slow = normal(random);
+      for (Index k = 0; k < e.rows(); ++k) {
+        e(k, j) = normal(random) + (lasts ? slow : 0);
+        slow = memory * slow + std::sqrt(1 - memory * memory) * normal(random);
+      }
+    }
+    const TorqueNoiseModel model =
+        torque_noise_model(data, {e}, {static_cast<double>(period)}, false);
+    for (std::size_t j = 0; j < 2; ++j) {
+      found[static_cast<Index>(j)] += std::pow(model.joints[j].deviation, 2) / kDraws;
+    }
+  }
+  return found;
+}
+
+TEST(TorqueNoiseModel, PutsBackWhatOutlastsAPeriod) {
+  const EffectRecordings data = arm_recordings(60, 0.1, 1);
+  const Index period = data.equations() / 12;
+  const double left = 2 - std::exp(-1.0 / 3);  // of the variance, by differences of neighbours
+  const VectorXd both = variances_found(data, period, true, true);
+  for (const double variance : both) {
+    EXPECT_GT(variance, left + 0.2);
+    EXPECT_LT(variance, 2.4);
+  }
+  // of one joint alone it may be physics
+  const VectorXd one = variances_found(data, period, true, false);
+  EXPECT_NEAR(one[0], left, 0.1);
+  EXPECT_NEAR(one[1], 1, 0.03);
+  const VectorXd none = variances_found(data, period, false, false);
+  EXPECT_NEAR(none.mean(), 1, 0.02);
+}
+
 TEST(EvidenceSystem, NoiseGivesChiSquare) {
   const EffectRecordings data = arm_recordings(20, 0.1, 2);
   EvidenceSystem::Options options;
@@ -110,6 +154,11 @@ TEST(Surprise, IsTheLogarithmOfTheTailAlsoWhereItIsTooSmallForADouble) {
   EXPECT_NEAR(surprise_of(1320, 4) - surprise_of(1300, 4), 10, 0.1);
   EXPECT_GT(surprise_of(3000, 2), surprise_of(2000, 2));
   EXPECT_NEAR(surprise_of(3000, 2), 1500, 1e-6);
+  // Fisher's F: 5 % of 2 over 20 degrees lie above 3.493; with two degrees the tail is a power
+  EXPECT_NEAR(surprise_of(2 * 3.493, 2, 20), -std::log(0.05), 1e-3);
+  EXPECT_NEAR(surprise_of(60, 2, 100), 50 * std::log(1.6), 1e-9);
+  EXPECT_NEAR(surprise_of(1e6, 2, 200), 100 * std::log(1 + 1e6 / 200), 1e-3);
+  EXPECT_NEAR(surprise_of(60, 2, 1e8), surprise_of(60, 2), 1e-3);
 }
 
 TEST(Standstill, IsLeftOutAndReversalsStayIn) {

@@ -140,16 +140,19 @@ TEST(Jolt, IsWhatAFewEquationsHold) {
 
 TEST(HeldoutProof, WeighsAGainByWhatTheChangeIsWorth) {
   // an effect of 30 squares that is there takes 30 +- 11 away
-  EXPECT_TRUE((HeldoutProof{1000, 970, 30}.helps()));
-  EXPECT_TRUE((HeldoutProof{1000, 970, 30}.agrees()));
-  EXPECT_TRUE((HeldoutProof{1000, 994, 30}.agrees()));
-  EXPECT_FALSE((HeldoutProof{1000, 1001, 30}.agrees()));
+  EXPECT_TRUE((HeldoutProof{1000, 970, 30, 0, 0}.helps()));
+  EXPECT_TRUE((HeldoutProof{1000, 970, 30, 0, 0}.agrees()));
+  EXPECT_TRUE((HeldoutProof{1000, 994, 30, 0, 0}.agrees()));
+  EXPECT_FALSE((HeldoutProof{1000, 1001, 30, 0, 0}.agrees()));
   // one that is not adds as much
-  EXPECT_FALSE((HeldoutProof{1000, 1030, 30}.agrees()));
-  EXPECT_TRUE((HeldoutProof{1000, 1030, 30}.harms()));
+  EXPECT_FALSE((HeldoutProof{1000, 1030, 30, 0, 0}.agrees()));
+  EXPECT_TRUE((HeldoutProof{1000, 1030, 30, 0, 0}.harms()));
+  // five parameters that were estimated with half as much again are uncertain themselves
+  EXPECT_TRUE((HeldoutProof{1000, 1001, 30, 5, 60}.agrees()));
+  EXPECT_FALSE((HeldoutProof{1000, 1030, 30, 5, 60}.agrees()));
   // where it hardly shows nothing is said for it
-  EXPECT_FALSE((HeldoutProof{1000, 999.5, 1}.agrees()));
-  EXPECT_FALSE((HeldoutProof{1000, 999.5, 1}.helps()));
+  EXPECT_FALSE((HeldoutProof{1000, 999.5, 1, 0, 0}.agrees()));
+  EXPECT_FALSE((HeldoutProof{1000, 999.5, 1, 0, 0}.helps()));
 }
 
 TEST(HeldoutProof, IsOfSquaresBeforeAndAfter) {
