@@ -2,7 +2,7 @@
 // The one place where the suite's arms and the robot files that dynid gets are held together.
 #include <gtest/gtest.h>
 
-#include "tests/blind/engine.h"
+#include "tests/blind/simulation/engine.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/numeric_dynamics.h"
 

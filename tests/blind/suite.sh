@@ -4,11 +4,17 @@
 #   suite.sh BUILD SET              all of it: make, seal, diagnose, score
 #   suite.sh BUILD SET make         simulates the cases of sets/SET.txt and seals what is in them
 #   suite.sh BUILD SET diagnose     answers every case, in a process that can read nothing else
+#   suite.sh BUILD SET baselines    the same of simpler methods
+#   suite.sh BUILD SET active       lets dynid ask for one more recording where names are left, makes
+#                                   it, and has it answered again
 #   suite.sh BUILD SET score        holds the answers against the truth
+#   suite.sh BUILD real [STEP]      make, diagnose, score of real recordings with something added
 #   suite.sh BUILD case KIND LAMBDA SEED [FAMILY]    one case, told in full
 #
-# BUILD is a build folder with the targets blind_make, blind_sealed_run, blind_score and dynid;
-# everything is written to BUILD/blind/SET. JOBS processes work at once.
+# BUILD is a build folder with the targets blind_make, blind_answer, blind_sealed_run, blind_baselines,
+# blind_score and dynid, for real recordings blind_spoil too. These lie in DYNGEN_SHARED_DATA, else in
+# ../shared/data beside the project; where they are absent nothing is done. Everything is written to
+# BUILD/blind/SET, pictures to PICTURES where that is set. JOBS processes work at once.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
@@ -21,19 +27,27 @@ out=$build/blind/$set_name
 seal=$here/seals/$set_name.sha256
 export OUT="$out" TOOLS="$tools" DYNID="$dynid"
 
-make_cases() {
+begin_cases() {
   rm -rf "$out"
   mkdir -p "$out/sealed/entries"
   chmod 700 "$out/sealed"
-  grep -v -e '^#' -e '^bound' "$here/sets/$set_name.txt" | while read -r kind lambda cases seed arm; do
+}
+
+make_cases() {
+  begin_cases
+  grep -v -e '^#' -e '^bound' "$here/sets/$set_name.txt" | while read -r kind lambda cases seed arm family; do
     [ "$lambda" = 0 ] && lambda=1
     part=0
     while [ $part -lt "$jobs" ]; do
-      echo "--kind $kind --lambda $lambda --cases $cases --seed $seed --part $part --parts $jobs ${arm:+--arm $arm}"
+      echo "--kind $kind --lambda $lambda --cases $cases --seed $seed --part $part --parts $jobs ${arm:+--arm $arm} ${family:+--family $family}"
       part=$((part + 1))
     done
   done | xargs -P "$jobs" -I{} sh -c "$tools/blind_make {} --arms $here/arms --out $out/cases --sealed $out/sealed/entries"
-  # the manifest: all entries, by the names of the cases
+  seal_cases
+}
+
+# The manifest: all entries, by the names of the cases.
+seal_cases() {
   {
     echo "["
     separator=""
@@ -48,6 +62,15 @@ make_cases() {
   (cd "$out/sealed" && sha256sum manifest.json) >"$out/manifest.sha256"
   echo "$(find "$out/cases" -mindepth 1 -maxdepth 1 | wc -l) cases; sealed as"
   cat "$out/manifest.sha256"
+}
+
+# Recordings of real robots as they are, and with something added.
+spoil_recordings() {
+  begin_cases
+  grep -v '^#' "$here/sets/real.txt" | while read -r recording family strength seed joint; do
+    echo "--recording $recording --family $family ${strength:+--strength $strength} --seed $seed ${joint:+--joint $joint}"
+  done | xargs -P "$jobs" -I{} sh -c "$tools/blind_spoil {} --data $data --project $here/../.. --out $out/cases --sealed $out/sealed/entries"
+  seal_cases
 }
 
 # What is in the cases was fixed before they were diagnosed: a set with a committed seal is that set.
@@ -65,8 +88,8 @@ diagnose_cases() {
   find "$out/cases" -mindepth 1 -maxdepth 1 | sort | xargs -P "$jobs" -I{} sh -c '
     name=$(basename {})
     begin=$(date +%s)
-    timeout 1200 "$TOOLS/blind_sealed_run" {} "$OUT/answers" "$DYNID" diagnose robot.robot \
-      train1.csv train2.csv train3.csv --holdout held1.csv --holdout held2.csv \
+    recordings=$(cd {} && ls train*.csv; cd {} && ls held*.csv 2>/dev/null | sed "s/^/--holdout /")
+    timeout 1200 "$TOOLS/blind_sealed_run" {} "$OUT/answers" "$DYNID" diagnose robot.robot $recordings \
       --json "$OUT/answers/$name.json" -o "$OUT/answers/$name.robot" >"$OUT/answers/$name.txt" 2>&1 ||
       echo "$name: dynid ended with $?"
     echo "$name $(($(date +%s) - begin)) s"'
@@ -74,12 +97,75 @@ diagnose_cases() {
   echo "answers sealed as $(sha256sum <"$out/answers.sha256" | cut -d' ' -f1)"
 }
 
-score_cases() {
+answer_simply() {
+  check_seal
+  rm -rf "$out/baselines"
+  mkdir -p "$out/baselines"
+  find "$out/cases" -mindepth 1 -maxdepth 1 | sort | xargs -P "$jobs" -I{} sh -c '
+    timeout 1200 "$TOOLS/blind_sealed_run" {} "$OUT/baselines" "$TOOLS/blind_baselines" robot.robot \
+      train1.csv train2.csv train3.csv --holdout held1.csv --holdout held2.csv \
+      --json "$OUT/baselines/$(basename {}).json" || echo "{}: blind_baselines ended with $?"'
+  (cd "$out/baselines" && sha256sum ./*.json) >"$out/baselines.sha256"
+  echo "answers of simpler methods sealed as $(sha256sum <"$out/baselines.sha256" | cut -d' ' -f1)"
+}
+
+# Whoever moves the machine knows what is in the cases; dynid has no more than it had, and the recording.
+active_cases() {
   check_seal
   (cd "$out/answers" && sha256sum --quiet -c ../answers.sha256)
+  rm -rf "$out/asked" "$out/second"
+  mkdir -p "$out/asked" "$out/second"
+  rm -f "$out"/cases/*/train4.csv
+  { grep -l '"purpose": "' "$out"/answers/*.json || true; } | xargs -P "$jobs" -I{} sh -c '
+    name=$(basename {} .json)
+    cp {} "$OUT/asked/$name.findings"
+    timeout 1200 "$TOOLS/blind_sealed_run" "$OUT/cases/$name" "$OUT/asked" "$DYNID" excite robot.robot \
+      --for "$OUT/asked/$name.findings" --evaluations 3000 --json "$OUT/asked/$name.json" \
+      -o "$OUT/asked/$name.csv" >"$OUT/asked/$name.txt" 2>&1 || echo "$name: dynid excite ended with $?"'
+  part=0
+  while [ $part -lt "$jobs" ]; do
+    echo "--part $part --parts $jobs"
+    part=$((part + 1))
+  done | xargs -P "$jobs" -I{} sh -c "$tools/blind_answer $out/sealed/manifest.json {} --arms $here/arms \
+    --cases $out/cases --asked $out/asked"
+  find "$out/cases" -name train4.csv | sort | xargs -P "$jobs" -I{} sh -c '
+    case=$(dirname {})
+    name=$(basename "$case")
+    timeout 1200 "$TOOLS/blind_sealed_run" "$case" "$OUT/second" "$DYNID" diagnose robot.robot \
+      train1.csv train2.csv train3.csv train4.csv --holdout held1.csv --holdout held2.csv \
+      --json "$OUT/second/$name.json" -o "$OUT/second/$name.robot" >"$OUT/second/$name.txt" 2>&1 ||
+      echo "$name: dynid ended with $?"'
+  (cd "$out" && find asked second -type f | sort | xargs sha256sum) >"$out/second.sha256"
+  echo "second answers sealed as $(sha256sum <"$out/second.sha256" | cut -d' ' -f1)"
+}
+
+score_cases() {
+  code=0
+  check_seal
+  if [ -f "$out/second.sha256" ]; then (cd "$out" && sha256sum --quiet -c second.sha256); fi
+  (cd "$out/answers" && sha256sum --quiet -c ../answers.sha256)
+  rm -rf "$out/figures"
+  simpler=
+  if [ -d "$out/baselines" ]; then
+    (cd "$out/baselines" && sha256sum --quiet -c ../baselines.sha256)
+    simpler="--baselines $out/baselines"
+  fi
   # shellcheck disable=SC2046  # options, in words
   "$tools/blind_score" "$out/sealed/manifest.json" "$out/answers" --lines "$out/lines.txt" \
-    $(sed -n 's/^bound //p' "$here/sets/$set_name.txt")
+    --figures "$out/figures" $simpler $([ -d "$out/second" ] && echo "--asked $out/asked --second $out/second") \
+    $(sed -n 's/^bound //p' "$here/sets/$set_name.txt") || code=$?
+  if command -v gnuplot >/dev/null; then
+    pictures=${PICTURES:-$out/figures}
+    mkdir -p "$pictures"
+    gnuplot -e "folder='$out/figures'; pictures='$pictures'" "$here/score/proof.gnuplot"
+  fi
+  return "$code"
+}
+
+score_real() {
+  check_seal
+  (cd "$out/answers" && sha256sum --quiet -c ../answers.sha256)
+  "$tools/blind_score" --real "$out/sealed/manifest.json" "$out/answers"
 }
 
 one_case() {
@@ -96,11 +182,22 @@ one_case() {
   echo "report: $out/report.html"
 }
 
+data=${DYNGEN_SHARED_DATA:-$here/../../../shared/data}
+if [ "$set_name" = real ] && [ ! -f "$data/tx40/tx40.csv" ]; then
+  echo "skipped: $data holds no real recordings; DYNGEN_SHARED_DATA is the folder of them"
+  exit 0
+fi
+
 case "$set_name/$step" in
   case/*) shift 2; one_case "$@" ;;
-  */all) make_cases; diagnose_cases; score_cases ;;
+  real/all) spoil_recordings; diagnose_cases; score_real ;;
+  real/make) spoil_recordings ;;
+  real/score) score_real ;;
+  */all) make_cases; diagnose_cases; answer_simply; score_cases ;;
   */make) make_cases ;;
   */diagnose) diagnose_cases ;;
+  */active) active_cases ;;
+  */baselines) answer_simply ;;
   */score) score_cases ;;
-  *) sed -n '2,13p' "$0"; exit 2 ;;
+  *) sed -n '2,19p' "$0"; exit 2 ;;
 esac

@@ -12,7 +12,7 @@
 
 #include "runtime/effects/effect_fit.h"
 #include "runtime/effects/effect_rows.h"
-#include "tests/studies/diagnosis_baselines.h"
+#include "tests/baselines/effect_dictionary.h"
 
 namespace dyngen::test {
 namespace {
@@ -190,15 +190,19 @@ std::vector<bool> remembering(const DiagnosisCase& own) {
 }
 
 void judge_baselines(const DiagnosisCase& own, const EffectRecordings& train, CaseScore& score) {
-  for (const BaselineAnswer& answer : baseline_answers(own, train)) {
-    BaselineScore result{answer.method, static_cast<int>(answer.families.size()), 0, false};
-    for (const std::string& family : answer.families) {
-      result.wrong += contains(score.true_families, family) ? 0 : 1;
+  const EffectDictionary dictionary = effect_dictionary(own.input.hypotheses, train);
+  const auto judge = [&](const std::string& method, const std::vector<Index>& places) {
+    BaselineScore result{method, static_cast<int>(places.size()), 0, false};
+    for (const Index place : places) {
+      const EffectInstance& effect = dictionary.effects[static_cast<std::size_t>(place)];
+      const bool right = contains(score.true_families, effect.law.family);
+      result.wrong += right ? 0 : 1;
+      if (place == places.front()) result.first_right = right;
     }
-    result.first_right =
-        !answer.families.empty() && contains(score.true_families, answer.families.front());
     score.baselines.push_back(result);
-  }
+  };
+  judge("lasso", lasso(dictionary.set));
+  judge("forward", forward(dictionary.set));
 }
 
 CaseScore score_of(const CaseRequest& request) {

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "tests/blind/score/estimates.h"
+#include "tests/blind/score/figures.h"
+#include "tests/blind/score/score.h"
+#include "tests/blind/score/shares.h"
+
+namespace blind {
+namespace {
+
+using Set = std::vector<const Judged*>;
+using Test = std::function<bool(const Judged&)>;
+
+Set part(const Set& all, const Test& test) {
+  Set some;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+               [&](const Judged* each) { return test(*each); });
+  return some;
+}
+
+std::string rate(const Set& of, const Test& test) {
+  const auto right = std::count_if(of.begin(), of.end(), [&](const Judged* e) { return test(*e); });
+  return text_of(share_of(static_cast<int>(right), static_cast<int>(of.size())));
+}
+
+double quantile(const Set& of, double share, const std::function<double(const Judged&)>& value) {
+  std::vector<double> values;
+  for (const Judged* each : of) values.push_back(value(*each));
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto low = static_cast<std::size_t>(place);
+  const std::size_t high = std::min(low + 1, values.size() - 1);
+  return values[low] + (place - std::floor(place)) * (values[high] - values[low]);
+}
+
+std::string row(const std::string& what, const std::string& value) {
+  return fmt::format("| {} | {} |\n", what, value);
+}
+
+/// Of 60 and more, within the accuracy that sizes are found with.
+bool is_strong(const Judged& each) { return each.lambda >= 53; }
+
+std::string concealment(const Set& singles) {
+  std::string text = "| concealment of the single effects | |\n|---|---|\n";
+  text += row("absorbed by the refit, 70 % and more",
+              rate(singles, [](const Judged& e) { return e.absorbed >= 0.7; }));
+  text += row("absorbed by the refit, 90 % and more",
+              rate(singles, [](const Judged& e) { return e.absorbed >= 0.9; }));
+  text += row("residual above the floor, median",
+              fmt::format("{:.2f} %",
+                          100 * quantile(singles, 0.5, [](const Judged& e) { return e.excess; })));
+  text += row("forms that are not the catalogue's", rate(singles, [](const Judged& e) {
+                return e.truth["truths"][0]["own_form"].get<bool>();
+              }));
+  return text + "\n";
+}
+
+std::string single_table(const Set& singles) {
+  const Set strong = part(singles, is_strong);
+  const Set found = part(strong, [](const Judged& e) { return e.found; });
+  const auto is_named = [](const Judged& e) { return e.answered && !e.answer["findings"].empty(); };
+  const Set named = part(strong, is_named);
+  const Set separable = part(strong, [](const Judged& e) { return e.separable; });
+  std::string text = "| single effects, lambda of 60 and more | |\n|---|---|\n";
+  text += row("found", rate(strong, [](const Judged& e) { return e.found; }));
+  text += row("named", rate(strong, is_named));
+  text += row("joint right, of those named", rate(named, [](const Judged& e) { return e.joint; }));
+  text += row("family first, of separable ones that are named",
+              rate(part(named, [](const Judged& e) { return e.separable; }),
+                   [](const Judged& e) { return e.first; }));
+  text += row("separable", rate(strong, [](const Judged& e) { return e.separable; }));
+  text += row("truth among the aliases, of those named",
+              rate(named, [](const Judged& e) { return e.among; }));
+  double names = 0;
+  for (const Judged* each : named) names += each->aliases;
+  text +=
+      row("names in a set, mean",
+          fmt::format("{:.2f}", names / std::max<double>(1, static_cast<double>(named.size()))));
+  text +=
+      row("confident wrong names", rate(strong, [](const Judged& e) { return e.confident_wrong; }));
+  const auto ratio = [](const Judged& e) { return e.heldout; };
+  text +=
+      row("held-out rms over the oracle's, median, 95th percentile",
+          fmt::format("{:.3f}, {:.3f}", quantile(found, 0.5, ratio), quantile(found, 0.95, ratio)));
+  text += row(
+      "held-out gap closed, median",
+      fmt::format("{:.2f}", quantile(found, 0.5, [](const Judged& e) { return e.gap_closed; })));
+  return text + "\n";
+}
+
+std::string ladder(const Set& singles) {
+  std::string text =
+      "| wanted lambda | found | family first | confident wrong |\n|---|---|---|---|\n";
+  std::set<double> steps;
+  for (const Judged* each : singles) steps.insert(each->truth["wanted_lambda"].get<double>());
+  for (const double step : steps) {
+    const Set here =
+        part(singles, [&](const Judged& e) { return e.truth["wanted_lambda"] == step; });
+    text += fmt::format("| {:g} | {} | {} | {} |\n", step,
+                        rate(here, [](const Judged& e) { return e.found; }),
+                        rate(here, [](const Judged& e) { return e.first; }),
+                        rate(here, [](const Judged& e) { return e.confident_wrong; }));
+  }
+  const double half = half_detected(detection_steps(singles)), best = oracle_lambda(0.5, 1);
+  text +=
+      fmt::format("\nHalf is found at lambda {}; by who knows its form at {:.1f}{}.\n",
+                  std::isfinite(half) ? fmt::format("{:.0f}", half) : "that is not in the set",
+                  best, std::isfinite(half) ? fmt::format(": efficiency {:.2f}", best / half) : "");
+  return text + "\n";
+}
+
+std::string confusion(const Set& all) {
+  std::map<std::string, std::map<std::string, int>> counts;
+  for (const Judged* each : all) ++counts[family_of(*each)][first_name(*each)];
+  std::string text = "| truth | first answer, how often |\n|---|---|\n";
+  for (const auto& [truth, answers] : counts) {
+    std::string said;
+    for (const auto& [name, count] : answers) {
+      said += fmt::format("{}{} {}", said.empty() ? "" : ", ", name, count);
+    }
+    text += row(truth, said);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string broken(const std::vector<Judged>& judged, const Bounds& bounds) {
+  std::string text;
+  const auto share = [&](const Test& among, const Test& test) {
+    double of = 0, right = 0;
+    for (const Judged& each : judged) {
+      of += among(each);
+      right += among(each) && test(each);
+    }
+    return of > 0 ? right / of : std::nan("");
+  };
+  const auto most = [&](const char* what, double found, double bound) {
+    if (found > bound) text += fmt::format("{}: {:.3f}, at most {:g}\n", what, found, bound);
+  };
+  const auto least = [&](const char* what, double found, double bound) {
+    if (found < bound) text += fmt::format("{}: {:.3f}, at least {:g}\n", what, found, bound);
+  };
+  const Test strong = [](const Judged& e) { return e.kind == "single" && is_strong(e); };
+  most("false alarms of nulls",
+       share([](const Judged& e) { return e.kind == "null"; },
+             [](const Judged& e) { return e.found; }),
+       bounds.most_false_alarms);
+  most("confident wrong names",
+       share([](const Judged& e) { return e.kind == "single" || e.kind == "foreign"; },
+             [](const Judged& e) { return e.confident_wrong; }),
+       bounds.most_confident_wrong);
+  least("single effects found", share(strong, [](const Judged& e) { return e.found; }),
+        bounds.least_found);
+  least("family first", share(strong, [](const Judged& e) { return e.first; }), bounds.least_first);
+  return text;
+}
+
+std::string tables(const std::vector<Judged>& judged) {
+  Set all;
+  for (const Judged& each : judged) all.push_back(&each);
+  const auto kind = [&](const std::string& name) {
+    return part(all, [&](const Judged& e) { return e.kind == name; });
+  };
+  std::string text = "| | |\n|---|---|\n";
+  const auto add = [&](const std::string& what, const Set& of, const Test& test) {
+    if (!of.empty()) text += row(what, rate(of, test));
+  };
+  add("answered", all, [](const Judged& e) { return e.answered; });
+  add("nulls: false alarms", kind("null"), [](const Judged& e) { return e.found; });
+  add("pairs: both named", kind("pair"), [](const Judged& e) { return e.both; });
+  add("pairs: one at least", kind("pair"), [](const Judged& e) { return e.one; });
+  add("pairs: a third name", kind("pair"), [](const Judged& e) { return e.third; });
+  add("hidden: among the undecidable, and nothing found", kind("hidden"),
+      [](const Judged& e) { return e.undecidable && !e.found; });
+  add("hidden: anything found", kind("hidden"), [](const Judged& e) { return e.found; });
+  add("foreign: flagged, without a confident name", kind("foreign"),
+      [](const Judged& e) { return e.flagged; });
+  add("foreign: anything found", kind("foreign"), [](const Judged& e) { return e.found; });
+  add("foreign: confident names", kind("foreign"),
+      [](const Judged& e) { return e.confident_wrong; });
+  add("passing: family first", kind("passing"), [](const Judged& e) { return e.first; });
+  add("passing: found", kind("passing"), [](const Judged& e) { return e.found; });
+  text += "\n";
+  const Set singles = kind("single");
+  if (!singles.empty()) text += concealment(singles) + single_table(singles) + ladder(singles);
+  text += estimate_table(judged);
+  return text + confusion(all);
+}
+
+std::string lines(const std::vector<Judged>& all) {
+  std::string text;
+  for (const Judged& each : all) {
+    std::string truth, said;
+    for (const auto& one : each.truth["truths"]) {
+      truth += fmt::format("{}{} of joint {} ({}; lambda {:.0f}, {:.0f} % absorbed)",
+                           truth.empty() ? "" : " and ", one["family"].get<std::string>(),
+                           one["joint"].get<int>(), one["form"].get<std::string>(),
+                           one["lambda"].get<double>(), 100 * one["absorbed"].get<double>());
+    }
+    if (each.answered) {
+      for (const auto& one : each.answer["findings"]) {
+        said += fmt::format("{}{} of joint {} ({:.2f})", said.empty() ? "" : " and ",
+                            one["family"].get<std::string>(), one["joint"].get<int>(),
+                            one["probability"].get<double>());
+      }
+      for (const auto& one : each.answer["unexplained"]) {
+        said +=
+            fmt::format("{}{}", said.empty() ? "" : " and ", one["description"].get<std::string>());
+      }
+    }
+    text += fmt::format("{} {} {} {}: {} -> {}\n", each.name, each.kind,
+                        each.truth["arm"].get<std::string>(), each.truth["loop"].get<std::string>(),
+                        truth.empty() ? "nothing" : truth,
+                        each.answered ? (said.empty() ? "clean" : said) : "no answer");
+  }
+  return text;
+}
+
+}  // namespace blind
