@@ -24,7 +24,7 @@ constexpr Index kSlices = 700;  // more than a panel has pixels
 
 /// Colours that people tell apart who see colours differently (Okabe and Ito, 2008).
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                    "#e69f00", "#56b4e9", "#000000"};
+                                    "#e69f00", "#56b4e9", "#000000", "#7f7f7f"};
 
 /// @param place  of the series in its panel
 const char* colour_of(const Series& series, std::size_t place) {
@@ -61,15 +61,46 @@ std::vector<Index> visible(const VectorXd& y) {
 
 /// The data of a series as gnuplot's inline data block; a gap where a value is not finite.
 std::string data_block(const Series& series, const std::string& name) {
+  const bool band = series.style == SeriesStyle::kBand;
   std::string text = "$" + name + " << EOD\n";
-  for (const Index i : visible(series.y)) {
-    if (std::isfinite(series.x[i]) && std::isfinite(series.y[i])) {
-      text += fmt::format("{:.7g} {:.7g}\n", series.x[i], series.y[i]);
-    } else {
+  const auto add = [&](Index i) {
+    if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i]) ||
+        (band && !std::isfinite(series.high[i]))) {
       text += "\n";
+    } else if (band) {
+      text += fmt::format("{:.7g} {:.7g} {:.7g}\n", series.x[i], series.y[i], series.high[i]);
+    } else {
+      text += fmt::format("{:.7g} {:.7g}\n", series.x[i], series.y[i]);
     }
+  };
+  if (series.style == SeriesStyle::kLine) {
+    for (const Index i : visible(series.y)) add(i);
+  } else {
+    for (Index i = 0; i < series.y.size(); ++i) add(i);
   }
   return text + "EOD\n";
+}
+
+/// How a series is drawn, as gnuplot says it. @param colour  "#rrggbb"
+std::string style_text(const Series& series, const std::string& colour) {
+  switch (series.style) {
+    case SeriesStyle::kPoints:
+      return fmt::format("using 1:2 with points pointtype 7 pointsize 0.25 linecolor rgb \"#90{}\"",
+                         colour.substr(1));
+    case SeriesStyle::kBand:
+      return fmt::format(
+          "using 1:2:3 with filledcurves fillcolor rgb \"{}\" fillstyle transparent solid 0.2 "
+          "noborder",
+          colour);
+    case SeriesStyle::kBars:
+      return fmt::format(
+          "using 1:2 with boxes fillcolor rgb \"{0}\" linecolor rgb \"{0}\" fillstyle solid",
+          colour);
+    case SeriesStyle::kLine:
+      break;
+  }
+  return fmt::format("using 1:2 with lines linewidth 1.5 linecolor rgb \"{}\"{}", colour,
+                     series.dashed ? " dashtype 2" : "");
 }
 
 std::string panel_script(const Panel& panel, const std::string& name) {
@@ -78,9 +109,8 @@ std::string panel_script(const Panel& panel, const std::string& name) {
     const Series& series = panel.series[i];
     const std::string block = fmt::format("{}_{}", name, i);
     data += data_block(series, block);
-    plots += fmt::format("{}${} using 1:2 with lines linewidth 1.5 linecolor rgb \"{}\"{} {}",
-                         plots.empty() ? "" : ", \\\n  ", block, colour_of(series, i),
-                         series.dashed ? " dashtype 2" : "",
+    plots += fmt::format("{}${} {} {}", plots.empty() ? "" : ", \\\n  ", block,
+                         style_text(series, colour_of(series, i)),
                          series.name.empty() ? "notitle" : "title " + quoted(series.name));
   }
   for (const double level : panel.levels) {
@@ -95,7 +125,13 @@ std::string panel_script(const Panel& panel, const std::string& name) {
   text += panel.logarithmic_x ? "set logscale x\n" : "unset logscale x\n";
   text += panel.logarithmic_y ? "set logscale y\n" : "unset logscale y\n";
   if (plots.empty()) plots = "NaN notitle";
-  return text + "plot " + plots + "\n";
+  if (panel.x_names.empty()) return text + "plot " + plots + "\n";
+  std::string names;
+  for (std::size_t i = 0; i < panel.x_names.size(); ++i) {
+    names += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(panel.x_names[i]), i);
+  }
+  return text + "set boxwidth 0.25\nset yrange [0:*]\nset xtics noenhanced (" + names + ")\nplot " +
+         plots + "\nset xtics autofreq\nset yrange [*:*]\n";
 }
 
 /// Runs gnuplot. @return whether it was found and content with its arguments
@@ -126,9 +162,12 @@ void Figure::validate() const {
   }
   for (const Panel& panel : panels) {
     for (const Series& series : panel.series) {
-      if (series.x.size() == series.y.size()) continue;
-      throw std::invalid_argument(fmt::format("Figure: series '{}' has {} values of x and {} of y",
-                                              series.name, series.x.size(), series.y.size()));
+      const bool whole =
+          series.style != SeriesStyle::kBand || series.high.size() == series.y.size();
+      if (series.x.size() == series.y.size() && whole) continue;
+      throw std::invalid_argument(
+          fmt::format("Figure: series '{}' has {} values of x, {} of y and {} of its band",
+                      series.name, series.x.size(), series.y.size(), series.high.size()));
     }
   }
 }

@@ -9,12 +9,21 @@
 
 namespace dyngen::runtime {
 
+enum class SeriesStyle {
+  kLine,
+  kPoints,  ///< small marks, half transparent
+  kBand,    ///< the area between y and high
+  kBars     ///< from 0
+};
+
 /// A curve of a panel.
 struct Series {
   std::string name;  ///< in the key; empty: not there
   Eigen::VectorXd x, y;
   bool dashed = false;
   int colour = -1;  ///< place among the colours, from 0; negative: the series' own place
+  SeriesStyle style = SeriesStyle::kLine;
+  Eigen::VectorXd high{};  ///< of a band
 };
 
 /// A diagram with its own axes.
@@ -23,6 +32,7 @@ struct Panel {
   std::vector<Series> series;
   std::vector<double> levels;  ///< horizontal dotted lines: limits
   bool logarithmic_x = false, logarithmic_y = false;
+  std::vector<std::string> x_names{};  ///< that stand at x = 0, 1 ...; empty: numbers
 };
 
 /// Panels in rows, from the upper left.
@@ -32,8 +42,8 @@ struct Figure {
   int panel_width = 640, panel_height = 240;  ///< pixels
   std::vector<Panel> panels;
 
-  /// @throws std::invalid_argument  if there is no panel, a size is not positive, or x and y of a
-  /// series differ in length
+  /// @throws std::invalid_argument  if there is no panel, a size is not positive, or x, y and
+  /// high of a series differ in length
   void validate() const;
 };
 
@@ -58,7 +68,7 @@ bool can_draw();
 
 /// Draws a figure with gnuplot into a .svg or .png file, which appears when it is complete.
 ///
-/// Curves of more than 1400 points are thinned to what the eye can see: the least and the
+/// Lines of more than 1400 points are thinned to what the eye can see: the least and the
 /// largest value of every slice are kept.
 /// @throws FigureError  without gnuplot, for another ending, or if the file cannot be written
 /// @throws std::invalid_argument  as validate()

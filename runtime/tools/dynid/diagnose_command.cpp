@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include "gen/tool/output_files.h"
 #include "runtime/diagnosis/division.h"
+#include "runtime/report/document_json.h"
+#include "runtime/report/figures.h"
+#include "runtime/tools/dynid/arm_drawing.h"
 #include "runtime/tools/dynid/commands.h"
+#include "runtime/tools/dynid/diagnosis_document.h"
 #include "runtime/tools/dynid/diagnosis_recordings.h"
 #include "runtime/tools/dynid/diagnosis_report.h"
+#include "runtime/tools/dynid/effect_code_text.h"
 #include "runtime/tools/dynid/effect_hypotheses.h"
 #include "runtime/tools/dynid/effect_laws.h"
 #include "runtime/tools/dynid/forward_simulation.h"
@@ -109,8 +116,38 @@ ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& r
 #endif
 }
 
-void write_outputs(const ToolOptions& options, const DescribedRobot& robot,
-                   DiagnosisReport& report) {
+/// The statements that dyngen writes for each finding, of the improved file.
+void add_code(DiagnosisReport& report, const DescribedRobot& robot,
+              const std::shared_ptr<const EffectCatalogue>& catalogue) {
+  const auto& effects = report.diagnosis.fit.point.effects;
+  if (effects.empty()) return;
+  const RobotFile file = parse_robot_file(improved_text(report, robot), robot.file.file_name);
+  std::size_t row = robot.file.effects.size();
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    if (effects[i].recording >= 0) continue;  // an event: no row
+    report.words[i].code = effect_code_text(file, row++, effects[i], catalogue);
+  }
+}
+
+/// Files of the folder --figures: numbers at once, pictures as gnuplot draws them.
+void write_figures(const std::string& folder, const ReportDocument& document,
+                   ProgressLine& progress) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw OutputError(fmt::format("{}: {}", folder, error.message()));
+  const std::vector<ReportFigure> figures = report_figures(document);
+  std::vector<OutputFile> numbers;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    progress.show("figures", i, figures.size());
+    const std::string path = (std::filesystem::path(folder) / figures[i].name).string();
+    numbers.push_back({path + ".csv", figures[i].csv});
+    for (const char* ending : {".svg", ".png"}) draw(figures[i].figure, path + ending);
+  }
+  write_files(numbers);
+}
+
+void write_outputs(const ToolOptions& options, const DescribedRobot& robot, DiagnosisReport& report,
+                   ProgressLine& progress) {
   const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
   for (const std::string& path : {options.diagnose.report, options.json}) {
     if (!path.empty()) report.written.push_back(path);
@@ -121,8 +158,16 @@ void write_outputs(const ToolOptions& options, const DescribedRobot& robot,
     files.push_back({options.output, improved_text(report, robot)});
   }
   if (!options.json.empty()) files.push_back({options.json, diagnosis_json(report)});
-  if (!options.diagnose.report.empty()) {
-    files.push_back({options.diagnose.report, diagnosis_page(report)});
+  const std::string& folder = options.diagnose.figures;
+  if (!options.diagnose.report.empty() || !folder.empty()) {
+    const ReportDocument document = diagnosis_document(report);
+    if (!options.diagnose.report.empty()) {
+      files.push_back({options.diagnose.report, report_page(document)});
+    }
+    if (!folder.empty()) {
+      write_figures(folder, document, progress);
+      report.written.push_back(folder);
+    }
   }
   write_files(files);
 }
@@ -135,7 +180,8 @@ int run_diagnose(const ToolOptions& options) {
   settings.decimation = options.rows.decimation;
   settings.validate();
   check_simulation(options);
-  const EffectCatalogue catalogue = effect_catalogue(options.effects);
+  const auto shared = std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects));
+  const EffectCatalogue& catalogue = *shared;
   const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAbsentRows);
   const KnownEffects known = known_effects(options.robot, catalogue);
   const ToolOptions how = reading(options);
@@ -156,18 +202,32 @@ int run_diagnose(const ToolOptions& options) {
   input.model = robot.linear;
   input.robot = effect_robot(robot);
   Diagnosis diagnosis;
+  DiagnosisViews views;
+  Eigen::VectorXd posture = Eigen::VectorXd::Zero(robot.linear.joints());
+  const auto witness = [&](const DiagnosedRecordings& shown) {
+    std::vector<std::string> plots;
+    for (const EffectInstance& effect : shown.after.effects) {
+      plots.push_back(catalogue.find(effect.law.name)->plot);
+    }
+    views = views_for_report(shown, plots);
+    const Eigen::MatrixXd& q = shown.heldout.runs.front().motion.q;
+    posture = q.row(q.rows() / 2);
+  };
   try {
     input.train = read(options.recordings, "fitted");
     input.heldout = read(options.heldout, "held out");
     input.reference = read(options.diagnose.reference, "reference");
     input.hypotheses = competing_effects(robot, catalogue, joined_sources(input));
-    diagnosis = diagnose(input, settings, [&](const std::string& stage, double done) {
+    const auto tell = [&](const std::string& stage, double done) {
       progress.show(stage, static_cast<std::size_t>(100 * done), 100);
-    });
+    };
+    diagnosis = diagnose(input, settings, tell, witness);
   } catch (const TooShortError& error) {
     diagnosis.sentence = error.what();
   }
   DiagnosisReport report = diagnosis_report(std::move(diagnosis), robot, catalogue);
+  report.views = std::move(views);
+  report.arm = arm_drawing(robot.model, posture, marked_joints(report.diagnosis));
   report.recordings = std::move(recordings);
   report.residual_only = settings.residual_only;
   report.false_alarm = settings.false_alarm;
@@ -180,9 +240,11 @@ int run_diagnose(const ToolOptions& options) {
   if (answered && !options.diagnose.loop.controller.empty()) {
     report.forward = simulated(options, report, robot, catalogue, std::move(proof), progress);
   }
+  if (answered) add_code(report, robot, shared);
   progress.clear();
-  write_outputs(options, robot, report);
-  std::cout << diagnosis_text(report);
+  write_outputs(options, robot, report, progress);
+  progress.clear();
+  std::cout << diagnosis_text(report, style_of_output());
   if (answered) return kDone;
   std::cerr << "dynid: " << report.diagnosis.sentence << "\n";
   return kCannotAnswer;

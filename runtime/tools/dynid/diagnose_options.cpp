@@ -53,6 +53,8 @@ void add_diagnose_options(CLI::App& command, DiagnoseOptions& options) {
                    "explain the torque that another simulator leaves (columns tausim1 ..): the "
                    "model's own parameters are not fitted");
   command.add_option("--report", options.report, "all results as a page to read (.html)");
+  command.add_option("--figures", options.figures,
+                     "a folder for the figures of the page, each as .svg, .png and .csv");
   command
       .add_option("--false-alarm", options.diagnosis.false_alarm,
                   "how often a robot without fault may be accused, by the whole diagnosis")

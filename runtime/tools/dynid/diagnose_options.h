@@ -18,6 +18,7 @@ namespace dyngen::runtime {
 struct DiagnoseOptions {
   std::vector<std::string> reference;  ///< recordings of the robot before it changed
   std::string report;                  ///< the page; empty: none
+  std::string figures;                 ///< folder of its figures; empty: none
   DiagnosisOptions diagnosis;
   /// Under which held-out motions are simulated before and after; no controller: they are not.
   LoopSettings loop;

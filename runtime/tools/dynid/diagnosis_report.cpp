@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <utility>
 
 #include "gen/effect_file/effect_variables.h"
 #include "gen/effect_file/units.h"
+#include "runtime/tools/dynid/effect_code_text.h"
 #include "runtime/tools/dynid/effect_formula.h"
 #include "runtime/tools/dynid/effect_report.h"
 
@@ -24,6 +26,8 @@ EffectWords words_of(const EffectInstance& effect, const EffectCatalogue& catalo
   words.equations = equation_lines(file);
   words.units = effect_units({effect}, catalogue, model).front();
   for (const auto& parameter : file.parameters) words.meanings.push_back(parameter.meaning);
+  words.plot = file.plot;
+  words.why_no_code = why_no_code(effect, catalogue);
   return words;
 }
 
@@ -46,8 +50,26 @@ DiagnosisReport diagnosis_report(Diagnosis diagnosis, const DescribedRobot& robo
     report.certificate_units.push_back(
         line.parameter < 0 ? "" : units[static_cast<std::size_t>(line.parameter)]);
   }
+  for (const LinearParameter& parameter : robot.linear.parameters) {
+    report.parameter_links.push_back(parameter.link);
+  }
   report.diagnosis = std::move(diagnosis);
   return report;
+}
+
+std::vector<int> marked_joints(const Diagnosis& diagnosis) {
+  std::vector<int> joints;
+  const auto add = [&](int joint) {
+    if (joint >= 0 && std::find(joints.begin(), joints.end(), joint) == joints.end()) {
+      joints.push_back(joint);
+    }
+  };
+  for (const Finding& finding : diagnosis.findings) {
+    add(finding.effect.joint);
+    add(finding.effect.other);
+  }
+  for (const Unexplained& unexplained : diagnosis.unexplained) add(unexplained.joint);
+  return joints;
 }
 
 std::string verdict_name(Verdict verdict) {

@@ -8,8 +8,11 @@
 
 #include "gen/effects/effect_catalogue.h"
 #include "runtime/diagnosis/findings.h"
+#include "runtime/report/document.h"
+#include "runtime/report/residual_views.h"
 #include "runtime/tools/dynid/described_robot.h"
 #include "runtime/tools/dynid/forward_comparison.h"
+#include "runtime/tools/dynid/text_plot.h"
 
 namespace dyngen::runtime {
 
@@ -18,6 +21,9 @@ struct EffectWords {
   std::string title, formula;
   std::vector<std::string> equations;        ///< a line each
   std::vector<std::string> units, meanings;  ///< of the parameters
+  std::string plot;                          ///< variable that it is drawn over; empty: none
+  std::string code;                          ///< statements that dyngen writes; empty: none
+  std::string why_no_code;                   ///< a reason; empty where there is code
 };
 
 /// A recording that was looked at.
@@ -41,6 +47,9 @@ struct DiagnosisReport {
   double false_alarm = 0;
   std::uint64_t seed = 0;
   std::string command, version;
+  DiagnosisViews views;              ///< what charts show; empty where nothing was diagnosed
+  ReportArm arm;                     ///< joints with findings are marked
+  std::vector<int> parameter_links;  ///< of base parameters, in their order, from 1
   std::optional<ForwardComparison> forward;  ///< where a controller is given
   std::vector<std::string> written;          ///< files
 
@@ -52,6 +61,9 @@ struct DiagnosisReport {
 /// A diagnosis with the words that its effects have in a catalogue.
 DiagnosisReport diagnosis_report(Diagnosis diagnosis, const DescribedRobot& robot,
                                  const EffectCatalogue& catalogue);
+
+/// Coordinates, from 0, of joints on which something was found, with a name or without.
+std::vector<int> marked_joints(const Diagnosis& diagnosis);
 
 /// "clean", "explained", "unexplained_structure", "insufficient_data".
 std::string verdict_name(Verdict verdict);
@@ -75,10 +87,7 @@ std::string next_command(const DiagnosisReport& report);
 /// Schema dynid.diagnosis/1, docs/diagnosis.md.
 std::string diagnosis_json(const DiagnosisReport& report);
 
-/// What a person reads on a terminal: some 25 lines.
-std::string diagnosis_text(const DiagnosisReport& report);
-
-/// One HTML page that needs nothing else.
-std::string diagnosis_page(const DiagnosisReport& report);
+/// What a person reads on a terminal: some 20 lines.
+std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style = {});
 
 }  // namespace dyngen::runtime

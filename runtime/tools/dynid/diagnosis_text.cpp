@@ -13,7 +13,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t kMostLines = 5;  // of what is listed besides findings
+constexpr std::size_t kMostLines = 3;   // of what is listed besides findings
+constexpr std::size_t kMostShapes = 2;  // findings with a small plot
 
 std::string where_text(const DiagnosisReport& report, const Whereabouts& where) {
   std::string text;
@@ -66,23 +67,51 @@ std::string finding_line(const DiagnosisReport& report, std::size_t place) {
   return text + "\n";
 }
 
-std::string heldout_table(const DiagnosisReport& report) {
+/// A line of small letters under a finding: what the model alone leaves over the variable in which
+/// that collapses, one for each direction of the joint.
+std::string shape_lines(const DiagnosisReport& report, std::size_t place, const TextStyle& style) {
+  if (place >= report.views.findings.size() || report.views.findings[place].over.empty()) return {};
+  const CoordinateView& over = report.views.findings[place].over.front();
+  if (over.x.size() < 2) return {};
+  std::string text;
+  for (const DirectionView& own : over.directions) {
+    constexpr int kWidth = 48;  // characters: the axis is uniform, bins are not
+    std::vector<double> shown(kWidth, NAN);
+    const double first = over.x[0], length = over.x[over.x.size() - 1] - first;
+    for (Index b = 0; b < over.x.size(); ++b) {
+      const auto column =
+          std::min<Index>(kWidth - 1, static_cast<Index>(kWidth * (over.x[b] - first) / length));
+      if (std::isfinite(own.left[b])) shown[static_cast<std::size_t>(column)] = own.left[b];
+    }
+    const double least = own.left.array().isFinite().select(own.left, INFINITY).minCoeff();
+    const double most = own.left.array().isFinite().select(own.left, -INFINITY).maxCoeff();
+    if (!(most >= least)) continue;
+    const char* way = own.direction > 0 ? "forward" : own.direction < 0 ? "backward" : "";
+    text += fmt::format("     {:<9}{}  {:.2g} .. {:.2g} {} over {}\n", way,
+                        coloured(sparkline(shown, style), TextColour::kBefore, style), least, most,
+                        report.unit(report.views.findings[place].joint), over.variable);
+  }
+  return text;
+}
+
+/// A line a joint: a bar of what is left after, in that of before, and the numbers.
+std::string heldout_table(const DiagnosisReport& report, const TextStyle& style) {
   const HeldoutResidual& rms = report.diagnosis.heldout;
   if (rms.before.size() == 0) return {};
-  std::string text = fmt::format("{:<20}", "held-out rms");
-  for (int j = 0; j < report.joints(); ++j) {
-    text += fmt::format("{:>10}", fmt::format("{} {}", j + 1, report.unit(j)));
-  }
-  const auto row = [&](const char* name, const Eigen::VectorXd& values) {
-    text += fmt::format("\n  {:<18}", name);
-    for (const double value : values) {
-      text += fmt::format("{:>10}", std::isfinite(value) ? fmt::format("{:.4g}", value) : "-");
-    }
+  constexpr int kWidth = 24;
+  std::string text = fmt::format("{:<13}{:<26}{:>12}{:>19}{:>9}\n", "held-out rms", "",
+                                 "model alone", "with the findings", "noise");
+  const auto number = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
   };
-  row("model alone", rms.before);
-  row("with the findings", rms.after);
-  row("floor of the noise", rms.floor);
-  return text + "\n";
+  for (int j = 0; j < report.joints(); ++j) {
+    const double before = rms.before[j], after = rms.after[j], floor = rms.floor[j];
+    const double most = std::max({before, after, std::isfinite(floor) ? floor : 0, 1e-300});
+    text += fmt::format("  {:<11}{}|{:>12}{:>19}{:>9} {}\n", fmt::format("joint {}", j + 1),
+                        coloured(text_bar(after / most, kWidth, style), TextColour::kAfter, style),
+                        number(before), number(after), number(floor), report.unit(j));
+  }
+  return text;
 }
 
 /// A row a candidate and quantity, a column a joint.
@@ -159,11 +188,16 @@ std::vector<std::string> unexplained_lines(const DiagnosisReport& report) {
 
 }  // namespace
 
-std::string diagnosis_text(const DiagnosisReport& report) {
+std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style) {
   const Diagnosis& diagnosis = report.diagnosis;
-  std::string text = fmt::format("{}: {}\n", report.robot, diagnosis.sentence);
-  for (std::size_t i = 0; i < diagnosis.findings.size(); ++i) text += finding_line(report, i);
-  text += heldout_table(report) + forward_table(report);
+  std::string text =
+      coloured(fmt::format("{}: {}", report.robot, diagnosis.sentence), TextColour::kMark, style) +
+      "\n";
+  for (std::size_t i = 0; i < diagnosis.findings.size(); ++i) {
+    text += finding_line(report, i);
+    if (i < kMostShapes) text += shape_lines(report, i, style);
+  }
+  text += heldout_table(report, style) + forward_table(report);
   if (!diagnosis.noise.how.empty()) text += "noise: " + diagnosis.noise.how + "\n";
   text += list_text("unexplained:", unexplained_lines(report));
   text += list_text("cannot be decided:", undecidable_lines(diagnosis));

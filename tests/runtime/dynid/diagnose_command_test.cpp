@@ -96,7 +96,7 @@ TEST_F(Diagnose, NamesFrictionThatTheModelLeavesOut) {
   EXPECT_EQ(finding["joint"], 3) << run.out;
   const Json heldout = json()["heldout"];
   EXPECT_LT(heldout["rms_after"][2].get<double>(), 0.95 * heldout["rms_before"][2].get<double>());
-  EXPECT_EQ(test::markup_fault(content(path("d.html"))), "");
+  EXPECT_EQ(test::page_fault(content(path("d.html"))), "");
   EXPECT_NE(run.out.find("of joint 3, probability"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("written: " + path("d.html")), std::string::npos) << run.out;
   // the file that it writes leaves less of the recordings, and compiles
@@ -120,6 +120,18 @@ TEST_F(Diagnose, FindsNothingWhereNothingIs) {
   EXPECT_EQ(json()["findings"].size(), 0u);
   EXPECT_GT(json()["certificate"].size(), 50u);
   EXPECT_GT(json()["undecidable"].size(), 0u);
+  // friction of every form would be seen if it were large enough
+  int friction = 0;
+  const Json certificate = json()["certificate"];
+  for (const Json& line : certificate) {
+    for (const char* family :
+         {"nonlinear_viscous", "quadratic_drag", "stribeck", "thermal_drift"}) {
+      if (line["family"] != family) continue;
+      ++friction;
+      EXPECT_TRUE(line["smallest_detectable"].is_number()) << line;
+    }
+  }
+  EXPECT_GT(friction, 24);
   // all parameters are those of a fit
   EXPECT_EQ(dynid("check " + path("d.robot") + " " + path("a.csv")).exit_code, 0);
 }
@@ -183,7 +195,7 @@ TEST_F(Diagnose, RefusesToAnswerFromTooLittle) {
   EXPECT_NE(run.out.find("too few"), std::string::npos) << run.out;
   EXPECT_EQ(json()["verdict"], "insufficient_data");
   EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
-  EXPECT_EQ(test::markup_fault(content(path("d.html"))), "");
+  EXPECT_EQ(test::page_fault(content(path("d.html"))), "");
   EXPECT_FALSE(fs::exists(path("d.robot")));
 }
 
@@ -203,7 +215,7 @@ TEST_F(Diagnose, RefusesToAnswerFromASecondOrTwo) {
     EXPECT_EQ(json()["verdict"], "insufficient_data");
     EXPECT_EQ(json()["findings"].size(), 0u);
     EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
-    EXPECT_EQ(test::markup_fault(content(path("d.html"))), "");
+    EXPECT_EQ(test::page_fault(content(path("d.html"))), "");
     EXPECT_FALSE(fs::exists(path("d.robot")));
   }
 }

@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "runtime/report/document_json.h"
+
 namespace dyngen::test {
 namespace {
 
@@ -151,35 +153,41 @@ std::vector<Json::json_pointer> all_keys(const Json& json) {
   return keys;
 }
 
-std::string markup_fault(const std::string& page) {
-  std::vector<std::string> open;
-  for (std::size_t i = 0; i < page.size(); ++i) {
-    if (page[i] == '&') {
-      const std::size_t end = page.find(';', i);
-      bool entity = end != std::string::npos && end - i <= 6 && end - i >= 2;
-      for (std::size_t k = i + 1; entity && k < end; ++k) {
-        entity = std::isalnum(static_cast<unsigned char>(page[k])) != 0 || page[k] == '#';
-      }
-      if (!entity) return "a bare & at " + page.substr(i, 20);
-    }
-    if (page[i] == '>') return "a bare > at " + page.substr(i, 20);
-    if (page[i] != '<') continue;
-    const std::size_t end = page.find('>', i);
-    if (end == std::string::npos) return "a bare < at " + page.substr(i, 20);
-    const std::string tag = page.substr(i + 1, end - i - 1);
-    i = end;
-    if (tag.empty() || tag.find('<') != std::string::npos) return "a bare < before " + tag;
-    if (tag[0] == '!' || tag.back() == '/') continue;
-    if (tag[0] == '/') {
-      if (open.empty() || open.back() != tag.substr(1)) return tag + " closes nothing";
-      open.pop_back();
-      continue;
-    }
-    if (std::isalpha(static_cast<unsigned char>(tag[0])) == 0) return "no element: " + tag;
-    open.push_back(tag.substr(0, tag.find(' ')));
-    if (open.back() == "style") i = page.find("</style>", i) - 1;
+Json page_document(const std::string& page) {
+  const std::string begin = "<script id=\"report\" type=\"application/json\">";
+  const std::size_t from = page.find(begin);
+  if (from == std::string::npos) return nullptr;
+  const std::size_t to = page.find("</script>", from);
+  const std::string text = page.substr(from + begin.size(), to - from - begin.size());
+  return Json::parse(text, nullptr, false);
+}
+
+std::string page_fault(const std::string& page) {
+  const std::string& whole = runtime::page_template();
+  const std::string title = "@TITLE@", report = "@REPORT@";
+  const std::size_t first = whole.find(title), second = whole.find(report);
+  if (first == std::string::npos || second == std::string::npos || second < first) {
+    return "the template has no places";
   }
-  return open.empty() ? "" : open.back() + " is not closed";
+  const std::string head = whole.substr(0, first);
+  const std::string middle = whole.substr(first + title.size(), second - first - title.size());
+  const std::string tail = whole.substr(second + report.size());
+  const std::size_t next = page.find(middle, head.size());
+  if (page.compare(0, head.size(), head) != 0) return "another beginning";
+  if (next == std::string::npos) return "another middle";
+  if (page.size() < tail.size() || page.substr(page.size() - tail.size()) != tail) {
+    return "another end";
+  }
+  const std::size_t from = next + middle.size();
+  const std::string document = page.substr(from, page.size() - tail.size() - from);
+  for (const std::string& part : {page.substr(head.size(), next - head.size()), document}) {
+    const std::size_t bad = part.find_first_of("<>");
+    if (bad != std::string::npos) return "not escaped: " + part.substr(bad, 20);
+  }
+  if (document.find('&') != std::string::npos) return "& in the document";
+  const Json json = Json::parse(document, nullptr, false);
+  if (json.is_discarded()) return "the document cannot be read";
+  return json.value("schema", "") == "dynid.report/1" ? "" : "another schema";
 }
 
 }  // namespace dyngen::test

@@ -15,8 +15,11 @@ std::vector<std::string> schema_faults(const nlohmann::json& json);
 /// Places of all keys of all objects.
 std::vector<nlohmann::json::json_pointer> all_keys(const nlohmann::json& json);
 
-/// What is wrong with a page's markup: elements that are not closed in order, '&' and '<' that are
-/// not escaped. Empty: nothing.
-std::string markup_fault(const std::string& page);
+/// The document in a page; null where there is none that can be read.
+nlohmann::json page_document(const std::string& page);
+
+/// What is wrong with a page: it is not the template with a document and a title in their places,
+/// or the document could end its element. Empty: nothing.
+std::string page_fault(const std::string& page);
 
 }  // namespace dyngen::test

@@ -189,7 +189,7 @@ TEST(ForwardSimulation, IsNearerToTheRecordingWithWhatWasFound) {
   EXPECT_GT(torque[1], 0.28);  // the noise, within its chance
   EXPECT_LT(torque[1], 0.6 * torque_alone[1]) << run.out;
   EXPECT_NE(content(page).find("Simulated before and after"), std::string::npos);
-  EXPECT_EQ(test::markup_fault(content(page)), "");
+  EXPECT_EQ(test::page_fault(content(page)), "");
 }
 
 TEST(ForwardSimulation, IsAskedForInTheRightWords) {
