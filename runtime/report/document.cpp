@@ -21,6 +21,16 @@ void each_block(const ReportDocument& document, const Visit& visit) {
   }
 }
 
+/// All blocks of one kind.
+template <class Block>
+std::vector<const Block*> blocks_of(const ReportDocument& document) {
+  std::vector<const Block*> all;
+  each_block(document, [&](const ReportBlock& block) {
+    if (const auto* own = std::get_if<Block>(&block)) all.push_back(own);
+  });
+  return all;
+}
+
 void check_id(const std::string& id, std::set<std::string>& seen) {
   const bool good =
       !id.empty() && id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == id.npos;
@@ -87,6 +97,14 @@ void ReportDocument::validate() const {
     }
   }
   for (const ReportBars* bars : bars_of(*this)) check_id(bars->id, ids);
+  for (const ReportMatrix* matrix : matrices_of(*this)) {
+    check_id(matrix->id, ids);
+    const auto size = static_cast<Index>(matrix->names.size());
+    if (matrix->values.rows() == size && matrix->values.cols() == size) continue;
+    throw std::invalid_argument(
+        fmt::format("ReportDocument: matrix '{}' is {} x {}, but has {} names", matrix->id,
+                    matrix->values.rows(), matrix->values.cols(), size));
+  }
   std::set<std::string> with_views;
   for (const ReportChart* chart : charts_of(*this)) {
     if (!chart->views.empty()) with_views.insert(chart->id);
@@ -113,19 +131,15 @@ void ReportDocument::validate() const {
 }
 
 std::vector<const ReportChart*> charts_of(const ReportDocument& document) {
-  std::vector<const ReportChart*> charts;
-  each_block(document, [&](const ReportBlock& block) {
-    if (const auto* chart = std::get_if<ReportChart>(&block)) charts.push_back(chart);
-  });
-  return charts;
+  return blocks_of<ReportChart>(document);
 }
 
 std::vector<const ReportBars*> bars_of(const ReportDocument& document) {
-  std::vector<const ReportBars*> all;
-  each_block(document, [&](const ReportBlock& block) {
-    if (const auto* bars = std::get_if<ReportBars>(&block)) all.push_back(bars);
-  });
-  return all;
+  return blocks_of<ReportBars>(document);
+}
+
+std::vector<const ReportMatrix*> matrices_of(const ReportDocument& document) {
+  return blocks_of<ReportMatrix>(document);
 }
 
 }  // namespace dyngen::runtime

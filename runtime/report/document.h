@@ -68,7 +68,8 @@ struct ReportChart {
   std::string title;    ///< what it shows, a line
   std::string caption;  ///< how to read it
   std::vector<ReportView> views;
-  std::string same_as{};  ///< id of the chart whose views it shows; empty: its own
+  std::string choice = "recording";  ///< what views are, where they have no samples
+  std::string same_as{};             ///< id of the chart whose views it shows; empty: its own
 };
 
 struct ReportBar {
@@ -85,6 +86,13 @@ struct ReportBarGroup {
 struct ReportBars {
   std::string id, title, caption;
   std::vector<ReportBarGroup> groups;
+};
+
+/// A square table as colours: how alike things are.
+struct ReportMatrix {
+  std::string id, title, caption;
+  std::vector<std::string> names;  ///< of rows and columns
+  Eigen::MatrixXd values;          ///< (names x names) 0 to 1
 };
 
 /// Plain words.
@@ -147,7 +155,7 @@ struct ReportArm {
 };
 
 using ReportBlock = std::variant<ReportText, ReportList, ReportFacts, ReportTable, ReportCode,
-                                 ReportFormula, ReportBars, ReportChart, ReportArm>;
+                                 ReportFormula, ReportBars, ReportMatrix, ReportChart, ReportArm>;
 
 /// Blocks under a small heading: "WHERE".
 struct ReportPart {
@@ -175,12 +183,15 @@ struct ReportDocument {
   std::string origin;           ///< the foot of the page: versions
   std::vector<ReportSection> sections;
 
-  /// @throws std::invalid_argument  if lengths differ, an id is used twice or has other characters
+  /// @throws std::invalid_argument  if lengths or sizes differ, an id is used twice or has other
+  ///         characters
   void validate() const;
 };
 
-/// All charts and bars of a document, in its order; those that show the views of others too.
+/// All charts, bars and matrices of a document, in its order; charts that show the views of others
+/// too.
 std::vector<const ReportChart*> charts_of(const ReportDocument& document);
 std::vector<const ReportBars*> bars_of(const ReportDocument& document);
+std::vector<const ReportMatrix*> matrices_of(const ReportDocument& document);
 
 }  // namespace dyngen::runtime

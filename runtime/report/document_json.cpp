@@ -104,6 +104,21 @@ Json spelled(const ReportBars& block) {
           {"groups", std::move(groups)}};
 }
 
+/// Rows of the lower triangle and the diagonal, in hundredths: a matrix of likeness is symmetric.
+Json spelled(const ReportMatrix& block) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < block.values.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      const double value = block.values(i, j);
+      row.push_back(std::isfinite(value) ? Json(std::lround(100 * value)) : Json(nullptr));
+    }
+    rows.push_back(std::move(row));
+  }
+  return {{"type", "matrix"},         {"id", block.id},       {"title", block.title},
+          {"caption", block.caption}, {"names", block.names}, {"hundredths", std::move(rows)}};
+}
+
 /// @param first  of the view: an x that is the same is left out
 Json spelled(const ReportPanel& panel, const ReportPanel& first) {
   Json series = Json::array(), clouds = Json::array(), spans = Json::array();
@@ -146,8 +161,9 @@ Json spelled(const ReportChart& block) {
     }
     views.push_back({{"name", view.name}, {"panels", std::move(panels)}});
   }
-  return {{"type", "chart"},          {"id", block.id},           {"title", block.title},
-          {"caption", block.caption}, {"same_as", block.same_as}, {"views", std::move(views)}};
+  return {{"type", "chart"},          {"id", block.id},         {"title", block.title},
+          {"caption", block.caption}, {"choice", block.choice}, {"same_as", block.same_as},
+          {"views", std::move(views)}};
 }
 
 Json spelled(const ReportArm& block) {

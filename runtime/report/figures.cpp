@@ -89,18 +89,18 @@ std::string csv_of(const ReportChart& chart) {
 }
 
 ReportFigure figure_of(const ReportChart& chart) {
-  ReportFigure result{chart.id, {}, csv_of(chart)};
-  result.figure.title = chart.title;
-  result.figure.panel_height = chart.views.front().panels.size() > 1 ? 280 : 420;
-  result.figure.panel_width = 900;
+  Figure figure;
+  figure.title = chart.title;
+  figure.panel_height = chart.views.front().panels.size() > 1 ? 280 : 420;
+  figure.panel_width = 900;
   for (const ReportPanel& panel : chart.views.front().panels) {
-    result.figure.panels.push_back(panel_of(panel, ""));
+    figure.panels.push_back(panel_of(panel, ""));
   }
-  return result;
+  return {chart.id, std::move(figure), csv_of(chart)};
 }
 
 ReportFigure figure_of(const ReportBars& bars) {
-  ReportFigure result{bars.id, {}, "group,unit,bar,value\n"};
+  std::string csv = "group,unit,bar,value\n";
   Panel panel;
   std::string unit;
   for (std::size_t g = 0; g < bars.groups.size(); ++g) {
@@ -109,8 +109,8 @@ ReportFigure figure_of(const ReportBars& bars) {
     unit = g == 0 || unit == group.unit ? group.unit : "unit of the joint";
     for (std::size_t b = 0; b < group.bars.size(); ++b) {
       const ReportBar& bar = group.bars[b];
-      result.csv += fmt::format("{},{},{},{}\n", quoted(group.label), quoted(group.unit),
-                                quoted(bar.name), number(bar.value));
+      csv += fmt::format("{},{},{},{}\n", quoted(group.label), quoted(group.unit), quoted(bar.name),
+                         number(bar.value));
       if (panel.series.size() <= b) {
         Series series{bar.name, {}, {}, false, colour_of(bar.role), SeriesStyle::kBars, {}};
         series.x = series.y = VectorXd::Constant(static_cast<Index>(bars.groups.size()), NAN);
@@ -123,11 +123,23 @@ ReportFigure figure_of(const ReportBars& bars) {
     }
   }
   panel.y_label = unit;
-  result.figure.title = bars.title;
-  result.figure.panel_width = 900;
-  result.figure.panel_height = 360;
-  result.figure.panels = {std::move(panel)};
-  return result;
+  Figure figure;
+  figure.title = bars.title;
+  figure.panel_width = 900;
+  figure.panel_height = 360;
+  figure.panels = {std::move(panel)};
+  return {bars.id, std::move(figure), std::move(csv)};
+}
+
+ReportFigure figure_of(const ReportMatrix& matrix) {
+  std::string csv = "row,column,value\n";
+  for (std::size_t i = 0; i < matrix.names.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      csv += fmt::format("{},{},{}\n", quoted(matrix.names[i]), quoted(matrix.names[j]),
+                         number(matrix.values(static_cast<Index>(i), static_cast<Index>(j))));
+    }
+  }
+  return {matrix.id, HeatMap{matrix.title, matrix.names, matrix.values}, std::move(csv)};
 }
 
 }  // namespace
@@ -136,10 +148,15 @@ std::vector<ReportFigure> report_figures(const ReportDocument& document) {
   document.validate();
   std::vector<ReportFigure> figures;
   for (const ReportBars* bars : bars_of(document)) figures.push_back(figure_of(*bars));
+  for (const ReportMatrix* matrix : matrices_of(document)) figures.push_back(figure_of(*matrix));
   for (const ReportChart* chart : charts_of(document)) {
     if (!chart->views.empty()) figures.push_back(figure_of(*chart));
   }
   return figures;
+}
+
+void draw(const ReportFigure& figure, const std::string& path) {
+  std::visit([&](const auto& picture) { draw(picture, path); }, figure.picture);
 }
 
 }  // namespace dyngen::runtime

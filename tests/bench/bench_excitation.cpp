@@ -5,7 +5,7 @@
 #include <string>
 
 #include "runtime/excitation/excitation.h"
-#include "runtime/tools/dynid/excite_limits.h"
+#include "runtime/tools/dynid/excite/excite_limits.h"
 
 namespace dyngen::runtime {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "runtime/estimation/torque_factor.h"
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/bench/peers.h"
 #include "tests/support/model_bridge.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/tools/dynid/file_summaries.h"
+#include "runtime/tools/dynid/fit/file_summaries.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "runtime/identification/summary_file.h"
 #include "runtime/recordings/writer.h"
-#include "runtime/tools/dynid/message.h"
+#include "runtime/tools/dynid/process/message.h"
 #include "tests/fleet/fleet_recordings.h"
 
 namespace dyngen::runtime {

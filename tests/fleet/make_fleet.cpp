@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "runtime/recordings/writer.h"
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/fleet/fleet_recordings.h"
 
 int main(int argc, char** argv) {

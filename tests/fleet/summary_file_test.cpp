@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/fleet/fleet_recordings.h"
 
 namespace dyngen::runtime {

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "runtime/estimation/least_squares.h"
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/fleet/fleet_recordings.h"
 
 namespace dyngen::runtime {

@@ -10,8 +10,8 @@
 #include <random>
 
 #include "runtime/recordings/writer.h"
-#include "runtime/tools/dynid/effect_laws.h"
-#include "runtime/tools/dynid/recorded_effects.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/effects/recorded_effects.h"
 #include "tests/runtime/dynid/multisine.h"
 
 int main(int argc, char** argv) {

@@ -32,4 +32,6 @@ fi
 cd "$folder/modules"
 [ -z "${SCREENSHOTS:-}" ] || SCREENSHOTS=$(realpath -m "$here/../../$SCREENSHOTS")
 export DYNGEN_SOURCES="$here/../.." CHROMIUM SCREENSHOTS="${SCREENSHOTS:-}" DYNID="$dynid" RECORD="$record" REPORT_FOLDER="$folder/reports"
-exec node --test --test-reporter=spec report.test.mjs
+# one after the other: times are measured
+node --test --test-reporter=spec report.test.mjs
+exec node --test --test-reporter=spec pages.test.mjs

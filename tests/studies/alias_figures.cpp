@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "runtime/diagnosis/diagnosis.h"
-#include "runtime/tools/dynid/diagnosis_report.h"
-#include "runtime/tools/dynid/effect_hypotheses.h"
-#include "runtime/tools/dynid/effect_laws.h"
-#include "runtime/tools/dynid/recorded_effects.h"
-#include "runtime/tools/dynid/robot_tangents.h"
-#include "runtime/tools/dynid/separation_report.h"
+#include "runtime/tools/dynid/diagnose/diagnosis_report.h"
+#include "runtime/tools/dynid/effects/effect_hypotheses.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/effects/recorded_effects.h"
+#include "runtime/tools/dynid/effects/robot_tangents.h"
+#include "runtime/tools/dynid/excite/separation_report.h"
 #include "tests/runtime/dynid/multisine.h"
 
 namespace dyngen::test {

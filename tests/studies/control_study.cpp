@@ -15,7 +15,7 @@
 
 #include "runtime/control/linearised_error.h"
 #include "runtime/simulation/closed_loop.h"
-#include "runtime/tools/dynid/simulated_robot.h"
+#include "runtime/tools/dynid/simulate/simulated_robot.h"
 #include "tests/studies/changed_file.h"
 #include "tests/studies/study_robot.h"
 #include "tests/support/model_bridge.h"

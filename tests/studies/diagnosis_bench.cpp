@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "runtime/diagnosis/diagnosis.h"
-#include "runtime/tools/dynid/robot_tangents.h"
+#include "runtime/tools/dynid/effects/robot_tangents.h"
 
 namespace dyngen::test {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/simulation/torque_noise.h"
-#include "runtime/tools/dynid/robot_tangents.h"
+#include "runtime/tools/dynid/effects/robot_tangents.h"
 
 namespace dyngen::test {
 namespace {

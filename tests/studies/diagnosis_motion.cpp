@@ -7,7 +7,7 @@
 
 #include "runtime/control/controller.h"
 #include "runtime/simulation/closed_loop.h"
-#include "runtime/tools/dynid/recorded_effects.h"
+#include "runtime/tools/dynid/effects/recorded_effects.h"
 
 namespace dyngen::test {
 namespace {

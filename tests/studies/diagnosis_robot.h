@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/tools/dynid/described_robot.h"
-#include "runtime/tools/dynid/simulated_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
+#include "runtime/tools/dynid/simulate/simulated_robot.h"
 #include "tests/studies/fourier_motion.h"
 
 namespace dyngen::test {

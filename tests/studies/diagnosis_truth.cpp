@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "runtime/effects/effect_rows.h"
-#include "runtime/tools/dynid/effect_laws.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
 #include "tests/studies/strength_meter.h"
 
 namespace dyngen::test {

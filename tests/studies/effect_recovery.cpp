@@ -13,9 +13,9 @@
 #include "runtime/effects/effect_fit.h"
 #include "runtime/effects/effect_recordings.h"
 #include "runtime/simulation/torque_noise.h"
-#include "runtime/tools/dynid/effect_laws.h"
-#include "runtime/tools/dynid/recorded_effects.h"
-#include "runtime/tools/dynid/robot_tangents.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/effects/recorded_effects.h"
+#include "runtime/tools/dynid/effects/robot_tangents.h"
 #include "tests/studies/fourier_motion.h"
 
 namespace dyngen::test {

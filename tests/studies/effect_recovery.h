@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gen/effects/effect_catalogue.h"
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 
 namespace dyngen::test {
 

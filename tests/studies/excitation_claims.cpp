@@ -9,7 +9,7 @@
 
 #include "gen/symbols/exact.h"
 #include "runtime/estimation/decompositions.h"
-#include "runtime/tools/dynid/excite_limits.h"
+#include "runtime/tools/dynid/excite/excite_limits.h"
 #include "tests/support/numeric_dynamics.h"
 
 namespace dyngen::test {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "runtime/simulation/closed_loop.h"
-#include "runtime/tools/dynid/simulated_robot.h"
+#include "runtime/tools/dynid/simulate/simulated_robot.h"
 
 namespace dyngen::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "runtime/simulation/closed_loop.h"
-#include "runtime/tools/dynid/simulated_robot.h"
+#include "runtime/tools/dynid/simulate/simulated_robot.h"
 #include "tests/studies/changed_file.h"
 #include "tests/studies/study_robot.h"
 #include "tests/support/model_bridge.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/studies/closed_loop.h"
 #include "tests/studies/fourier_motion.h"
 

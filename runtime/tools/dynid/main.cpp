@@ -10,10 +10,10 @@
 #include "runtime/identification/summary_file.h"
 #include "runtime/plots/figure.h"
 #include "runtime/recordings/notice.h"
-#include "runtime/tools/dynid/commands.h"
-#include "runtime/tools/dynid/file_summaries.h"
-#include "runtime/tools/dynid/options.h"
-#include "runtime/tools/dynid/process_group.h"
+#include "runtime/tools/dynid/fit/file_summaries.h"
+#include "runtime/tools/dynid/options/commands.h"
+#include "runtime/tools/dynid/options/options.h"
+#include "runtime/tools/dynid/process/process_group.h"
 
 namespace dyngen::runtime {
 namespace {

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/diagnosis/views.h"
-#include "runtime/tools/dynid/effect_hypotheses.h"
-#include "runtime/tools/dynid/effect_laws.h"
-#include "runtime/tools/dynid/robot_tangents.h"
+#include "runtime/tools/dynid/effects/effect_hypotheses.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/effects/robot_tangents.h"
 #include "tests/baselines/baselines.h"
 
 namespace dyngen::test {

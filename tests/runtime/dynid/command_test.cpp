@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/recordings/writer.h"
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/runtime/dynid/multisine.h"
 #include "tests/runtime/dynid/run_dynid.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "gen/diagnostic/diagnostic.h"
-#include "runtime/tools/dynid/identified_file.h"
+#include "runtime/tools/dynid/robot/identified_file.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/numeric_dynamics.h"
 #include "tests/support/temporary_path.h"

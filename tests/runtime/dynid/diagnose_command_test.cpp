@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "runtime/recordings/writer.h"
-#include "runtime/tools/dynid/effect_laws.h"
-#include "runtime/tools/dynid/recorded_effects.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/effects/recorded_effects.h"
 #include "tests/runtime/dynid/diagnosis_schema.h"
 #include "tests/runtime/dynid/multisine.h"
 #include "tests/runtime/dynid/run_dynid.h"

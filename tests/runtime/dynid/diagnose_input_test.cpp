@@ -9,9 +9,9 @@
 
 #include "gen/diagnostic/diagnostic.h"
 #include "runtime/recordings/writer.h"
-#include "runtime/tools/dynid/diagnosis_recordings.h"
-#include "runtime/tools/dynid/effect_hypotheses.h"
-#include "runtime/tools/dynid/effect_laws.h"
+#include "runtime/tools/dynid/diagnose/diagnosis_recordings.h"
+#include "runtime/tools/dynid/effects/effect_hypotheses.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
 #include "tests/runtime/dynid/made_diagnosis.h"
 #include "tests/runtime/dynid/multisine.h"
 #include "tests/runtime/dynid/run_dynid.h"

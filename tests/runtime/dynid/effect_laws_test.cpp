@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/tools/dynid/effect_laws.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
 
 #include <gtest/gtest.h>
 

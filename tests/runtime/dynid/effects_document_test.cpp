@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/tools/dynid/effects_document.h"
+#include "runtime/tools/dynid/effects/effects_document.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "runtime/identification/simulated_motion.h"
 #include "runtime/identification/summary.h"
 #include "runtime/recordings/writer.h"
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/runtime/dynid/multisine.h"
 #include "tests/support/temporary_path.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The closed loop before and after a diagnosis, on recordings of simulated robots.
-#include "runtime/tools/dynid/forward_simulation.h"
+#include "runtime/tools/dynid/diagnose/forward_simulation.h"
 
 #include <gtest/gtest.h>
 

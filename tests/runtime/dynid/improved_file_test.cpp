@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/tools/dynid/improved_file.h"
+#include "runtime/tools/dynid/diagnose/improved_file.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "runtime/effects/effect_signals.h"
-#include "runtime/tools/dynid/effect_laws.h"
-#include "runtime/tools/dynid/identified_file.h"
-#include "runtime/tools/dynid/recorded_effects.h"
-#include "runtime/tools/dynid/robot_tangents.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/robot/identified_file.h"
+#include "runtime/tools/dynid/effects/recorded_effects.h"
+#include "runtime/tools/dynid/effects/robot_tangents.h"
 #include "tests/runtime/dynid/made_diagnosis.h"
 #include "tests/runtime/dynid/multisine.h"
 #include "tests/runtime/dynid/run_dynid.h"

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "runtime/tools/dynid/effect_laws.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
 
 namespace dyngen::test {
 

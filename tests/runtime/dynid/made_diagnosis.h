@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "runtime/tools/dynid/diagnosis_report.h"
+#include "runtime/tools/dynid/diagnose/diagnosis_report.h"
 
 namespace dyngen::test {
 

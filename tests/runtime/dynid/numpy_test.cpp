@@ -10,7 +10,7 @@
 
 #include "runtime/estimation/least_squares.h"
 #include "runtime/estimation/rows.h"
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/runtime/dynid/multisine.h"
 #include "tests/support/temporary_path.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/tools/dynid/robot_tangents.h"
+#include "runtime/tools/dynid/effects/robot_tangents.h"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 
 #include "runtime/control/gains.h"
 #include "runtime/simulation/closed_loop.h"
-#include "runtime/tools/dynid/effect_laws.h"
-#include "runtime/tools/dynid/recorded_effects.h"
-#include "runtime/tools/dynid/simulated_robot.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/effects/recorded_effects.h"
+#include "runtime/tools/dynid/simulate/simulated_robot.h"
 #include "tests/support/temporary_path.h"
 
 namespace dyngen::runtime {

@@ -11,7 +11,7 @@
 
 #include "runtime/identification/fit.h"
 #include "runtime/identification/motion_rows.h"
-#include "runtime/tools/dynid/described_robot.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/runtime/dynid/run_dynid.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temporary_path.h"

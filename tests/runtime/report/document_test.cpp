@@ -66,6 +66,11 @@ TEST(DocumentJson, SpellsEveryBlock) {
   ReportBars bars{"rms", "t", "c", {{"joint 1", "N m", true, {{"alone", Role::kBefore, NAN}}}}};
   EXPECT_TRUE(block_of(bars)["groups"][0]["bars"][0]["value"].is_null());
   EXPECT_EQ(block_of(bars)["groups"][0]["marked"], true);
+  Eigen::Matrix2d alike;
+  alike << 1, 0.456, 0.456, NAN;
+  EXPECT_EQ(block_of(ReportMatrix{"m", "t", "c", {"a", "b"}, alike})["hundredths"],
+            Json::parse("[[100], [46, null]]"));
+  EXPECT_EQ(block_of(chart("a"))["choice"], "recording");
   ReportArm arm;
   arm.joints = {{"waist", 0, true, {1, 2, 3}, {0, 0, 1}, {{0, 0, 0}, {1, 2, 3}}, true}};
   EXPECT_EQ(block_of(arm)["joints"][0]["link"], Json::parse("[[0.0,0.0,0.0],[1.0,2.0,3.0]]"));
@@ -97,6 +102,8 @@ TEST(ReportDocument, RefusesWhatThePageCannotShow) {
     EXPECT_THROW(document_json(document(std::move(block))), std::invalid_argument);
   };
   EXPECT_NO_THROW(document_json(document(chart("a-1"))));
+  wrong(ReportMatrix{"m", "t", "", {"a", "b"}, MatrixXd::Zero(3, 3)});
+  wrong(ReportMatrix{"M", "t", "", {"a"}, MatrixXd::Zero(1, 1)});
   wrong(chart("A b"));
   wrong(chart(""));
   wrong(chart("part"));  // the id of the part that it is in

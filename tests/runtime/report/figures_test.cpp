@@ -52,12 +52,28 @@ TEST(ReportFigures, HaveEveryNumberInTheirTables) {
   EXPECT_EQ(std::count(figures[1].csv.begin(), figures[1].csv.end(), '\n'), 11);
 }
 
+TEST(ReportFigures, OfAMatrixIsATableOfPairs) {
+  ReportDocument own = document();
+  Eigen::Matrix2d alike;
+  alike << 1, 0.25, 0.25, 1;
+  own.sections[0].parts[0].blocks.emplace_back(
+      ReportMatrix{"alike", "t", "", {"stribeck 1", "dahl 1"}, alike});
+  const std::vector<ReportFigure> figures = report_figures(own);
+  ASSERT_EQ(figures.size(), 3u);
+  EXPECT_EQ(figures[1].name, "alike");
+  EXPECT_EQ(figures[1].csv,
+            "row,column,value\n\"stribeck 1\",\"stribeck 1\",1\n"
+            "\"dahl 1\",\"stribeck 1\",0.25\n\"dahl 1\",\"dahl 1\",1\n");
+  EXPECT_EQ(std::get<HeatMap>(figures[1].picture).names[1], "dahl 1");
+}
+
 TEST(ReportFigures, AreDrawnAsGnuplotUnderstandsThem) {
   const std::vector<ReportFigure> figures = report_figures(document());
-  const std::string bars = gnuplot_script(figures[0].figure, "svg", "bars.svg");
+  const std::string bars = gnuplot_script(std::get<Figure>(figures[0].picture), "svg", "bars.svg");
   EXPECT_THAT(bars, HasSubstr("with boxes"));
   EXPECT_THAT(bars, HasSubstr("\"joint 2\" 1"));
-  const std::string model = gnuplot_script(figures[1].figure, "svg", "model.svg");
+  const std::string model =
+      gnuplot_script(std::get<Figure>(figures[1].picture), "svg", "model.svg");
   EXPECT_THAT(model, HasSubstr("with filledcurves"));
   EXPECT_THAT(model, HasSubstr("with points"));
   EXPECT_THAT(model, HasSubstr("0 0 2\n"));  // a band has two values at an x

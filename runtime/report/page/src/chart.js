@@ -197,7 +197,7 @@ export function chartBlock(chart) {
         view.panels[0].x_label : view.name })));
     select.addEventListener("change", () => open(Number(select.value)));
     choice = element("label", { class: "choice" },
-      chart.views[0].panels[0].clouds.length > 0 ? "over " : "recording ", select);
+      chart.views[0].panels[0].clouds.length > 0 ? "over " : `${chart.choice} `, select);
   }
   const figure = element("figure", { class: "chart", id: chart.id },
     element("figcaption", { text: chart.title }), element("div", { class: "bar" }, choice, tools), holder,

@@ -5,6 +5,7 @@ import { barsBlock } from "./bars.js";
 import { chartBlock, completed, drawCharts, watchMedia } from "./chart.js";
 import { element } from "./dom.js";
 import { formulaBlock } from "./mathml.js";
+import { drawMatrices, matrixBlock } from "./matrix.js";
 import { tableBlock } from "./tables.js";
 
 const kBlocks = {
@@ -17,6 +18,7 @@ const kBlocks = {
   code: ({ text }) => element("pre", { tabindex: "0" }, element("code", { text: text.trimEnd() })),
   formula: formulaBlock,
   bars: barsBlock,
+  matrix: matrixBlock,
   chart: chartBlock,
   arm: armBlock,
 };
@@ -47,6 +49,7 @@ function show(report) {
   document.body.append(element("a", { class: "skip", href: "#content", text: "To the report" }), header, contents, body, footer);
   if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
   drawCharts(() => { document.documentElement.dataset.drawn = "all"; });
+  drawMatrices();
   watchMedia();
   // charts paint before the next frame: then it is there to be read
   requestAnimationFrame(() => requestAnimationFrame(() => {

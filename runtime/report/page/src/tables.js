@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 import { element, numberText } from "./dom.js";
 
+const kShort = 20;
+
 function cellOf(value) {
   const number = typeof value === "number" || value === null;
-  return element("td", { class: number ? "number" : null, text: number ? numberText(value) : value });
+  // a unit or a word or two stay on their line
+  const kind = number ? "number" : value.length < kShort ? "short" : null;
+  return element("td", { class: kind, text: number ? numberText(value) : value });
 }
 
 function tableOf(header, rows, caption) {

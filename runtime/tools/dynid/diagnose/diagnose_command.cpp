@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "gen/tool/output_files.h"
+#include "runtime/diagnosis/division.h"
+#include "runtime/tools/dynid/diagnose/diagnosis_document.h"
+#include "runtime/tools/dynid/diagnose/diagnosis_recordings.h"
+#include "runtime/tools/dynid/diagnose/diagnosis_report.h"
+#include "runtime/tools/dynid/diagnose/forward_simulation.h"
+#include "runtime/tools/dynid/diagnose/improved_file.h"
+#include "runtime/tools/dynid/effects/effect_code_text.h"
+#include "runtime/tools/dynid/effects/effect_hypotheses.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/effects/robot_tangents.h"
+#include "runtime/tools/dynid/options/commands.h"
+#include "runtime/tools/dynid/page/arm_drawing.h"
+#include "runtime/tools/dynid/page/page_output.h"
+#include "runtime/tools/dynid/recordings/loading.h"
+
+namespace dyngen::runtime {
+namespace {
+
+/// Recordings as a diagnosis sees them, and what each is for.
+struct DiagnosedMotions {
+  std::vector<MotionSource> sources;   ///< without the effects that the file has already
+  std::vector<MotionSource> recorded;  ///< with them
+  std::vector<DiagnosedRecording> recordings;
+};
+
+/// How they are read: whole, and without averages, since what drifts is seen between periods.
+ToolOptions reading(ToolOptions options) {
+  options.motion.stream_above = std::numeric_limits<std::size_t>::max();
+  options.motion.average_periods = false;
+  return options;
+}
+
+/// load_recordings() of what another simulator leaves.
+LoadedRecordings load_unexplained(const std::vector<std::string>& paths, const ToolOptions& options,
+                                  ProgressLine& progress) {
+  LoadedRecordings loaded;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    progress.show("reading " + paths[i], i, paths.size());
+    loaded.sources.push_back(unexplained_motion(paths[i], options.motion));
+    for (const Notice& notice : loaded.sources.back().condition.repairs) {
+      std::cerr << notice.text() << "\n";
+    }
+    loaded.lines.push_back(describe(loaded.sources.back(), options, false));
+  }
+  return loaded;
+}
+
+DiagnosedMotions read_motions(const std::vector<std::string>& paths, const std::string& use,
+                              const ToolOptions& options, const KnownEffects& known,
+                              ProgressLine& progress) {
+  const LoadedRecordings loaded = options.diagnose.diagnosis.residual_only
+                                      ? load_unexplained(paths, options, progress)
+                                      : load_recordings(paths, options, false, progress);
+  DiagnosedMotions motions;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    motions.sources.push_back(without_effects(loaded.sources[i], known));
+    motions.recorded.push_back(loaded.sources[i]);
+    motions.recordings.push_back({paths[i], use, loaded.lines[i].seconds});
+  }
+  return motions;
+}
+
+std::vector<MotionSource> joined_sources(const DiagnosisInput& input) {
+  std::vector<MotionSource> all = input.train;
+  for (const auto* sources : {&input.heldout, &input.reference}) {
+    all.insert(all.end(), sources->begin(), sources->end());
+  }
+  return all;
+}
+
+/// What --controller asks for. @throws std::invalid_argument
+void check_simulation(const ToolOptions& options) {
+  const DiagnoseOptions& own = options.diagnose;
+  if (own.loop.controller.empty()) return;
+  if (own.diagnosis.residual_only) {
+    throw std::invalid_argument(
+        "--controller: found --residual-only too, expected a model whose parameters are fitted: "
+        "what another simulator leaves is no robot");
+  }
+  if (!own.commanded.empty() && own.commanded.size() != options.heldout.size()) {
+    throw std::invalid_argument(
+        fmt::format("--commanded: found {} motions, expected {}, one for each --holdout",
+                    own.commanded.size(), options.heldout.size()));
+  }
+}
+
+/// Simulates what was held out.
+ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& report,
+                            const DescribedRobot& robot, const EffectCatalogue& catalogue,
+                            std::vector<MotionSource> heldout, ProgressLine& progress) {
+#ifdef DYNGEN_WITH_SIMULATION
+  ForwardTask task{
+      options.diagnose.loop, options.diagnose.controller_model, std::move(heldout), {}};
+  for (const std::string& path : options.diagnose.commanded) {
+    task.commanded.push_back(read_trajectory(path));
+  }
+  return compare_forward(report, robot, catalogue, task, [&](double done) {
+    progress.show("simulation", static_cast<std::size_t>(1000 * done), 1000);
+  });
+#else
+  (void)options, (void)report, (void)robot, (void)catalogue, (void)heldout, (void)progress;
+  throw std::invalid_argument(
+      "--controller: simulation is left out of this dynid (it needs libboost-dev)");
+#endif
+}
+
+/// The statements that dyngen writes for each finding, of the improved file.
+void add_code(DiagnosisReport& report, const DescribedRobot& robot,
+              const std::shared_ptr<const EffectCatalogue>& catalogue) {
+  const auto& effects = report.diagnosis.fit.point.effects;
+  if (effects.empty()) return;
+  const RobotFile file = parse_robot_file(improved_text(report, robot), robot.file.file_name);
+  std::size_t row = robot.file.effects.size();
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    if (effects[i].recording >= 0) continue;  // an event: no row
+    report.words[i].code = effect_code_text(file, row++, effects[i], catalogue);
+  }
+}
+
+void write_outputs(const ToolOptions& options, const DescribedRobot& robot, DiagnosisReport& report,
+                   ProgressLine& progress) {
+  const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
+  std::vector<OutputFile> files;
+  if (!options.json.empty()) files.push_back({options.json, diagnosis_json(report)});
+  if (!options.output.empty() && answered) {
+    files.push_back({options.output, improved_text(report, robot)});
+  }
+  for (const OutputFile& file : files) report.written.push_back(file.path);
+  const std::vector<std::string> made = write_with_page(
+      options.page, [&] { return diagnosis_document(report); }, progress, std::move(files));
+  report.written.insert(report.written.begin(), made.begin(), made.end());
+}
+
+}  // namespace
+
+int run_diagnose(const ToolOptions& options) {
+  ProgressLine progress("dynid");
+  DiagnosisOptions settings = options.diagnose.diagnosis;
+  settings.decimation = options.rows.decimation;
+  settings.validate();
+  check_simulation(options);
+  const auto shared = std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects));
+  const EffectCatalogue& catalogue = *shared;
+  const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAbsentRows);
+  const KnownEffects known = known_effects(options.robot, catalogue);
+  const ToolOptions how = reading(options);
+  std::vector<DiagnosedRecording> recordings;
+  std::vector<MotionSource> proof;  // with the torque of all effects
+  const auto read = [&](const std::vector<std::string>& paths, const std::string& use) {
+    DiagnosedMotions motions = read_motions(paths, use, how, known, progress);
+    recordings.insert(recordings.end(), motions.recordings.begin(), motions.recordings.end());
+    for (const MotionSource& source : motions.recorded) {
+      if (use == "held out") proof.push_back(source);
+      if (use == "fitted" && options.heldout.empty()) {
+        proof.push_back(divided({source}).heldout.front());
+      }
+    }
+    return std::move(motions.sources);
+  };
+  DiagnosisInput input;
+  input.model = robot.linear;
+  input.robot = effect_robot(robot);
+  Diagnosis diagnosis;
+  DiagnosisViews views;
+  Eigen::VectorXd posture = Eigen::VectorXd::Zero(robot.linear.joints());
+  const auto witness = [&](const DiagnosedRecordings& shown) {
+    std::vector<std::string> plots;
+    for (const EffectInstance& effect : shown.after.effects) {
+      plots.push_back(catalogue.find(effect.law.name)->plot);
+    }
+    views = views_for_report(shown, plots);
+    const Eigen::MatrixXd& q = shown.heldout.runs.front().motion.q;
+    posture = q.row(q.rows() / 2);
+  };
+  try {
+    input.train = read(options.recordings, "fitted");
+    input.heldout = read(options.heldout, "held out");
+    input.reference = read(options.diagnose.reference, "reference");
+    input.hypotheses = competing_effects(robot, catalogue, joined_sources(input));
+    const auto tell = [&](const std::string& stage, double done) {
+      progress.show(stage, static_cast<std::size_t>(100 * done), 100);
+    };
+    diagnosis = diagnose(input, settings, tell, witness);
+  } catch (const TooShortError& error) {
+    diagnosis.sentence = error.what();
+  }
+  DiagnosisReport report = diagnosis_report(std::move(diagnosis), robot, catalogue);
+  report.views = std::move(views);
+  report.arm = arm_drawing(robot.model, posture, marked_joints(report.diagnosis));
+  report.recordings = std::move(recordings);
+  report.residual_only = settings.residual_only;
+  report.false_alarm = settings.false_alarm;
+  report.seed = settings.seed;
+  report.command = options.page.command;
+  report.robot_path = options.robot;
+  report.json_path = options.json;
+  report.version = DYNGEN_VERSION;
+  const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
+  if (answered && !options.diagnose.loop.controller.empty()) {
+    report.forward = simulated(options, report, robot, catalogue, std::move(proof), progress);
+  }
+  if (answered) add_code(report, robot, shared);
+  progress.clear();
+  write_outputs(options, robot, report, progress);
+  progress.clear();
+  std::cout << diagnosis_text(report, style_of_output());
+  if (answered) return kDone;
+  std::cerr << "dynid: " << report.diagnosis.sentence << "\n";
+  return kCannotAnswer;
+}
+
+}  // namespace dyngen::runtime

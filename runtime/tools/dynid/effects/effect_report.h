@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "gen/effects/effect_catalogue.h"
+#include "runtime/effects/effect_fit.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
+#include "runtime/tools/dynid/robot/json_numbers.h"
+
+namespace dyngen::runtime {
+
+/// What a fit found about the rows `effect` of a robot file.
+struct EffectReport {
+  EffectFit fit;
+  std::vector<std::vector<std::string>> units;  ///< [effect][parameter], of the joint's kind
+  Eigen::VectorXd heldout_rms;                  ///< (n) with the effects; empty: nothing held out
+  Eigen::VectorXd heldout_rms_without;          ///< (n) of the model without them, fitted alike
+};
+
+/// Units of the parameters of effects as people write them.
+std::vector<std::vector<std::string>> effect_units(const std::vector<EffectInstance>& effects,
+                                                   const EffectCatalogue& catalogue,
+                                                   const LinearModel& model);
+
+/// "joint 2", "joint 5, other 6", "": where an effect is, as the robot file counts.
+std::string place_of(const EffectInstance& effect, const RobotModel& model);
+
+/// "effect stribeck joint=2 Fs=2.1 vs=0.05 delta=2": the row of a robot file.
+/// @param exact  numbers that read back as they are; else of 12 digits
+std::string effect_row(const EffectInstance& effect, const RobotModel& model, bool exact);
+
+/// "held", "at its bound", "not seen": why a parameter has no deviation; empty: it has.
+std::string state_of(const EffectParameterFit& parameter);
+
+/// The part of the table about effects.
+std::string effect_rows(const EffectReport& report, const DescribedRobot& robot);
+
+/// The part of the JSON about effects.
+Json effect_json(const EffectReport& report, const DescribedRobot& robot);
+
+/// Rows `effect` of the identified robot file, in the order of the original, and what is known of
+/// their numbers, a line each.
+std::vector<std::string> effect_file_rows(const EffectReport& report, const DescribedRobot& robot);
+std::vector<std::string> effect_comment(const EffectReport& report);
+
+}  // namespace dyngen::runtime

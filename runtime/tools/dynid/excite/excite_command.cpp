@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <functional>
+#include <iostream>
+#include <string>
+
+#include "runtime/tools/dynid/options/commands.h"
+
+#ifdef DYNGEN_WITH_NLOPT
+#include "gen/tool/progress_line.h"
+#include "runtime/tools/dynid/excite/excite_picture.h"
+#include "runtime/tools/dynid/excite/excite_report.h"
+#include "runtime/tools/dynid/excite/separation_report.h"
+#include "runtime/tools/dynid/page/page_output.h"
+#endif
+
+namespace dyngen::runtime {
+
+#ifndef DYNGEN_WITH_NLOPT
+
+int run_excite(const ToolOptions& /*options*/) {
+  std::cerr << "dynid: excite: this dynid was built without NLopt (libnlopt-dev)\n";
+  return kUsage;
+}
+
+#else
+
+namespace {
+
+using Progress = std::function<void(const std::string&, std::size_t, std::size_t)>;
+
+int run_separate(const ToolOptions& options, ProgressLine& progress, const Progress& tell) {
+  const SeparationReport report = make_separation_report(options.robot, options.excite, tell);
+  progress.clear();
+  std::vector<OutputFile> files;
+  if (!options.json.empty()) {
+    files.push_back({options.json, separation_json(report, options.output)});
+  }
+  const std::vector<std::string> made = write_with_page(
+      options.page, [&] { return separation_document(report, options.page.command); }, progress,
+      std::move(files));
+  std::cout << separation_text(report);
+  tell_written(made);
+  if (!report.designed.found) return kCannotAnswer;
+  write_trajectory(report.trajectory, options.output);
+  std::cout << fmt::format("written: {}, {} rows\n", options.output, report.trajectory.samples());
+  if (!options.excite.picture.empty()) {
+    draw(motion_picture(report.robot.linear, report.limits, report.trajectory, report.samples + 1,
+                        fmt::format("{}: {} apart from {}", report.robot.linear.name,
+                                    report.finding.family, fmt::join(report.rivals, ", "))),
+         options.excite.picture);
+    std::cout << fmt::format("written: {}\n", options.excite.picture);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+int run_excite(const ToolOptions& options) {
+  ProgressLine progress("dynid");
+  const Progress tell = [&](const std::string& what, std::size_t place, std::size_t all) {
+    progress.show(what, place, all);
+  };
+  if (!options.excite.findings.empty()) return run_separate(options, progress, tell);
+  const ExciteReport report = make_excite_report(options.robot, options.excite, tell);
+  progress.clear();
+  std::vector<OutputFile> files;
+  if (!options.json.empty()) files.push_back({options.json, json_of(report, options.output)});
+  const std::vector<std::string> made = write_with_page(
+      options.page, [&] { return excite_document(report, options.page.command); }, progress,
+      std::move(files));
+  std::cout << text_of(report);
+  tell_written(made);
+  if (!report.found) return kCannotAnswer;
+  write_trajectory(report.trajectory, options.output);
+  std::cout << fmt::format("written: {}, {} rows\n", options.output, report.trajectory.samples());
+  if (!options.excite.picture.empty()) {
+    draw(picture_of(report), options.excite.picture);
+    std::cout << fmt::format("written: {}\n", options.excite.picture);
+  }
+  return kDone;
+}
+
+#endif
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <stdexcept>
+#include <utility>
+
+#include "gen/tool/progress_line.h"
+#include "runtime/identification/simulated_motion.h"
+#include "runtime/identification/summary_file.h"
+#include "runtime/tools/dynid/fit/consistent_fit.h"
+#include "runtime/tools/dynid/fit/file_summaries.h"
+#include "runtime/tools/dynid/fit/fit_with_effects.h"
+#include "runtime/tools/dynid/options/commands.h"
+#include "runtime/tools/dynid/page/page_output.h"
+#include "runtime/tools/dynid/recordings/loading.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The file's values, if it has all of them.
+VectorXd prior_of(const LinearModel& model) {
+  VectorXd prior(model.size());
+  for (int i = 0; i < model.size(); ++i) {
+    const auto& value = model.parameters[static_cast<std::size_t>(i)].value;
+    if (!value) return {};
+    prior[i] = *value;
+  }
+  return prior;
+}
+
+/// Parts of recordings that are held out by --holdout-part.
+void hold_out_parts(double part, LoadedRecordings& train, LoadedRecordings& heldout,
+                    const ToolOptions& options) {
+  if (part <= 0) return;
+  for (std::size_t i = 0; i < train.sources.size(); ++i) {
+    MotionSource last = part_of(train.sources[i], 1 - part, 1);
+    train.sources[i] = part_of(train.sources[i], 0, 1 - part);
+    last.name += fmt::format(" (last {:.0f} %)", 100 * part);
+    train.sources[i].name += fmt::format(" (first {:.0f} %)", 100 * (1 - part));
+    train.lines[i] = describe(train.sources[i], options, false);
+    heldout.lines.push_back(describe(last, options, true));
+    heldout.sources.push_back(std::move(last));
+  }
+}
+
+Conditioning examine_conditioning(const FitReport& report) {
+  constexpr double kLeastSensitivity = 0.02, kMostCondition = 30;
+  const TorqueFactor& equations = report.data.summary.equations;
+  const VectorXd& weights = report.main().estimate.joint_weights;
+  Conditioning result;
+  result.raw = report.main().estimate.raw_condition;
+  result.unit_norm = report.main().estimate.condition;
+  result.sensitivity =
+      condition_number(singular_values(equations, weights, sensitivity_scale(equations, weights)));
+  result.insensitive = remove_insensitive(equations, weights, kLeastSensitivity);
+  result.dependent = remove_dependent(equations, weights, kMostCondition);
+  result.weakest = drop_weakest(equations, weights, -1);
+  result.essential = essential_parameters(equations, weights);
+  return result;
+}
+
+/// Recordings, or files of their summaries: not both.
+bool are_summaries(const std::vector<std::string>& paths) {
+  const auto count = std::count_if(paths.begin(), paths.end(), is_summary_file);
+  if (count == 0) return false;
+  if (static_cast<std::size_t>(count) == paths.size()) return true;
+  throw std::invalid_argument(
+      "recordings and .qr files cannot be fitted together: accumulate the recordings first");
+}
+
+void load_summaries(const ToolOptions& options, FitReport& report) {
+  RobotSummaries all = empty_summaries(report.robot.linear);
+  for (const std::string& path : options.recordings) {
+    try {
+      merge(all, read_summary_file(path));
+    } catch (const std::invalid_argument& error) {
+      throw SummaryFileError(fmt::format("{}: error: it is not of {}: {}", path,
+                                         report.robot.linear.name, error.what()));
+    }
+  }
+  for (const auto& [name, summary] : all.robots) {
+    if (all.robots.size() > 1) {
+      report.notes.push_back(fmt::format("robot {}: {} recordings, {:.1f} s",
+                                         name.empty() ? "(not named)" : name, summary.recordings,
+                                         summary.seconds()));
+    }
+  }
+  report.data.summary = pooled(all);
+  if (options.own_friction) report.hierarchy = fit_own_friction(report.robot.linear, all);
+}
+
+/// The regressor of the model that tracks what was commanded, as instruments.
+/// @throws std::invalid_argument  without --tracked, or if it is not of the one recording
+void make_instruments(const ToolOptions& options, const LoadedRecordings& train,
+                      FitReport& report) {
+  const auto& methods = options.fit.methods;
+  const bool wanted = std::find(methods.begin(), methods.end(), FitMethod::kIv) != methods.end();
+  if (options.tracked.empty()) {
+    if (!wanted) return;
+    throw std::invalid_argument(
+        "method iv needs the motion that was commanded: --tracked FILE, a recording of it");
+  }
+  if (train.sources.size() != 1) {
+    throw std::invalid_argument("--tracked goes with one recording, of the same samples");
+  }
+  MotionOptions motion = options.motion;
+  motion.state.cutoff_hz = train.sources.front().cutoff.hz;
+  MotionSource commanded = motion_of_file(options.tracked, motion);
+  if (options.heldout_part > 0) commanded = part_of(commanded, 0, 1 - options.heldout_part);
+  const Estimate start = weighted_least_squares(report.data.summary.equations);
+  report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
+                                                  commanded, options.rows, start.beta);
+}
+
+/// "arm.robot" -> "arm.NAME.robot"
+std::string path_of_robot(const std::string& output, const std::string& name) {
+  const std::size_t dot = output.rfind('.');
+  const std::size_t slash = output.rfind('/');
+  const bool has_ending = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  const std::size_t cut = has_ending ? dot : output.size();
+  return output.substr(0, cut) + "." + (name.empty() ? "unnamed" : name) + output.substr(cut);
+}
+
+/// File by file, in several processes if there are any.
+void load_by_file(const ToolOptions& options, ProcessGroup& group, ProgressLine& progress,
+                  FitReport& report) {
+  if (options.heldout_part > 0) {
+    throw std::invalid_argument(
+        "--holdout-part goes with recordings that are given directly, to one process: "
+        "hold whole recordings out by --holdout");
+  }
+  FileSummaries found = summarise_files(report.robot, options, group, progress);
+  report.data.summary = std::move(found.sum);
+  report.notes.insert(report.notes.end(), found.notes.begin(), found.notes.end());
+}
+
+/// What summaries cannot answer is said before hours are spent on them.
+void check_what_is_summed_up(const ToolOptions& options, bool file_by_file, bool summaries) {
+  if (options.own_friction && (file_by_file || !summaries)) {
+    throw std::invalid_argument(
+        "--own-friction goes with .qr files of named robots that are given directly, not by --list "
+        "and not to several processes: see 'dynid accumulate --name'");
+  }
+  if (!file_by_file && !summaries) return;
+  for (const FitMethod method : options.fit.methods) {
+    if (!needs_samples(method)) continue;
+    throw std::invalid_argument(fmt::format(
+        "method {} looks at single samples: it needs recordings that are given directly, not sums "
+        "of them",
+        fit_method_names()[static_cast<std::size_t>(method)]));
+  }
+}
+
+std::vector<FitMethod> methods_of(const ToolOptions& options, const FitData& data) {
+  if (!options.every_method) return options.fit.methods;
+  std::vector<FitMethod> methods =
+      options.fit.methods.empty() ? std::vector<FitMethod>{FitMethod::kWls} : options.fit.methods;
+  for (std::size_t i = 0; i < fit_method_names().size(); ++i) {
+    const FitMethod method = static_cast<FitMethod>(i);
+    const bool possible =
+        (data.rows || !needs_samples(method)) && (data.instruments || method != FitMethod::kIv);
+    if (possible && std::find(methods.begin(), methods.end(), method) == methods.end()) {
+      methods.push_back(method);
+    }
+  }
+  return methods;
+}
+
+/// @return  paths of the page and its figures
+std::vector<std::string> write_outputs(const ToolOptions& options, const FitReport& report,
+                                       ProgressLine& progress) {
+  std::vector<OutputFile> files;
+  if (!options.output.empty()) {
+    files.push_back({options.output, identified_file(report)});
+    for (std::size_t i = 0; report.hierarchy && i < report.hierarchy->robots.size(); ++i) {
+      files.push_back({path_of_robot(options.output, report.hierarchy->robots[i].name),
+                       identified_file(report, i)});
+    }
+  }
+  if (!options.json.empty()) files.push_back({options.json, fit_json(report)});
+  return write_with_page(
+      options.page, [&] { return fit_document(report, options.page.command); }, progress,
+      std::move(files));
+}
+
+}  // namespace
+
+int run_fit(const ToolOptions& options, ProcessGroup& group) {
+  ProgressLine progress("dynid");
+  FitReport report;
+  report.robot = describe_robot(options.robot, opened_by(options));
+  const LinearModel& model = report.robot.linear;
+  LoadedRecordings train, heldout;
+  const bool file_by_file = !options.list.empty() || group.size() > 1;
+  const bool summaries = !file_by_file && are_summaries(options.recordings);
+  check_what_is_summed_up(options, file_by_file, summaries);
+  const EffectTask task = EffectTask::of(report.robot, options);
+  const bool with_effects = !task.effects.empty();
+  if (with_effects) refuse_with_effects(options, file_by_file, summaries);
+  if (file_by_file) {
+    load_by_file(options, group, progress, report);
+  } else if (summaries) {
+    load_summaries(options, report);
+  } else {
+    const ToolOptions reading = task.reading(options);
+    train = load_recordings(options.recordings, reading, false, progress);
+    heldout = load_recordings(options.heldout, reading, true, progress);
+    hold_out_parts(options.heldout_part, train, heldout, options);
+    report.recordings = train.lines;
+    if (with_effects) {
+      fit_with_effects(task, options, train.sources, heldout.sources, progress, report);
+    } else {
+      report.data.summary = summarise_together(model, train.sources, options, progress);
+      report.data.rows = joined(rows_of_all(model, train.sources, options));
+      make_instruments(options, train, report);
+    }
+  }
+  if (!options.heldout.empty() && heldout.sources.empty()) {
+    heldout = load_recordings(options.heldout, options, true, progress);
+  }
+  if (!heldout.sources.empty()) {
+    if (!with_effects) {
+      report.heldout_rows = joined(rows_of_all(model, heldout.sources, options));
+      report.data.heldout = factor_of(report.heldout_rows, model.columns, model.size());
+    }
+    report.recordings.insert(report.recordings.end(), heldout.lines.begin(), heldout.lines.end());
+  }
+  if (!with_effects) {
+    FitOptions fit_options = options.fit;
+    fit_options.prior = prior_of(model);
+    fit_options.methods = methods_of(options, report.data);
+    report.fits =
+        fit_methods(model, report.data, fit_options, [&](const std::string& what, double done) {
+          progress.show(what, static_cast<std::size_t>(100 * done), 100);
+        });
+  }
+  progress.show("trust", 0, 1);
+  report.trust = measure_trust(report.data.summary.equations, report.main().estimate,
+                               report.data.summary.regressor_noise, report.data.summary.row_time);
+  report.conditioning = examine_conditioning(report);
+  // what a method leaves out on purpose is not what the data do not see
+  const Estimate plain = weighted_least_squares(report.data.summary.equations);
+  report.unseen = name_unseen(plain, model, report.data.summary.extent);
+  if (options.consistent) {
+    progress.show("physical consistency", 0, 1);
+    report.consistent = fit_consistently(report);
+  }
+  const std::vector<std::string> made = write_outputs(options, report, progress);
+  progress.clear();
+  std::cout << fit_table(report);
+  tell_written(made);
+  if (!report.unseen.empty()) {
+    std::cerr << fmt::format(
+        "dynid: these recordings do not determine {} combination{} of parameters (listed above)\n",
+        report.unseen.size(), report.unseen.size() == 1 ? "" : "s");
+    return kCannotAnswer;
+  }
+  if (report.effects && !report.effects->fit.all_seen()) {
+    std::cerr << "dynid: these recordings do not determine all parameters of the effects (listed "
+                 "above)\n";
+    return kCannotAnswer;
+  }
+  return kDone;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/estimation/covariance.h"
+#include "runtime/tools/dynid/fit/fit_report.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
+}
+
+/// Long sums are whole in the robot file and the JSON.
+std::string shortened(const std::string& formula) {
+  constexpr std::size_t kMost = 44;
+  if (formula.size() <= kMost) return formula;
+  const std::size_t plus = formula.rfind(" + ", kMost), minus = formula.rfind(" - ", kMost);
+  const std::size_t cut = plus == std::string::npos    ? minus
+                          : minus == std::string::npos ? plus
+                                                       : std::max(plus, minus);
+  return formula.substr(0, cut == std::string::npos ? kMost : cut) + " ...";
+}
+
+std::string heading(const FitReport& report) {
+  const RecordingSummary& summary = report.data.summary;
+  const LinearModel& model = report.robot.linear;
+  std::string text = fmt::format(
+      "{}: {} joints, {} base parameters; {} recording{}, {:.1f} s, {:.0f} equations a joint\n",
+      model.name, model.joints(), model.size(), summary.recordings,
+      summary.recordings == 1 ? "" : "s", summary.seconds(), summary.equations.samples());
+  for (const RecordingLine& line : report.recordings) {
+    text +=
+        fmt::format("  {}{}: {:.1f} s at {:.6g} Hz", line.name, line.heldout ? " (held out)" : "",
+                    line.seconds, 1 / line.condition.sample_time);
+    if (line.cutoff > 0) text += fmt::format("; cut-off {:.3g} Hz", line.cutoff);
+    text += fmt::format("; an equation every {:.3g} ms\n", 1e3 * line.row_time);
+    for (const std::string& message : line.condition.messages) {
+      text += fmt::format("    {}\n", message);
+    }
+  }
+  return text;
+}
+
+std::string parameter_rows(const FitReport& report) {
+  const LinearModel& model = report.robot.linear;
+  const MethodFit& fit = report.main();
+  const bool known = fit.estimate.covariance.size() != 0;
+  std::string text = fmt::format("\n{:<8}{:>12}{:>11}{:>8}  {:<10}{:<6}", "", "value", "stddev",
+                                 "%", "unit", "seen");
+  if (report.consistent) text += fmt::format("{:>12}{:>7}", "consistent", "pull");
+  text += "  what it is\n";
+  for (int i = 0; i < model.size(); ++i) {
+    const LinearParameter& parameter = model.parameters[static_cast<std::size_t>(i)];
+    const double value = fit.estimate.beta[i];
+    const double stddev = known ? std::sqrt(fit.estimate.covariance(i, i)) : 0;
+    const Seen state = seen(report, i);
+    std::string line = fmt::format("{:<8}{:>12.5g}", parameter.name, value);
+    if (known && state != Seen::kNo) {
+      const double relative = value != 0 ? 100 * stddev / std::abs(value) : INFINITY;
+      line += fmt::format("{:>11.3g}{:>8}", stddev,
+                          relative < 1000 ? fmt::format("{:.1f}", relative) : ">1000");
+    } else {
+      line += fmt::format("{:>11}{:>8}", "-", "-");
+    }
+    line += fmt::format("  {:<10}{:<6}", parameter.unit, seen_name(state));
+    if (report.consistent) {
+      line +=
+          fmt::format("{:>12.5g}{:>7.1f}", report.consistent->beta[i], report.consistent->pull[i]);
+    }
+    text += line + "  " + shortened(parameter.formula) + "\n";
+  }
+  return text;
+}
+
+std::string joint_rows(const FitReport& report) {
+  const MethodFit& fit = report.main();
+  const LinearModel& model = report.robot.linear;
+  const bool heldout = fit.heldout_rms.size() != 0;
+  std::string text =
+      fmt::format("\n{:<14}{:>10}{:>12}{:>12}", "residual", "equations", "rms", "% torque");
+  if (heldout) text += fmt::format("{:>12}{:>12}", "held-out", "% torque");
+  const VectorXd times = report.data.summary.noise.correlation_time();
+  text += fmt::format("{:>16}\n", "correlated over");
+  for (int j = 0; j < model.joints(); ++j) {
+    text += fmt::format("{:<14}{:>10.0f}{:>8.4g} {:<3}{:>12.1f}", fmt::format("joint {}", j + 1),
+                        report.data.summary.equations.joints[static_cast<std::size_t>(j)].rows,
+                        fit.estimate.residual_rms[j],
+                        model.revolute[static_cast<std::size_t>(j)] ? "N m" : "N", fit.percent[j]);
+    if (heldout)
+      text += fmt::format("{:>12.4g}{:>12.1f}", fit.heldout_rms[j], fit.heldout_percent[j]);
+    text += fmt::format("{:>14.3g} s\n", std::max(1.0, times[j]) * report.data.summary.row_time);
+  }
+  return text;
+}
+
+std::string names_of(const FitReport& report, const std::vector<int>& parameters) {
+  constexpr std::size_t kMost = 8;
+  std::string text;
+  for (std::size_t i = 0; i < parameters.size() && i < kMost; ++i) {
+    text += (i > 0 ? " " : "") +
+            report.robot.linear.parameters[static_cast<std::size_t>(parameters[i])].name;
+  }
+  if (parameters.size() > kMost) text += fmt::format(" and {} more", parameters.size() - kMost);
+  return text;
+}
+
+std::string conditioning_rows(const FitReport& report) {
+  const Conditioning& c = report.conditioning;
+  std::string text = "\ncondition number\n";
+  text += fmt::format("  {:<42}{:>10}\n", "regressor as it is", number(c.raw));
+  text += fmt::format("  {:<42}{:>10}\n", "columns of unit norm", number(c.unit_norm));
+  text += fmt::format("  {:<42}{:>10}\n", "columns over torque sensitivity", number(c.sensitivity));
+  const auto analysis = [&](const char* name, const Significance& s) {
+    text += fmt::format(
+        "  {:<42}{:>10}  {}\n", name, number(s.condition_after),
+        s.removed.empty() ? "nothing to remove" : "without " + names_of(report, s.removed));
+  };
+  analysis("(a) low sensitivity removed, unscaled", c.insensitive);
+  analysis("(b) near dependencies removed, scaled", c.dependent);
+  text +=
+      fmt::format("  {:<42}{:>10}  {} of {} directions left out\n",
+                  "(c) weakest directions left out, scaled", number(c.weakest.condition_after),
+                  report.robot.linear.size() - c.weakest.estimate.rank, report.robot.linear.size());
+  text += fmt::format("  {:<42}{:>10}  {} of {}\n", "essential parameters",
+                      number(c.essential.condition_after), c.essential.kept.size(),
+                      report.robot.linear.size());
+  return text;
+}
+
+std::string trust_rows(const FitReport& report) {
+  const Trust& trust = report.trust;
+  const VectorXd relative_attenuation =
+      trust.attenuation.cwiseQuotient(report.main().estimate.scale);
+  const double size =
+      report.main().estimate.beta.cwiseQuotient(report.main().estimate.scale).norm();
+  std::string text = "\ntrust (equations weighted, columns of unit norm)\n";
+  const auto row = [&](const char* name, const std::string& value) {
+    text += fmt::format("  {:<58}{:>10}\n", name, value);
+  };
+  row("noise of the regressor, norm", number(trust.regressor_noise));
+  row("residual, norm", number(trust.torque_noise));
+  row("bound of the relative parameter error (4.1)",
+      std::isfinite(trust.perturbation_bound) ? fmt::format("{:.3g}", trust.perturbation_bound)
+                                              : std::string("none"));
+  row("bias by noise of the regressor, relative (5.2)",
+      number(size > 0 ? relative_attenuation.norm() / size : 0));
+  row("time constant of LMS, s (5.6)", number(trust.time_constant));
+  row("change of the singular values by noise (5.7)", number(trust.singular_value_change));
+  row("  beside the smallest one", number(trust.smallest_singular_value));
+  row("bias susceptibility", number(trust.bias_susceptibility));
+  return text;
+}
+
+std::string unseen_rows(const FitReport& report) {
+  if (report.unseen.empty()) return "";
+  std::string text = "\nnot seen in these recordings\n";
+  for (const UnseenCombination& combination : report.unseen) {
+    text += fmt::format("  {}\n    {}\n", combination.text, combination.advice);
+  }
+  return text;
+}
+
+std::string consistent_rows(const FitReport& report) {
+  if (!report.consistent) return "";
+  const ConsistentFit& fit = *report.consistent;
+  std::string text = fmt::format(
+      "\nphysically consistent: residual per joint {:.1f} % of torque (free: {:.1f} %)\n",
+      fmt::join(fit.percent, " "), fmt::join(report.main().percent, " "));
+  if (fit.heldout_percent.size() != 0) {
+    text +=
+        fmt::format("  held-out: {:.1f} % (free: {:.1f} %)\n", fmt::join(fit.heldout_percent, " "),
+                    fmt::join(report.main().heldout_percent, " "));
+  }
+  std::vector<int> pulling;
+  for (Index i = 0; i < fit.pull.size(); ++i) {
+    if (std::abs(fit.pull[i]) > 2) pulling.push_back(static_cast<int>(i));
+  }
+  text += pulling.empty()
+              ? "  no measured base parameter pulls against it\n"
+              : fmt::format("  measured base parameters that pull against it (> 2 stddev): {}\n",
+                            names_of(report, pulling));
+  if (!fit.converged) text += "  the search did not end: the last step is given\n";
+  if (!fit.message.empty()) {
+    std::string line;
+    for (const char c : fit.message + "\n") {
+      if (c != '\n') {
+        line += c;
+      } else if (!line.empty()) {
+        text += "  " + line + "\n";
+        line.clear();
+      }
+    }
+  }
+  return text;
+}
+
+/// Robots that share inertia: their own friction beside each other.
+std::string hierarchy_rows(const FitReport& report) {
+  if (!report.hierarchy) return "";
+  const HierarchyFit& fit = *report.hierarchy;
+  std::string text = fmt::format("\n{} robots share {} parameters; own friction of each:\n{:<10}",
+                                 fit.robots.size(), fit.shared.size(), "");
+  for (const HierarchyFit::Robot& robot : fit.robots) {
+    text += fmt::format("{:>22}", robot.name.empty() ? "(not named)" : robot.name);
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < fit.own.size(); ++i) {
+    text += fmt::format("{:<10}",
+                        report.robot.linear.parameters[static_cast<std::size_t>(fit.own[i])].name);
+    for (const HierarchyFit::Robot& robot : fit.robots) {
+      text += fmt::format("{:>11.4g} +- {:<7.2g}", robot.own_beta[static_cast<Index>(i)],
+                          robot.own_stddev[static_cast<Index>(i)]);
+    }
+    text += "\n";
+  }
+  for (int j = 0; j < report.robot.linear.joints(); ++j) {
+    text += fmt::format("{:<10}", fmt::format("fit % {}", j + 1));
+    for (const HierarchyFit::Robot& robot : fit.robots) {
+      text += fmt::format("{:>22.1f}", robot.percent[j]);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+/// Methods side by side, as the thesis's Tables 7.3 to 7.5.
+std::string method_columns(const FitReport& report) {
+  if (report.fits.size() < 2) return "";
+  const LinearModel& model = report.robot.linear;
+  std::string text = fmt::format("\n{:<10}", "methods");
+  for (const MethodFit& fit : report.fits) {
+    text += fmt::format("{:>11}", fit_method_names()[static_cast<std::size_t>(fit.method)]);
+  }
+  text += "\n";
+  for (int i = 0; i < model.size(); ++i) {
+    text += fmt::format("{:<10}", model.parameters[static_cast<std::size_t>(i)].name);
+    for (const MethodFit& fit : report.fits) text += fmt::format("{:>11.4g}", fit.estimate.beta[i]);
+    text += "\n";
+  }
+  const auto percents = [&](const char* name, auto values) {
+    for (int j = 0; j < model.joints(); ++j) {
+      text += fmt::format("{:<10}", fmt::format("{} {}", name, j + 1));
+      for (const MethodFit& fit : report.fits) {
+        const VectorXd& of_fit = values(fit);
+        text +=
+            of_fit.size() != 0 ? fmt::format("{:>11.1f}", of_fit[j]) : fmt::format("{:>11}", "-");
+      }
+      text += "\n";
+    }
+  };
+  percents("fit %", [](const MethodFit& fit) -> const VectorXd& { return fit.percent; });
+  if (report.data.heldout) {
+    percents("held %", [](const MethodFit& fit) -> const VectorXd& { return fit.heldout_percent; });
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string fit_table(const FitReport& report) {
+  std::string text = heading(report) + parameter_rows(report) +
+                     (report.effects ? effect_rows(*report.effects, report.robot) : "") +
+                     joint_rows(report) + conditioning_rows(report) + trust_rows(report) +
+                     consistent_rows(report) + unseen_rows(report) + hierarchy_rows(report) +
+                     method_columns(report);
+  std::string messages;
+  for (const MethodFit& fit : report.fits) {
+    for (const std::string& message : fit.messages) {
+      messages += fmt::format("{}: {}\n", fit_method_names()[static_cast<std::size_t>(fit.method)],
+                              message);
+    }
+  }
+  for (const std::string& note : report.notes) messages += note + "\n";
+  if (!messages.empty()) text += "\n" + messages;
+  return text;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "runtime/tools/dynid/options/options.h"
+#include "runtime/tools/dynid/process/process_group.h"
+
+namespace dyngen::runtime {
+
+/// Exit codes of dynid.
+inline constexpr int kDone = 0, kInputWrong = 1, kUsage = 2, kCannotAnswer = 3, kOurBug = 70;
+
+/// The commands; each prints its result and returns the exit code.
+/// @throws ModelError, RecordingError, SummaryFileError, OutputError, std::invalid_argument
+/// run_fit: in process 0 of the group; the others serve().
+int run_fit(const ToolOptions& options, ProcessGroup& group);
+int run_check(const ToolOptions& options);
+int run_accumulate(const ToolOptions& options);
+int run_atlas(const ToolOptions& options);
+int run_diagnose(const ToolOptions& options);
+int run_merge(const ToolOptions& options);
+int run_simulate(const SimulateOptions& options);
+/// Prints what effects there are, or what one of them says; writes the document that is made of
+/// them all. @throws FigureError too
+int run_effects(const EffectsOptions& options);
+/// Where NLopt was absent when dynid was built: says so, exit 2.
+int run_excite(const ToolOptions& options);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/tools/dynid/options/page_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace dyngen::runtime {
+
+/// The command line of `dynid excite`, as it is written.
+struct ExciteOptions {
+  std::string findings;              ///< of --for; empty: none
+  std::vector<std::string> effects;  ///< folders of --effects, besides the program's own
+  std::string criterion;             ///< condition, d, a, sigma; empty: the form's own
+  std::string form = "fourier";      ///< fourier, spline, multistage
+  bool unit_columns = false;
+  int harmonics = 5;
+  double duration = 10;       ///< s, one period
+  double base_frequency = 0;  ///< Hz, 1 / duration; 0: not given
+  double rate = 200;          ///< Hz, of the trajectory's rows
+  int periods = 5;            ///< that are written
+  int starts = 10;
+  std::uint64_t seed = 1;
+  double seconds = 60;
+  int evaluations = 0;                  ///< 0: the clock ends it
+  std::vector<double> noise;            ///< N m: one for all joints or one each
+  std::string prior;                    ///< a .qr file; empty: none
+  std::vector<std::string> parameters;  ///< names or kinds; empty: all
+  std::vector<double> keep_out;         ///< xmin xmax ymin ymax zmin zmax
+  std::vector<double> tool;             ///< x y z
+  std::vector<double> acceleration;
+  double limits = 1;    ///< share of the file's limits
+  std::string picture;  ///< .svg or .png; empty: none
+
+  /// The criterion that was asked for; else sigma for multistage, condition for the others.
+  [[nodiscard]] std::string chosen_criterion() const;
+  /// @return a message about wrong usage, or nothing
+  [[nodiscard]] std::string usage_error() const;
+};
+
+/// The subcommand and its options.
+void add_excite(CLI::App& tool, std::string& robot, std::string& output, std::string& json,
+                PageOptions& page, ExciteOptions& options);
+
+}  // namespace dyngen::runtime

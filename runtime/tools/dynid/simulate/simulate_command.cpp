@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+
+#include "gen/tool/progress_line.h"
+#include "runtime/control/linearised_error.h"
+#include "runtime/recordings/trajectory_file.h"
+#include "runtime/recordings/writer.h"
+#include "runtime/simulation/closed_loop.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/effects/recorded_effects.h"
+#include "runtime/tools/dynid/options/commands.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
+#include "runtime/tools/dynid/simulate/simulate_picture.h"
+#include "runtime/tools/dynid/simulate/simulated_loop.h"
+#include "runtime/tools/dynid/simulate/simulated_robot.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+void check_joints(const std::string& what, int found, const SimulatedRobot& robot) {
+  if (found == robot.joints()) return;
+  throw std::invalid_argument(
+      fmt::format("{} has {} joints, {} has {}", what, found, robot.name, robot.joints()));
+}
+
+/// s, from the first sample to the last
+double duration_of(const Trajectory& trajectory) {
+  return std::max(1e-9, trajectory.time[trajectory.time.size() - 1] - trajectory.time[0]);
+}
+
+Eigen::MatrixXd temperatures(const SimulatedTemperature& temperature, const VectorXd& time,
+                             int joints) {
+  const VectorXd since = time.array() - time[0];
+  return (temperature.start + temperature.rate * since.array()).matrix().replicate(1, joints);
+}
+
+/// What effects that do not act on the motion make of the recorded torque; its noise stays.
+void record_effects(const std::string& path, const SimulatedRobot& plant, ClosedLoopRun& run) {
+  const DescribedRobot robot = describe_robot(path, OpenParameters::kAsWritten);
+  const Eigen::MatrixXd noise = run.measured.tau - run.truth.tau;
+  run.truth.tau = recorded_torque(robot, plant.recorded_effects, run.truth);
+  run.measured.tau = run.truth.tau + noise;
+}
+
+std::string conditions(const SimulateOptions& options, const Controller& controller,
+                       const SimulatedRobot& plant, const ClosedLoopRun& run) {
+  const Index samples = run.measured.samples();
+  std::string text = fmt::format(
+      "{}: {} joints, controller {}, bandwidth {:.6g} Hz, damping {:.6g}, {}\n", plant.name,
+      plant.joints(), options.loop.controller, options.loop.bandwidth, options.loop.damping,
+      options.loop.rate > 0 ? fmt::format("{:.6g} Hz", options.loop.rate) : "continuous");
+  text +=
+      fmt::format("friction compensation {}, delay {:.6g} s, seed {}\n",
+                  controller.options().friction ? "on" : "off", options.loop.delay, options.seed);
+  text += fmt::format(
+      "{} samples, {:.6g} s; {} integration steps, {} reversals and {} releases located\n", samples,
+      run.measured.time[samples - 1] - run.measured.time[0], run.counts.steps, run.counts.reversals,
+      run.counts.releases);
+  return text;
+}
+
+/// What computed torque survives, and how wrong the model is where the motion begins.
+std::string robustness(const Controller& controller, const SimulatedRobot& model,
+                       const SimulatedRobot& plant, const VectorXd& q) {
+  const SurvivedError bound = largest_survived_error(controller.options().gains);
+  const Eigen::MatrixXd E = inertia_error(mass_matrix_of(plant, q), mass_matrix_of(model, q));
+  return fmt::format(
+      "stable for every inertia error ||M^-1 M_model - I|| below {:.3g}; this model's is {:.3g} "
+      "where the motion begins\n",
+      bound.norm, Eigen::JacobiSVD<Eigen::MatrixXd>(E).singularValues()[0]);
+}
+
+std::string table(const SimulatedRobot& plant, const ClosedLoopRun& run, const VectorXd& limit) {
+  const Tracking tracking = tracking_of(run);
+  std::string text =
+      fmt::format("\n{:<16}{:>12}{:>12}{:>4}{:>13}{:>11}{:>4}{:>11}{:>8}\n", "joint", "rms error",
+                  "worst", "", "peak torque", "limit", "", "saturated", "stuck");
+  for (Index j = 0; j < plant.joints(); ++j) {
+    const bool revolute = plant.revolute[static_cast<std::size_t>(j)];
+    text += fmt::format(
+        "{:<16}{:>12.4g}{:>12.4g} {:<3}{:>13.5g}{:>11} {:<3}{:>9.1f} %{:>6.1f} %\n",
+        fmt::format("{} {}", j + 1, plant.joint_names[static_cast<std::size_t>(j)]).substr(0, 15),
+        tracking.rms[j], tracking.worst[j], revolute ? "rad" : "m", run.largest_torque[j],
+        std::isfinite(limit[j]) ? fmt::format("{:.5g}", limit[j]) : "none", revolute ? "N m" : "N",
+        100 * run.saturated_share[j], 100 * run.stuck_share[j]);
+  }
+  return text;
+}
+
+}  // namespace
+
+int run_simulate(const SimulateOptions& options) {
+  ProgressLine progress("dynid");
+  std::vector<Notice> repairs;
+  const Trajectory trajectory = read_trajectory(options.trajectory, &repairs);
+  for (const Notice& notice : repairs) std::cerr << notice.text() << "\n";
+  progress.show("equations of " + options.robot, 0, 1);
+  const bool same = options.plant.empty();
+  const EffectCatalogue catalogue = effect_catalogue(options.effects);
+  const double duration = options.duration > 0 ? options.duration : duration_of(trajectory);
+  const SimulatedTemperature temperature{
+      options.temperature.front(),
+      (options.temperature.back() - options.temperature.front()) / duration};
+  const SimulatedRobot model = read_simulated_robot(
+      options.robot, same ? RobotUse::kPlant : RobotUse::kController, catalogue, temperature);
+  if (!same) progress.show("equations of " + options.plant, 0, 1);
+  const SimulatedRobot plant =
+      same ? model : read_simulated_robot(options.plant, RobotUse::kPlant, catalogue, temperature);
+  check_joints(options.trajectory, trajectory.joints(), model);
+  check_joints("the plant " + plant.name, plant.joints(), model);
+
+  // limits are the drive's: of the plant's file
+  const VectorXd limit = torque_limit_of(options.loop, plant);
+  ControllerOptions chosen = controller_options(options.loop, plant, trajectory.q.row(0));
+  chosen.torque_limit = limit;
+  Controller controller(model.control, chosen);
+  std::optional<StartState> start;
+  if (!options.start.empty()) {
+    start = StartState{per_joint("--start", options.start, plant.joints()),
+                       VectorXd::Zero(plant.joints())};
+  }
+  ClosedLoopOptions loop = loop_options(options.loop, plant.joints());
+  loop.duration = options.duration;
+  loop.torque_noise.deviation = per_joint("--torque-noise", options.torque_noise, plant.joints());
+  loop.seed = options.seed;
+  ClosedLoopRun run;
+  try {
+    run = simulate(plant.plant, controller, trajectory, loop, start, [&](double share) {
+      progress.show("simulation", static_cast<std::size_t>(1000 * share), 1000);
+    });
+  } catch (const std::runtime_error& error) {
+    progress.clear();
+    std::cerr << "dynid: " << error.what() << "\n";
+    return kCannotAnswer;
+  }
+  if (plant.reads_temperature)
+    run.truth.temperature = run.measured.temperature =
+        temperatures(temperature, run.truth.time, plant.joints());
+  if (!plant.recorded_effects.empty()) {
+    progress.show("effects of the recording", 0, 1);
+    record_effects(same ? options.robot : options.plant, plant, run);
+  }
+  progress.clear();
+  write_recording(run.measured, options.output);
+  if (!options.truth.empty()) write_recording(run.truth, options.truth);
+  std::cout << conditions(options, controller, plant, run)
+            << (chosen.law == ControlLaw::kComputedTorque
+                    ? robustness(controller, model, plant, trajectory.q.row(0))
+                    : "")
+            << table(plant, run, limit) << "\nwritten: " << options.output
+            << (options.truth.empty() ? "" : ", " + options.truth) << "\n";
+  if (!options.picture.empty()) {
+    draw(picture_of(run, plant,
+                    fmt::format("{}, controller {}", plant.name, options.loop.controller)),
+         options.picture);
+    std::cout << "written: " << options.picture << "\n";
+  }
+  return kDone;
+}
+
+}  // namespace dyngen::runtime
