@@ -9,6 +9,7 @@
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/likely_search.h"
 #include "runtime/diagnosis/nameless_search.h"
+#include "runtime/diagnosis/own_scatter.h"
 #include "runtime/diagnosis/second_scan.h"
 #include "runtime/diagnosis/stops.h"
 #include "runtime/diagnosis/time_windows.h"
@@ -400,16 +401,20 @@ class Competition {
     return witness_.contradicts(hypotheses_, result_, hypothesis, point, system_options());
   }
 
-  /// Keeps an effect that the witness does not contradict and held-out recordings speak for, or,
-  /// of one beyond doubt, agree with; an event is not in them and must only not harm them.
+  /// Keeps an effect that neither what is left nor the witness refutes and held-out recordings
+  /// speak for, or, of one beyond doubt, agree with; an event is not in them and must only not harm
+  /// them.
   bool keep(const NamedResult& named, const Screening& screening, EffectFit next) {
-    if (result_.noise.from_periods && contradicted(hypotheses_[named.hypothesis], next.point)) {
+    const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
+    if (result_.noise.from_periods &&
+        (scatter_refutes(train_, signals_, model_system(), hypothesis, named.best.effect) ||
+         contradicted(hypothesis, next.point))) {
       return false;
     }
     HeldoutProof proof = proof_of(next);
     proof.parameters = static_cast<double>(size_of(named.hypothesis));
     proof.fitted = named.best.score.squares;
-    const bool event = hypotheses_[named.hypothesis].windowed;  // is not in what is held out
+    const bool event = hypothesis.windowed;  // is not in what is held out
     const bool beyond_doubt = nameless_.sure(screening, named.surprise);
     const bool proved = event ? !proof.harms() : proof.helps() || (beyond_doubt && proof.agrees());
     if (!proved) return false;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "runtime/diagnosis/own_scatter.h"
+
 namespace dyngen::runtime {
 namespace {
 
@@ -133,6 +135,10 @@ bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system) {
   const auto place = static_cast<std::size_t>(own - plain.joints.begin());
   if (result_.noise.from_periods &&
       witness_.contradicts(hypotheses_, result_, nameless, options_)) {
+    return false;
+  }
+  if (result_.noise.from_periods &&
+      own_scatter(system, white, nameless.score.coefficients).refutes()) {
     return false;
   }
   const VectorXd& size = nameless.score.coefficients;

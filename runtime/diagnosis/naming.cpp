@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/diagnosis/heldout.h"
+#include "runtime/diagnosis/own_scatter.h"
 #include "runtime/diagnosis/unnamed_rival.h"
 
 namespace dyngen::runtime {
@@ -189,7 +190,13 @@ void settle(const EffectRecordings& train, const EffectRecordings& heldout, Effe
             const std::vector<Hypothesis>& hypotheses, CompetitionResult& result,
             std::size_t winner, const EvidenceSystem::Options& options, Naming& naming) {
   Rival& nearest = naming.rivals.front();
-  const std::optional<EffectFit> other = with_rival(train, result, winner, nearest);
+  std::optional<EffectFit> other;
+  const bool refuted =
+      result.noise.from_periods &&
+      scatter_refutes(train, signals,
+                      system_without(train, signals, hypotheses, result, winner, options),
+                      hypotheses[nearest.hypothesis], nearest.trial.effect);
+  if (!refuted) other = with_rival(train, result, winner, nearest);
   if (!other) {
     naming.rivals.erase(naming.rivals.begin());
     return;
