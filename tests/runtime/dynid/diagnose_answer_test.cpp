@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "runtime/report/document_json.h"
-#include "runtime/tools/dynid/page/arm_drawing.h"
-#include "runtime/tools/dynid/options/diagnose_options.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_document.h"
+#include "runtime/tools/dynid/options/page_options.h"
+#include "runtime/tools/dynid/page/arm_drawing.h"
 #include "tests/runtime/dynid/diagnosis_schema.h"
 #include "tests/runtime/dynid/made_diagnosis.h"
 

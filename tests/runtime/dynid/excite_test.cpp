@@ -11,8 +11,8 @@
 #include "runtime/recordings/periods.h"
 #include "runtime/recordings/trajectory_file.h"
 #include "runtime/recordings/writer.h"
-#include "runtime/tools/dynid/robot/described_robot.h"
 #include "runtime/tools/dynid/excite/excite_limits.h"
+#include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/runtime/dynid/run_dynid.h"
 #include "tests/support/temporary_path.h"
 

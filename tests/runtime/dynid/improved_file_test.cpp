@@ -10,9 +10,9 @@
 
 #include "runtime/effects/effect_signals.h"
 #include "runtime/tools/dynid/effects/effect_laws.h"
-#include "runtime/tools/dynid/robot/identified_file.h"
 #include "runtime/tools/dynid/effects/recorded_effects.h"
 #include "runtime/tools/dynid/effects/robot_tangents.h"
+#include "runtime/tools/dynid/robot/identified_file.h"
 #include "tests/runtime/dynid/made_diagnosis.h"
 #include "tests/runtime/dynid/multisine.h"
 #include "tests/runtime/dynid/run_dynid.h"
