@@ -34,7 +34,8 @@ using Eigen::VectorXd;
 constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise's correlation
 constexpr double kLeastCounted = 0.35;    // of a joint's equations, beside its rests
 constexpr double kObjection =
-    0.5;  // the most of a name against which a bound or a falsifier speaks
+    0.5;                         // the most of a name against which a bound or a falsifier speaks
+constexpr double kStable = 0.8;  // of halves of the recordings: Meinshausen and Buehlmann 2010
 constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
 
 std::vector<ConditionLine> conditions_of(const DiagnosisInput& input) {
@@ -51,6 +52,16 @@ std::string where_it_acts(const EffectInstance& effect) {
     return fmt::format("joints {} and {}", effect.joint + 1, effect.other + 1);
   }
   return fmt::format("joint {}", effect.joint + 1);
+}
+
+/// Whether the name holds on halves of the recordings.
+FalsifierOutcome stability_test(const Naming& naming) {
+  const double share = naming.stability();
+  return {"stability", share >= kStable,
+          fmt::format("{} explains most of {:.0f} of 100 halves of the recordings",
+                      naming.families.size() > 1 ? "it, or a name that is not told apart," : "it",
+                      100 * share),
+          true};
 }
 
 std::string when_it_acts(const Whereabouts& where) {
@@ -248,6 +259,7 @@ class Diagnostician {
     const EvidenceSystem system =
         system_without(views_.train, signals, hypotheses_, result_, place, options);
     finding.tests = name_tests(views_.train, signals, system, finding.effect);
+    if (!hypothesis.windowed) finding.tests.push_back(stability_test(naming));
     finding.where = whereabouts_of(views_.train, signals, system, hypothesis, finding.effect);
     if (finding.effect.recording >= 0) {
       finding.where.recording =

@@ -11,6 +11,7 @@
 
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/own_scatter.h"
+#include "runtime/diagnosis/stability.h"
 #include "runtime/diagnosis/unnamed_rival.h"
 
 namespace dyngen::runtime {
@@ -107,7 +108,38 @@ std::optional<EffectFit> with_rival(const EffectRecordings& train, const Competi
   }
 }
 
+/// How often the winner and each rival explain most of a half of the recordings.
+/// @param net     what the winner explains, net
+/// @param rivals  by family; their distance is still what they explain, net
+void select_from_halves(const EffectRecordings& data, EffectSignals& signals,
+                        const EvidenceSystem& system, const std::vector<Hypothesis>& hypotheses,
+                        const Winner& own, const TrialScore& found, double net, std::uint64_t seed,
+                        Naming& naming, std::map<std::string, Rival>& rivals) {
+  const auto contender = [&](std::size_t hypothesis, const TrialScore& trial, double left) {
+    return Contender{
+        hypothesis_columns(data, signals, system, hypotheses[hypothesis], trial.effect),
+        trial.score.squares - left};
+  };
+  std::vector<Contender> contenders = {contender(own.hypothesis, found, net)};
+  for (const auto& [family, rival] : rivals) {
+    contenders.push_back(contender(rival.hypothesis, rival.trial, rival.distance));
+  }
+  const std::vector<double> shares = selected_shares(system, contenders, seed);
+  naming.selected = shares.front();
+  std::size_t place = 1;
+  for (auto& [family, rival] : rivals) rival.selected = shares[place++];
+}
+
 }  // namespace
+
+double Naming::stability() const {
+  double share = selected;
+  for (const Rival& rival : rivals) {
+    const bool beside = std::find(families.begin(), families.end(), rival.family) != families.end();
+    if (beside) share += rival.selected;
+  }
+  return share;
+}
 
 void conclude(Naming& naming) {
   std::stable_sort(naming.rivals.begin(), naming.rivals.end(),
@@ -135,6 +167,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   const std::string& family = hypotheses[own.hypothesis].effect.law.family;
   naming.families = {family};
   double best = 0;
+  TrialScore found;  // the winner's own
   const JointColumns torque =
       system.whitened(effect_columns(data, signals, result.fit.point.effects[winner], {0}));
   std::map<std::string, Rival> best_of;  // of each other family; distance: its squares, net
@@ -158,6 +191,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
       naming.lambda = std::max(0.0, trial.score.squares - trial.score.degrees);
       naming.delta_bic = -net;
       naming.part_left = trial.score.part_left;
+      found = std::move(trial);
     } else if (trial.admissible && hypothesis.effect.law.family != family) {
       const auto [entry, added] = best_of.try_emplace(hypothesis.effect.law.family);
       if (!added && net <= entry->second.distance) continue;
@@ -168,8 +202,13 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
                        net,
                        apart,
                        rival,
-                       std::move(trial)};
+                       std::move(trial),
+                       0};
     }
+  }
+  if (!hypotheses[own.hypothesis].windowed) {
+    select_from_halves(data, signals, system, hypotheses, own, found, best, options.seed, naming,
+                       best_of);
   }
   UnnamedRival unnamed = unnamed_rival(data, signals, hypotheses, result, own, system);
   naming.unnamed = std::move(unnamed.what);

@@ -16,6 +16,7 @@ struct Rival {
   double apart = 0;     ///< squares of the winner that it cannot imitate: what is to be expected
   std::size_t hypothesis = 0;
   TrialScore trial;
+  double selected = 0;  ///< share of the halves of the recordings in which it explains most
 };
 
 /// Which names a finding may have.
@@ -28,6 +29,10 @@ struct Naming {
   double lambda = 0;       ///< squares of the winner beside all else, less its degrees
   double delta_bic = 0;
   double part_left = 0;  ///< of the winner's squares, after the refit of the model
+  double selected = 0;   ///< share of the halves of the recordings in which it explains most
+
+  /// The share of halves in which the winner or one of the families beside it explains most.
+  [[nodiscard]] double stability() const;
 };
 
 /// Winners are compared with all that was strong in their round, each beside the model with all

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "runtime/evidence/evidence_system.h"
+
+namespace dyngen::runtime {
+
+/// What competes for a name.
+struct Contender {
+  JointColumns columns;  ///< as EvidenceSystem::whitened() gives them
+  double price = 0;      ///< squares that its parameters cost
+};
+
+/// How often each contender explains most where half of the recordings is left out: of a hundred
+/// random halves of their stretches, squares net of prices.
+/// @return (contenders) shares, sum 1
+/// Source: Meinshausen and Buehlmann, J. R. Statist. Soc. B 72, 2010 (stability selection).
+std::vector<double> selected_shares(const EvidenceSystem& system,
+                                    const std::vector<Contender>& contenders, std::uint64_t seed);
+
+}  // namespace dyngen::runtime
