@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/blind/score/heldout.h"
+
 namespace blind {
 namespace {
 
@@ -27,16 +29,6 @@ bool is_right(const Json& truths, const Json& name) {
            (name["joint"] == truth["joint"] ||
             (truth["other_joint"] != 0 && name["joint"] == truth["other_joint"]));
   });
-}
-
-double ratio(const Json& oracle, const Json& rms) {
-  if (oracle.empty() || oracle.size() != rms.size()) return 0;
-  double sum = 0;
-  for (std::size_t j = 0; j < oracle.size(); ++j) {
-    const double part = rms[j].get<double>() / oracle[j].get<double>();
-    sum += part * part;
-  }
-  return std::sqrt(sum / static_cast<double>(oracle.size()));
 }
 
 Rows part(const std::vector<JudgedBaseline>& all, const Test& test) {
@@ -83,6 +75,9 @@ std::vector<JudgedBaseline> judge_baselines(const Json& truth, const Json& answe
   if (!answer.is_object() || answer.value("schema", "") != "blind.baselines/1") return judged;
   const Json& truths = truth["truths"];
   for (const Json& each : answer["baselines"]) {
+    const auto alone = std::find_if(answer["baselines"].begin(), answer["baselines"].end(),
+                                    [](const Json& own) { return own["baseline"] == "base"; });
+    const Json& base = (alone == answer["baselines"].end() ? each : *alone)["heldout_rms"];
     JudgedBaseline one;
     one.baseline = each["baseline"];
     one.kind = truth["kind"];
@@ -96,7 +91,7 @@ std::vector<JudgedBaseline> judge_baselines(const Json& truth, const Json& answe
       one.among = one.among || is_right(truths, name);
       one.wrong += is_family(truths, name["family"]) ? 0 : 1;
     }
-    one.heldout = ratio(truth["heldout_oracle"], each["heldout_rms"]);
+    one.heldout = over_oracle(truth, in_suite_measure(truth, base, each["heldout_rms"]));
     judged.push_back(one);
   }
   return judged;

@@ -90,21 +90,12 @@ std::string confusion(const Set& cases) {
   return text;
 }
 
-double rms_ratio(const nlohmann::json& above, const nlohmann::json& below) {
-  double sum = 0;
-  for (std::size_t j = 0; j < below.size(); ++j) {
-    sum += std::pow(above[j].get<double>() / below[j].get<double>(), 2);
-  }
-  return std::sqrt(sum / static_cast<double>(below.size()));
-}
-
 /// Both columns rise by themselves: two distributions.
 std::string heldout(const Set& singles) {
   std::vector<double> before, after;
   for (const Judged* each : singles) {
     if (!each->found || each->heldout <= 0) continue;
-    before.push_back(
-        rms_ratio(each->answer["heldout"]["rms_before"], each->truth["heldout_oracle"]));
+    before.push_back(each->heldout_before);
     after.push_back(each->heldout);
   }
   std::sort(before.begin(), before.end());

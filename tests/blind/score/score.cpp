@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/blind/score/heldout.h"
+
 namespace blind {
 namespace {
 
@@ -27,18 +29,19 @@ bool on_joint(const Json& finding, const Json& truth) {
 
 /// Root mean square of the joints' ratios, and the share of the gap that is closed.
 void judge_heldout(const Json& truth, const Json& answer, Judged& judged) {
-  const auto& oracle = truth["heldout_oracle"];
-  const auto& before = answer["heldout"]["rms_before"];
-  const auto& after = answer["heldout"]["rms_after"];
-  if (after.size() != oracle.size() || oracle.empty()) return;
-  double sum = 0, open = 0, left = 0;
+  const Json& oracle = truth["heldout_oracle"];
+  const Json& base = answer["heldout"]["rms_before"];
+  const std::vector<double> before = in_suite_measure(truth, base, base);
+  const std::vector<double> after = in_suite_measure(truth, base, answer["heldout"]["rms_after"]);
+  judged.heldout = over_oracle(truth, after);
+  if (judged.heldout == 0 || before.size() != after.size()) return;
+  judged.heldout_before = over_oracle(truth, before);
+  double open = 0, left = 0;
   for (std::size_t j = 0; j < oracle.size(); ++j) {
     const double o = oracle[j], a = after[j], b = before[j];
-    sum += a * a / (o * o);
     open += (b * b - o * o) / (o * o);
     left += (a * a - o * o) / (o * o);
   }
-  judged.heldout = std::sqrt(sum / static_cast<double>(oracle.size()));
   judged.gap_closed = open > 0 ? 1 - left / open : 0;
 }
 

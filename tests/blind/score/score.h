@@ -25,8 +25,9 @@ struct Judged {
   bool separable = false;    ///< lambda (1 - c^2) >= 30 for the other families
   double aliases = 0;        ///< names of the first finding
   double lambda = 0, absorbed = 0, excess = 0;
-  double heldout = 0;     ///< rms after over the oracle's, root mean square of the joints
-  double gap_closed = 0;  ///< of the squares between the base model and the oracle
+  double heldout = 0;         ///< rms after over the oracle's, root mean square of the joints
+  double heldout_before = 0;  ///< the same of the base model
+  double gap_closed = 0;      ///< of the squares between the base model and the oracle
 };
 
 Judged judge(const nlohmann::json& truth, const nlohmann::json& answer);

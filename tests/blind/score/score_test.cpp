@@ -58,6 +58,16 @@ TEST(Score, OfARightNameOnItsJoint) {
   EXPECT_NEAR(judged.gap_closed, 1, 1e-12);
 }
 
+TEST(Score, OfHeldoutTorqueIsInTheSuitesMeasure) {
+  // samples at rest, of which an answer says nothing, make the suite's rms larger
+  Json own = truth("single", {{"stribeck", 2}});
+  own["heldout_base"] = {4.0, 8.0};
+  const Judged judged = judge(own, answer(Json::array({finding("stribeck", 2, 0.97)})));
+  EXPECT_NEAR(judged.heldout, 2, 1e-12);  // 1 of 2 of 4, beside the oracle's 1
+  EXPECT_NEAR(judged.heldout_before, 4, 1e-12);
+  EXPECT_NEAR(judged.gap_closed, 1 - 3.0 / 15, 1e-12);
+}
+
 TEST(Score, OfAWrongNameThatIsSureAndOneThatIsNot) {
   const Json two = truth("single", {{"stribeck", 2}});
   EXPECT_TRUE(judge(two, answer(Json::array({finding("cable", 1, 0.95)}))).confident_wrong);
