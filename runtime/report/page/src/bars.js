@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 import { element, numberText } from "./dom.js";
 
+const kShort = 9;  // letters of a label that fit beside the bars of a joint
+
 /** Bars of numbers side by side, a group a joint, as a list that can be read without seeing it. */
 export function barsBlock({ id, title, caption, groups }) {
   const key = element("ul", { class: "key" }, (groups[0]?.bars ?? []).map((bar) =>
@@ -22,7 +24,8 @@ export function barsBlock({ id, title, caption, groups }) {
         element("span", { class: "quiet", text: group.unit })),
       element("ul", { class: "bars" }, bars));
   });
+  const wide = groups.some(({ label }) => label.length > kShort);
   return element("figure", { class: "barfigure", id },
-    element("figcaption", { text: title }), key, element("div", { class: "groups" }, rows),
+    element("figcaption", { text: title }), key, element("div", { class: wide ? "groups wide" : "groups" }, rows),
     caption ? element("p", { class: "note", text: caption }) : null);
 }

@@ -16,6 +16,11 @@ std::string names_of(const SeparationReport& report) {
   return fmt::format("{} from {}", report.finding.family, fmt::join(report.rivals, " and "));
 }
 
+/// Large ones without digits behind the point.
+std::string squares_words(double squares) {
+  return squares < 100 ? fmt::format("{:.3g}", squares) : fmt::format("{:.0f}", squares);
+}
+
 std::string sentence_of(const SeparationReport& report) {
   if (!report.designed.found) {
     return fmt::format("No trajectory tells {}: {}.", names_of(report), report.designed.message);
@@ -23,14 +28,13 @@ std::string sentence_of(const SeparationReport& report) {
   const int periods = report.options.periods;
   const double least = periods * report.designed.separation.least;
   if (least >= kSeparated) {
-    return fmt::format(
-        "{} periods of this motion tell {}: {:.3g} squares of noise, {:.0f} are needed.", periods,
-        names_of(report), least, kSeparated);
+    return fmt::format("{} periods of this motion tell {}: {} squares of noise, {:.0f} are needed.",
+                       periods, names_of(report), squares_words(least), kSeparated);
   }
   return fmt::format(
-      "{} periods of this motion do not yet tell {}: {:.3g} squares of noise, {:.0f} are needed; "
+      "{} periods of this motion do not yet tell {}: {} squares of noise, {:.0f} are needed; "
       "{:.0f} periods have them.",
-      periods, names_of(report), least, kSeparated,
+      periods, names_of(report), squares_words(least), kSeparated,
       std::ceil(kSeparated / report.designed.separation.least));
 }
 
