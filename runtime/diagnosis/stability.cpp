@@ -48,6 +48,7 @@ double squares_of(const std::vector<StretchProducts>& all, const std::vector<std
     own += all[chosen[i]].own;
     rest += all[chosen[i]].rest;
   }
+  if (rest.size() == 0) return 0;
   // to unit diagonal: columns have different units
   const VectorXd scale = own.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const MatrixXd scaled = scale.asDiagonal() * own * scale.asDiagonal();
