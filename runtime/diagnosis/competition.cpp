@@ -308,7 +308,7 @@ class Competition {
   /// The model beside white noise.
   EvidenceSystem white_system() {
     TorqueNoiseModel white = result_.noise;
-    white.joints = white_noise(result_.fit.rms).joints;
+    white.joints = quick_noise(white_noise(result_.fit.rms).joints);
     EvidenceSystem::Options options = system_options();
     options.surrogates = 0;
     EvidenceSystem system = system_at(train_, signals_, result_.fit.point, found(), white, options);

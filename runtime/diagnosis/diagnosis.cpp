@@ -179,11 +179,7 @@ class Diagnostician {
 
   void describe_noise() {
     const TorqueNoiseModel& noise = result_.noise;
-    answer_.noise.correlation_time.resize(views_.train.joints());
-    for (int j = 0; j < views_.train.joints(); ++j) {
-      answer_.noise.correlation_time[j] =
-          noise.joints[static_cast<std::size_t>(j)].correlation_time;
-    }
+    answer_.noise.correlation_time = noise.correlation_time;
     answer_.noise.worth = noise.worth;
     answer_.noise.from_periods = noise.from_periods;
     answer_.noise.how = noise.from_periods

@@ -31,10 +31,10 @@ VectorXd whitened_squares(const EffectRecordings& data, const RunResiduals& resi
                           const TorqueNoiseModel& noise) {
   VectorXd squares = VectorXd::Zero(data.joints());
   for (Index j = 0; j < squares.size(); ++j) {
-    const Whitener whitener(noise.joints[static_cast<std::size_t>(j)]);
     for (std::size_t run = 0; run < residuals.size(); ++run) {
       MatrixXd rest = residuals[run].col(j);
-      whitener.apply(rest, data.runs[run].rows.counted.col(j));
+      Whitener(noise.joints[static_cast<std::size_t>(j)], data.runs[run].rows.counted.col(j))
+          .apply(rest);
       squares[j] += rest.squaredNorm();
     }
   }

@@ -26,7 +26,7 @@ LikelihoodRatio::LikelihoodRatio(const EffectRecordings& data, const RunResidual
     const auto parameters =
         static_cast<double>(data.model.columns[static_cast<std::size_t>(j)].size());
     degrees_[j] = std::max(1.0, counted - parameters);
-    orders_.push_back(noise.joints[static_cast<std::size_t>(j)].coefficients.size());
+    orders_.push_back(noise.joints[static_cast<std::size_t>(j)].quick.coefficients.size());
     base_[j] = innovation_squares(base, j);
   }
 }

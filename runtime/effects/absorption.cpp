@@ -55,7 +55,7 @@ class Atlas {
         signals_(data),
         scales_(data),
         beta_(beta),
-        stack_(data, Whitening{noise.joints}),
+        stack_(data, Whitening{quick_noise(noise.joints)}),
         projection_(regressor()),
         left_(MatrixXd::Zero(stack_.rows(), static_cast<Index>(entries))) {
     signals_.set_beta(beta);

@@ -14,14 +14,17 @@ Whitening Whitening::by_weights(const VectorXd& weights) {
   for (const double weight : weights) {
     AutoregressiveNoise noise;
     noise.innovation = noise.deviation = 1 / weight;
-    whitening.joints.push_back(noise);
+    whitening.joints.push_back({noise, {}});
   }
   return whitening;
 }
 
 EquationStack::EquationStack(const EffectRecordings& data, const Whitening& whitening)
-    : data_(data), whiteners_(whitening.joints.begin(), whitening.joints.end()) {
+    : data_(data), whiteners_(whitening.joints.size()) {
   for (const EffectRun& run : data.runs) {
+    for (std::size_t j = 0; j < whiteners_.size(); ++j) {
+      whiteners_[j].emplace_back(whitening.joints[j], run.rows.counted.col(static_cast<Index>(j)));
+    }
     run_starts_.push_back(of_joint_);
     of_joint_ += run.rows.Y.rows();
   }
@@ -29,8 +32,7 @@ EquationStack::EquationStack(const EffectRecordings& data, const Whitening& whit
 }
 
 void EquationStack::whiten(Eigen::Ref<MatrixXd> columns, std::size_t run, int joint) const {
-  whiteners_[static_cast<std::size_t>(joint)].apply(columns,
-                                                    data_.runs[run].rows.counted.col(joint));
+  whiteners_[static_cast<std::size_t>(joint)][run].apply(columns);
 }
 
 MatrixXd EquationStack::stacked(const EffectEquations& equations) const {

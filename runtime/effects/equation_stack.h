@@ -11,7 +11,7 @@ namespace dyngen::runtime {
 
 /// How equations of each joint are made white and of unit variance.
 struct Whitening {
-  std::vector<AutoregressiveNoise> joints;
+  std::vector<JointNoise> joints;
 
   /// Joints times a weight, nothing more. @param weights  (n) 1/sigma
   static Whitening by_weights(const Eigen::VectorXd& weights);
@@ -39,7 +39,7 @@ class EquationStack {
   void whiten(Eigen::Ref<Eigen::MatrixXd> columns, std::size_t run, int joint) const;
 
   const EffectRecordings& data_;
-  std::vector<Whitener> whiteners_;  // of each joint
+  std::vector<std::vector<Whitener>> whiteners_;  // of each joint in each run
   std::vector<Eigen::Index> run_starts_;
   Eigen::Index of_joint_ = 0, rows_ = 0;
 };

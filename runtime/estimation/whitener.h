@@ -4,30 +4,36 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "runtime/estimation/noise_model.h"
+#include "runtime/estimation/joint_noise.h"
 
 namespace dyngen::runtime {
 
-/// Makes autoregressive noise white and of unit variance: a sample less its best prediction from
-/// those before it, over the deviation of what the prediction misses.
-///
-/// At the begin of a run and behind samples that do not count there are fewer to predict from: the
-/// predictor of that order stands there, so that the variance is 1 from the first sample on.
-/// Source: the Levinson-Durbin recursion, run down from the process's own coefficients.
+/// Makes the noise of one joint in one run white and of unit variance: a sample less its best
+/// linear prediction from all that count before it, over the deviation of what the prediction
+/// misses. Exact at the begin of a run and behind samples that do not count.
+/// Source: the innovations of a Kalman filter (Kalman 1960) whose state is the past of the
+/// autoregressive part and the slow parts; there is no noise of measurement.
 class Whitener {
  public:
-  /// @param noise  of a stationary process, innovation > 0
-  explicit Whitener(const AutoregressiveNoise& noise);
+  /// @param noise    of a stationary process, innovation > 0
+  /// @param counted  (N) 1 or 0, of the run
+  Whitener(const JointNoise& noise, const Eigen::Ref<const Eigen::VectorXd>& counted);
 
-  /// In place.
-  /// @param columns  (N x k) one run
-  /// @param counted  (N) 1 or 0; samples that do not count become 0
-  void apply(Eigen::Ref<Eigen::MatrixXd> columns,
-             const Eigen::Ref<const Eigen::VectorXd>& counted) const;
+  /// In place; samples that do not count become 0. @param columns  (N x k)
+  void apply(Eigen::Ref<Eigen::MatrixXd> columns) const;
 
  private:
-  std::vector<Eigen::VectorXd> predictors_;  ///< of order 0, 1, ... p
-  std::vector<double> deviations_;           ///< of what each misses
+  struct Step {
+    std::size_t gain = 0;  ///< where its gains begin
+    double deviation = 0;  ///< of what the prediction misses; 0: the sample does not count
+  };
+  class Columns;
+
+  Eigen::VectorXd coefficients_;  ///< (m) of the autoregressive part, m at least 1
+  Eigen::VectorXd poles_;         ///< of the slow parts
+  std::vector<Step> steps_;       ///< of each sample
+  std::vector<double> gains_;     ///< (m + slow) of the state, each as often as it changes
+  Eigen::Index reach_ = 1;        ///< how far back samples of the autoregressive part are corrected
 };
 
 }  // namespace dyngen::runtime

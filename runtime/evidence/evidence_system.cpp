@@ -45,6 +45,17 @@ PivotedTriangle pivoted_triangle(const MatrixXd& A) {
   return result;
 }
 
+std::shared_ptr<const std::vector<std::vector<Whitener>>> whiteners_of(
+    const EffectRecordings& data, const TorqueNoiseModel& noise) {
+  auto all = std::make_shared<std::vector<std::vector<Whitener>>>(noise.joints.size());
+  for (std::size_t j = 0; j < all->size(); ++j) {
+    for (const EffectRun& run : data.runs) {
+      (*all)[j].emplace_back(noise.joints[j], run.rows.counted.col(static_cast<Index>(j)));
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 Score score_of(const Products& products, bool surrogates) {
@@ -109,23 +120,21 @@ std::vector<double> squares_of_few(const Products& products) {
 
 EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals& residuals,
                                const TorqueNoiseModel& noise, const Options& options)
-    : data_(data),
-      whiteners_(noise.joints.begin(), noise.joints.end()),
-      left_out_(noise.joints.size()),
-      worth_(noise.worth),
-      rows_(data.equations()) {
+    : data_(data), left_out_(noise.joints.size()), worth_(noise.worth), rows_(data.equations()) {
   const int n = data.joints();
   const Index size = data.model.size();
+  whiteners_ = whiteners_of(data, noise);
   rest_.resize(n * rows_);
   MatrixXd W = MatrixXd::Zero(options.with_regressor ? n * rows_ : 0, size);
   for (int j = 0; j < n; ++j) {
+    const auto joint = static_cast<std::size_t>(j);
     Index start = j * rows_;
     for (std::size_t run = 0; run < data.runs.size(); ++run) {
       const RowBlock& block = data.runs[run].rows;
       const Index count = block.Y.rows();
       rest_.segment(start, count) = residuals[run].col(j).cwiseProduct(block.counted.col(j));
       if (options.with_regressor) {
-        for (const int c : data.model.columns[static_cast<std::size_t>(j)]) {
+        for (const int c : data.model.columns[joint]) {
           W.col(c).segment(start, count) =
               block.Y.col(j * size + c).cwiseProduct(block.counted.col(j));
         }
@@ -156,10 +165,9 @@ EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals&
 
 void EvidenceSystem::whiten(Eigen::Ref<MatrixXd> rows, int joint) const {
   Index start = 0;
-  for (const EffectRun& run : data_.runs) {
-    const Index count = run.rows.Y.rows();
-    whiteners_[static_cast<std::size_t>(joint)].apply(rows.middleRows(start, count),
-                                                      run.rows.counted.col(joint));
+  for (std::size_t run = 0; run < data_.runs.size(); ++run) {
+    const Index count = data_.runs[run].rows.Y.rows();
+    (*whiteners_)[static_cast<std::size_t>(joint)][run].apply(rows.middleRows(start, count));
     start += count;
   }
   const auto& left_out = left_out_[static_cast<std::size_t>(joint)];

@@ -93,7 +93,8 @@ class EvidenceSystem {
   void project(const Eigen::MatrixXd& columns);
 
   const EffectRecordings& data_;
-  std::vector<Whitener> whiteners_;                                // of each joint
+  std::shared_ptr<const std::vector<std::vector<Whitener>>>
+      whiteners_;                                                  // of each joint in each run
   std::vector<std::shared_ptr<const LocalReflections>> left_out_;  // of each joint; or nothing
   Eigen::VectorXd worth_;                                          // (n)
   Eigen::Index rows_ = 0;                                          // of one joint

@@ -10,7 +10,7 @@
 
 #include "runtime/effects/effect_rows.h"
 #include "runtime/effects/equation_stack.h"
-#include "runtime/evidence/lasting_noise.h"
+#include "runtime/evidence/slow_noise.h"
 #include "runtime/recordings/periods.h"
 
 namespace dyngen::runtime {
@@ -22,7 +22,6 @@ using Eigen::VectorXd;
 
 constexpr Index kLags = 40;
 constexpr double kLeastPart = 0.6;  // of the equations that differences between periods must give
-constexpr double kLasting = 0.02;   // of the variance, w of lasting_part(): with less, it is none
 
 /// Sums of products at all lags, and of how many pairs of samples.
 struct LagProducts {
@@ -47,33 +46,22 @@ struct LagProducts {
   [[nodiscard]] VectorXd covariance() const { return sums.cwiseQuotient(pairs.cwiseMax(1)); }
 };
 
-/// (e_t - e_(t - kP)) / sqrt(2) of whole runs, and where both count.
-LagProducts difference_of_periods(const VectorXd& e, const VectorXd& counted, double period,
-                                  int apart) {
+/// Differences between neighbouring periods of one joint, of all runs.
+struct DifferencesOfJoint {
   LagProducts products;
-  const auto whole = static_cast<Index>(std::llround(apart * period));
-  const Index rows = e.size() - whole;
-  if (whole < 1 || 2 * static_cast<double>(rows) < period) return products;
-  const VectorXd moved = shifted(e, static_cast<double>(whole) - apart * period);
-  const VectorXd both = counted.tail(rows).cwiseProduct(counted.head(rows));
-  const VectorXd difference = (e.tail(rows) - moved.head(rows)).cwiseProduct(both) / std::sqrt(2.0);
-  products.add(difference, both);
-  return products;
-}
-
-/// Differences of one joint over one period, and over several, run by run.
-struct JointDifferences {
-  LagProducts neighbours;
-  std::vector<PeriodDifference> all;
+  std::vector<DifferenceLine> lines;
 
   void add(const VectorXd& e, const VectorXd& counted, double period) {
-    const int most = static_cast<int>(static_cast<double>(e.size()) / period);
-    for (int apart = 1; apart <= most; ++apart) {
-      const LagProducts products = difference_of_periods(e, counted, period, apart);
-      if (products.samples() < static_cast<double>(kLags)) return;
-      if (apart == 1) neighbours.add(products);
-      all.push_back({period, apart, products.covariance(), products.samples()});
-    }
+    const auto whole = static_cast<Index>(std::llround(period));
+    const Index rows = e.size() - whole;
+    if (whole < 1 || 2 * static_cast<double>(rows) < period) return;
+    const VectorXd moved = shifted(e, static_cast<double>(whole) - period);
+    const VectorXd both = counted.tail(rows).cwiseProduct(counted.head(rows));
+    const VectorXd difference =
+        (e.tail(rows) - moved.head(rows)).cwiseProduct(both) / std::sqrt(2.0);
+    products.add(difference, both);
+    const std::vector<DifferenceLine> own = difference_lines(difference, both, period);
+    lines.insert(lines.end(), own.begin(), own.end());
   }
 };
 
@@ -209,14 +197,35 @@ std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
   return joints;
 }
 
+/// @throws std::invalid_argument  if a joint has none
+void refuse_no_noise(const std::vector<JointNoise>& joints) {
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].quick.innovation > 0) continue;
+    throw std::invalid_argument(
+        fmt::format("the model explains the torque of joint {} exactly: there is no noise to "
+                    "judge by; expected a recording of a real measurement",
+                    j + 1));
+  }
+}
+
+/// Mean of those that repeat; 0 if none does.
+double mean_period(const std::vector<double>& repeats) {
+  double sum = 0, count = 0;
+  for (const double period : repeats) {
+    if (!(period > 0)) continue;
+    sum += period;
+    count += 1;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
 }  // namespace
 
 TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResiduals& residuals,
                                     const std::vector<double>& repeats, bool fitted) {
   TorqueNoiseModel model;
-  model.worth.resize(data.joints());
   const OfJoints all = lag_products(data, residuals);
-  std::vector<JointDifferences> repeated(all.size());
+  std::vector<DifferencesOfJoint> repeated(all.size());
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     if (!(repeats[run] > 0)) continue;
     for (std::size_t j = 0; j < all.size(); ++j) {
@@ -226,34 +235,41 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
     }
   }
   model.from_periods = true;
-  // what one joint alone has may be physics that drifts; noise is of all of them
-  double lasting = 1;
   for (std::size_t j = 0; j < all.size(); ++j) {
     model.from_periods = model.from_periods && all[j].samples() > 0 &&
-                         repeated[j].neighbours.samples() >= kLeastPart * all[j].samples();
-    lasting = std::min(lasting, lasting_part(repeated[j].all));
+                         repeated[j].products.samples() >= kLeastPart * all[j].samples();
   }
-  for (std::size_t j = 0; j < all.size(); ++j) {
-    const LagProducts& products = model.from_periods ? repeated[j].neighbours : all[j];
-    const double samples = std::max(products.samples(), 1.0);
-    VectorXd covariance = products.covariance();
-    if (model.from_periods && lasting > kLasting) {
-      covariance += lasting_covariance(repeated[j].all, lasting);
+  const double period = model.from_periods ? mean_period(repeats) : 0;
+  if (model.from_periods) {
+    std::vector<JointDifferences> joints;
+    for (const DifferencesOfJoint& joint : repeated) {
+      joints.push_back(
+          {joint.lines, joint.products.covariance(), std::max(joint.products.samples(), 1.0)});
     }
-    model.joints.push_back(fit_autoregression(covariance, samples));
-    if (!(model.joints.back().innovation > 0)) {
-      throw std::invalid_argument(
-          fmt::format("the model explains the torque of joint {} exactly: there is no noise to "
-                      "judge by; expected a recording of a real measurement",
-                      j + 1));
+    double longest = 0;
+    for (const EffectRun& run : data.runs) {
+      longest = std::max(longest, static_cast<double>(run.rows.Y.rows()));
     }
+    model.joints = noise_of_differences(joints, {period, longest});
+  } else {
+    std::vector<AutoregressiveNoise> joints;
+    for (const LagProducts& products : all) {
+      joints.push_back(
+          fit_autoregression(products.covariance(), std::max(products.samples(), 1.0)));
+    }
+    refuse_no_noise(quick_noise(joints));
+    if (fitted) joints = before_the_fit(data, all, std::move(joints));
+    model.joints = quick_noise(joints);
   }
-  if (!model.from_periods && fitted) {
-    model.joints = before_the_fit(data, all, std::move(model.joints));
-  }
+  refuse_no_noise(model.joints);
+  model.worth.resize(data.joints());
+  model.correlation_time.resize(data.joints());
   for (std::size_t j = 0; j < all.size(); ++j) {
-    model.worth[static_cast<Index>(j)] =
-        all[j].samples() / std::max(1.0, model.joints[j].correlation_time);
+    const JointNoise& noise = model.joints[j];
+    const auto joint = static_cast<Index>(j);
+    const double time = noise.density(period > 0 ? 1 / period : 0) / std::pow(noise.deviation(), 2);
+    model.correlation_time[joint] = time;
+    model.worth[joint] = all[j].samples() / std::max(1.0, time);
   }
   return model;
 }

@@ -5,15 +5,18 @@
 #include <vector>
 
 #include "runtime/effects/effect_recordings.h"
-#include "runtime/estimation/noise_model.h"
+#include "runtime/estimation/joint_noise.h"
 
 namespace dyngen::runtime {
 
 /// Noise of the equations of every joint, and how it is known.
 struct TorqueNoiseModel {
-  std::vector<AutoregressiveNoise> joints;
+  std::vector<JointNoise> joints;
   Eigen::VectorXd worth;      ///< (n) independent samples that the equations are worth
   bool from_periods = false;  ///< from differences between periods: free of what repeats
+  /// (n) samples that are worth one, for what is as slow as the motion: density at its period, or
+  /// at 0 if none repeats, over the variance.
+  Eigen::VectorXd correlation_time;
 };
 
 /// How far apart in equations a motion repeats, of every run; 0: it does not.
@@ -22,11 +25,11 @@ std::vector<double> repeats_of(const EffectRecordings& data);
 /// Residuals of a model, run by run: (equations of the run x n).
 using RunResiduals = std::vector<Eigen::MatrixXd>;
 
-/// An autoregressive process for each joint.
+/// An autoregressive process for each joint, and slow parts beside it.
 ///
 /// Where the motion repeats: of (e_t - e_(t - P)) / sqrt(2), P the period, in which all that the
-/// motion determines cancels, whether a model knows it or not; where noise of all joints outlasts a
-/// period, what the difference lacks of it is put back (lasting_part()). Elsewhere of the residual
+/// motion determines cancels, whether a model knows it or not; slow parts are read from the lines
+/// of its spectrum beside the harmonics (noise_of_differences()). Elsewhere of the residual
 /// itself, which still holds what the model left out: an upper bound of the noise where there is
 /// structure. What the fit took of the noise, its level and its slow part, is put back: the
 /// autocovariance is the one whose noise, simulated and fitted likewise, leaves what was left

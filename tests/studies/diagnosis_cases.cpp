@@ -22,8 +22,8 @@ using runtime::EffectRecordings;
 
 constexpr std::array<const char*, 6> kKindNames = {"null",    "single",  "pair",
                                                    "theorem", "unknown", "time_local"};
-constexpr std::array<const char*, 5> kNoiseNames = {"white", "mixed", "slow", "closed_loop",
-                                                    "rounded_loop"};
+constexpr std::array<const char*, 6> kNoiseNames = {"white",       "mixed",        "slow",
+                                                    "closed_loop", "rounded_loop", "pink"};
 constexpr std::uint64_t kInTurn = 4;   // noises
 constexpr double kEncoderNoise = 0.5;  // of the last digit, in a loop
 
@@ -35,6 +35,22 @@ std::size_t place_of(const Names& names, const std::string& name, const char* wh
     expected += (i == 0 ? "" : ", ") + std::string(names[i]);
   }
   throw std::invalid_argument(fmt::format("{} '{}': expected {}", what, name, expected));
+}
+
+/// 1/f noise of variance 1: first order processes whose memories double from one to the next.
+VectorXd pink_series(Index samples, std::mt19937_64& random) {
+  constexpr int kProcesses = 16;
+  std::normal_distribution<double> normal;
+  VectorXd series = VectorXd::Zero(samples);
+  for (int k = 0; k < kProcesses; ++k) {
+    const double pole = std::exp(-1 / std::exp2(k));
+    double value = normal(random);
+    for (double& x : series) {
+      x += value / std::sqrt(kProcesses);
+      value = pole * value + std::sqrt(1 - pole * pole) * normal(random);
+    }
+  }
+  return series;
 }
 
 std::vector<MatrixXd> noise_of(const Bench& bench, CaseNoise kind, double part,
@@ -55,6 +71,13 @@ std::vector<MatrixXd> noise_of(const Bench& bench, CaseNoise kind, double part,
   for (const CaseMotion& motion : bench.plain) {
     runtime::TorqueNoise noise(options, static_cast<int>(n), random());
     MatrixXd values(motion.truth.samples(), n);
+    if (kind == CaseNoise::kPink) {
+      for (Index j = 0; j < n; ++j) {
+        values.col(j) = options.deviation[j] * pink_series(values.rows(), random);
+      }
+      result.push_back(std::move(values));
+      continue;
+    }
     for (int k = 0; k < 200; ++k) noise.next();  // the slow part begins as it goes on
     for (Index k = 0; k < values.rows(); ++k) values.row(k) = noise.next();
     result.push_back(std::move(values));

@@ -17,11 +17,12 @@ namespace dyngen::test {
 enum class CaseKind { kNull, kSingle, kPair, kTheorem, kUnknown, kTimeLocal };
 enum class CaseNoise {
   kWhite,
-  kMixed,       ///< half of the variance white, half AR(1) with 0.9
-  kSlow,        ///< AR(1) with 0.95
-  kClosedLoop,  ///< mixed, and the encoder's error goes through the controller
-  kRoundedLoop  ///< the same, of encoders that round without noise: each period shows the same
-                ///< digits
+  kMixed,        ///< half of the variance white, half AR(1) with 0.9
+  kSlow,         ///< AR(1) with 0.95
+  kClosedLoop,   ///< mixed, and the encoder's error goes through the controller
+  kRoundedLoop,  ///< the same, of encoders that round without noise: each period shows the same
+                 ///< digits
+  kPink          ///< 1/f from a sample to some minutes
 };
 
 /// "null", "white", ...: as they stand in tables and on command lines.

@@ -24,7 +24,7 @@ constexpr const char* kUsage =
     "usage: diagnosis_study [--cases N (20, of each kind)]\n"
     "    [--kind null|single|pair|theorem|unknown|time_local (all)]\n"
     "    [--lambda L (10 20 40 60 80 150 300 in turn)] [--robot puma3|ur10e|planar2 (puma3)]\n"
-    "    [--noise white|mixed|slow|closed_loop (in turn)|rounded_loop] [--only FAMILY] "
+    "    [--noise white|mixed|slow|closed_loop (in turn)|rounded_loop|pink] [--only FAMILY] "
     "[--first-seed S (1)]\n"
     "    [--jobs J (2)] [--each] [--baselines]\n";
 

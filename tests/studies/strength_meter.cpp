@@ -53,7 +53,7 @@ StrengthMeter::StrengthMeter(const runtime::EffectRecordings& data, const Vector
       beta_(beta),
       signals_(data),
       scales_(data),
-      stack_(data, runtime::Whitening{noise.joints}),
+      stack_(data, runtime::Whitening{runtime::quick_noise(noise.joints)}),
       projection_(regressor(data, signals_, stack_, beta)) {}
 
 VectorXd StrengthMeter::whitened(const std::vector<MatrixXd>& torque) const {

@@ -13,8 +13,8 @@ using runtime::EffectLaw;
 using runtime::MotionSource;
 
 runtime::TorqueNoiseModel arm_noise() {
-  return {runtime::white_noise(VectorXd::Constant(2, kArmNoise)).joints,
-          VectorXd::Constant(2, 2000), false};
+  return {runtime::quick_noise(runtime::white_noise(VectorXd::Constant(2, kArmNoise)).joints),
+          VectorXd::Constant(2, 2000), false, VectorXd::Ones(2)};
 }
 
 runtime::EffectRecordings arm_recordings(const std::vector<MotionSource>& sources) {

@@ -31,7 +31,8 @@ RunResiduals residuals_at_truth(const EffectRecordings& data) {
 }
 
 TorqueNoiseModel white(double deviation) {
-  return {white_noise(VectorXd::Constant(2, deviation)).joints, VectorXd::Constant(2, 2000), false};
+  return {quick_noise(white_noise(VectorXd::Constant(2, deviation)).joints),
+          VectorXd::Constant(2, 2000), false, VectorXd::Ones(2)};
 }
 
 TEST(TorqueNoiseModel, OfPeriodsDoesNotSeeWhatRepeats) {
@@ -54,9 +55,9 @@ TEST(TorqueNoiseModel, OfPeriodsDoesNotSeeWhatRepeats) {
   const TorqueNoiseModel plain = torque_noise_model(data, {e}, {0}, false);
   EXPECT_FALSE(plain.from_periods);
   for (std::size_t j = 0; j < 2; ++j) {
-    EXPECT_NEAR(repeated.joints[j].deviation, 0.1, 0.01);
-    EXPECT_NEAR(repeated.joints[j].correlation_time, 9, 2.5);
-    EXPECT_GT(plain.joints[j].deviation, 0.5);
+    EXPECT_NEAR(repeated.joints[j].deviation(), 0.1, 0.01);
+    EXPECT_NEAR(repeated.correlation_time[static_cast<Index>(j)], 9, 2.5);
+    EXPECT_GT(plain.joints[j].deviation(), 0.5);
   }
 }
 
@@ -81,7 +82,7 @@ VectorXd variances_found(const EffectRecordings& data, Index period, bool first,
     const TorqueNoiseModel model =
         torque_noise_model(data, {e}, {static_cast<double>(period)}, false);
     for (std::size_t j = 0; j < 2; ++j) {
-      found[static_cast<Index>(j)] += std::pow(model.joints[j].deviation, 2) / kDraws;
+      found[static_cast<Index>(j)] += std::pow(model.joints[j].deviation(), 2) / kDraws;
     }
   }
   return found;

@@ -35,8 +35,8 @@ std::vector<FalsifierOutcome> outcomes(const EffectLaw& truth,
                         test::measured({test::sines(40, 0.01)}, test::planar_arm_values(),
                                        {test::known(truth, 1, {0.5})}, kNoise, 0, seed),
                         {1, -1}, {true, true});
-  const TorqueNoiseModel noise{white_noise(VectorXd::Constant(2, kNoise)).joints,
-                               VectorXd::Constant(2, 4000), false};
+  const TorqueNoiseModel noise{quick_noise(white_noise(VectorXd::Constant(2, kNoise)).joints),
+                               VectorXd::Constant(2, 4000), false, VectorXd::Ones(2)};
   const EvidenceSystem system(data, {residual(data.runs.front().rows, test::planar_arm_values())},
                               noise, {});
   EffectSignals signals(data);

@@ -34,8 +34,8 @@ struct Case {
   }
 
   [[nodiscard]] OwnScatter scatter() const {
-    const TorqueNoiseModel noise{white_noise(VectorXd::Constant(2, kNoise)).joints,
-                                 VectorXd::Constant(2, 2000), false};
+    const TorqueNoiseModel noise{quick_noise(white_noise(VectorXd::Constant(2, kNoise)).joints),
+                                 VectorXd::Constant(2, 2000), false, VectorXd::Ones(2)};
     const EvidenceSystem system(data, left, noise, {});
     const JointColumns columns = system.whitened({{1}, {slow}});
     return own_scatter(system, columns,

@@ -32,8 +32,8 @@ class Halves : public testing::Test {
   }
   [[nodiscard]] std::vector<double> shares(const std::vector<VectorXd>& columns,
                                            const std::vector<double>& prices) const {
-    const TorqueNoiseModel noise{white_noise(VectorXd::Constant(2, 0.1)).joints,
-                                 VectorXd::Constant(2, 2000), false};
+    const TorqueNoiseModel noise{quick_noise(white_noise(VectorXd::Constant(2, 0.1)).joints),
+                                 VectorXd::Constant(2, 2000), false, VectorXd::Ones(2)};
     const EvidenceSystem system(data_, left_, noise, {});
     std::vector<Contender> contenders;
     for (std::size_t i = 0; i < columns.size(); ++i) {

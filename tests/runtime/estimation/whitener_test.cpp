@@ -44,7 +44,7 @@ TEST(Whitener, VarianceIsOneFromTheFirstSampleOnAndBehindGaps) {
   VectorXd counted = VectorXd::Ones(kSamples);
   counted[5] = counted[6] = 0;
   MatrixXd x = drawn(noise, kSamples, kDraws);
-  Whitener(noise).apply(x, counted);
+  Whitener({noise, {}}, counted).apply(x);
   for (Index t = 0; t < kSamples; ++t) {
     const double variance = x.row(t).squaredNorm() / kDraws;
     EXPECT_NEAR(variance, counted[t], 5 * std::sqrt(2.0 / kDraws)) << "sample " << t;
@@ -55,11 +55,55 @@ TEST(Whitener, VarianceIsOneFromTheFirstSampleOnAndBehindGaps) {
   }
 }
 
+/// Covariance of all samples of a run.
+MatrixXd covariance_of(const JointNoise& noise, Index samples) {
+  const VectorXd quick = autocovariance(noise.quick, samples - 1);
+  MatrixXd covariance(samples, samples);
+  for (Index i = 0; i < samples; ++i) {
+    for (Index j = 0; j < samples; ++j) {
+      const auto lag = static_cast<double>(std::abs(i - j));
+      covariance(i, j) = quick[std::abs(i - j)];
+      for (const SlowNoise& part : noise.slow) {
+        covariance(i, j) += part.deviation * part.deviation * std::pow(part.pole, lag);
+      }
+    }
+  }
+  return covariance;
+}
+
+TEST(Whitener, LeavesNothingOfACovarianceWithSlowPartsAndGaps) {
+  constexpr Index kSamples = 90;
+  const JointNoise noise{second_order(), {{0.97, 0.4}, {0.999, 0.8}}};
+  VectorXd counted = VectorXd::Ones(kSamples);
+  counted.segment(0, 3).setZero();
+  counted.segment(40, 7).setZero();
+  counted[70] = 0;
+  // the columns of a triangle of the covariance, whitened, have orthonormal rows
+  MatrixXd columns = covariance_of(noise, kSamples).llt().matrixL();
+  Whitener(noise, counted).apply(columns);
+  const MatrixXd expected = counted.asDiagonal();
+  EXPECT_LT((columns * columns.transpose() - expected).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(JointNoise, DensityIsTheSumOfTheAutocovariance) {
+  const JointNoise noise{second_order(), {{0.9, 0.4}}};
+  constexpr Index kLags = 400;
+  const MatrixXd covariance = covariance_of(noise, kLags + 1);
+  EXPECT_NEAR(noise.deviation(), std::sqrt(covariance(0, 0)), 1e-12);
+  for (const double frequency : {0.0, 0.03, 0.2, 0.5}) {
+    double sum = covariance(0, 0);
+    for (Index lag = 1; lag <= kLags; ++lag) {
+      sum += 2 * covariance(0, lag) * std::cos(2 * M_PI * frequency * static_cast<double>(lag));
+    }
+    EXPECT_NEAR(noise.density(frequency), sum, 1e-9 * sum);
+  }
+}
+
 TEST(Whitener, OfWhiteNoiseIsADivision) {
   AutoregressiveNoise noise;
   noise.innovation = noise.deviation = 0.5;
   MatrixXd x = MatrixXd::Constant(4, 2, 3.0);
-  Whitener(noise).apply(x, Eigen::Vector4d(1, 0, 1, 1));
+  Whitener({noise, {}}, Eigen::Vector4d(1, 0, 1, 1)).apply(x);
   EXPECT_EQ(x.col(0), Eigen::Vector4d(6, 0, 6, 6));
   EXPECT_EQ(x.col(1), x.col(0));
 }

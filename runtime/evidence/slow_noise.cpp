@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/evidence/slow_noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <unsupported/Eigen/FFT>
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kLeastPassed = 0.5;   // of the density, that a line must have
+constexpr double kShortestMemory = 8;  // samples
+constexpr double kApart = 4;           // from one memory to the next
+constexpr double kPrice = 2;           // twice log likelihood that slow parts pay (Akaike): with
+                                       // them in vain power is lost, without them there are alarms
+constexpr double kAlike = 3;           // parts of the variance, of two joints
+constexpr double kNothing = 1e-3;      // of a joint's deviation: such a part is left out
+constexpr std::array<double, 5> kRatios = {0.25, 0.5, 1, 2, 4};  // 1: 1/f noise
+constexpr std::array<double, 12> kShares = {0.01, 0.02, 0.04, 0.08, 0.13, 0.2,
+                                            0.3,  0.4,  0.5,  0.6,  0.75, 0.9};
+constexpr Index kGrain = 32;  // samples: lengths are multiples, for the transform's sake
+
+double memory_of(const SlowNoise& part) { return -1 / std::log(part.pole); }
+
+/// Slow parts whose variances grow by a ratio from one memory to the next; they sum to 1.
+std::vector<SlowNoise> slow_parts(double longest, double ratio) {
+  std::vector<SlowNoise> parts;
+  double variance = 1, sum = 0;
+  for (double memory = kShortestMemory; memory <= longest; memory *= kApart) {
+    parts.push_back({std::exp(-1 / memory), std::sqrt(variance)});
+    sum += variance;
+    variance *= ratio;
+  }
+  for (SlowNoise& part : parts) part.deviation /= std::sqrt(sum);
+  return parts;
+}
+
+std::vector<SlowNoise> scaled(std::vector<SlowNoise> parts, double variance) {
+  for (SlowNoise& part : parts) part.deviation *= std::sqrt(variance);
+  return parts;
+}
+
+/// What slow parts give to the covariance of differences at lags from 0.
+VectorXd differences_of(const std::vector<SlowNoise>& parts, Index lags, double period) {
+  VectorXd covariance = VectorXd::Zero(lags);
+  for (const SlowNoise& part : parts) {
+    for (Index lag = 0; lag < lags; ++lag) {
+      const auto l = static_cast<double>(lag);
+      covariance[lag] += part.deviation * part.deviation *
+                         (std::pow(part.pole, l) - 0.5 * std::pow(part.pole, std::abs(period - l)) -
+                          0.5 * std::pow(part.pole, period + l));
+    }
+  }
+  return covariance;
+}
+
+/// Twice the logarithm of Whittle's likelihood, but for a constant.
+double likelihood(const std::vector<DifferenceLine>& lines, const JointNoise& noise) {
+  double sum = 0;
+  for (const DifferenceLine& line : lines) {
+    const double expected = line.passed * noise.density(line.frequency);
+    sum -= std::log(expected) + line.power / expected;
+  }
+  return 2 * sum;
+}
+
+}  // namespace
+
+std::vector<DifferenceLine> difference_lines(const VectorXd& difference, const VectorXd& counted,
+                                             double period) {
+  std::vector<DifferenceLine> lines;
+  const Index samples = difference.size() - difference.size() % kGrain;
+  const double weight = counted.head(samples).sum();
+  if (!(weight > 0)) return lines;
+  // lines halfway between those of the transform: of two periods those would be harmonics, all
+  std::vector<std::complex<double>> turned(static_cast<std::size_t>(samples)), spectrum;
+  for (Index t = 0; t < samples; ++t) {
+    turned[static_cast<std::size_t>(t)] =
+        difference[t] *
+        std::polar(1.0, -M_PI * static_cast<double>(t) / static_cast<double>(samples));
+  }
+  Eigen::FFT<double> transform;
+  transform.fwd(spectrum, turned);
+  for (Index k = 0; k < samples / 2; ++k) {
+    const double frequency = (static_cast<double>(k) + 0.5) / static_cast<double>(samples);
+    const double passed = 1 - std::cos(2 * M_PI * frequency * period);
+    if (passed < kLeastPassed) continue;
+    lines.push_back({frequency, passed, std::norm(spectrum[static_cast<std::size_t>(k)]) / weight});
+  }
+  return lines;
+}
+
+namespace {
+
+/// A process alone, and the best with slow parts beside it.
+struct Choice {
+  JointNoise alone, with_slow;
+  double gain = 0;  ///< of twice the log likelihood, less the price of parameters
+};
+
+/// Slow parts that make a part of the variance of the differences, and the process beside them.
+JointNoise beside_process(const JointDifferences& joint, const DifferenceLengths& lengths,
+                          const std::vector<SlowNoise>& parts, double share) {
+  const Index lags = joint.covariance.size();
+  const double unit = differences_of(parts, 1, lengths.period)[0];
+  JointNoise noise{{}, scaled(parts, share * joint.covariance[0] / unit)};
+  noise.quick = fit_autoregression(
+      joint.covariance - differences_of(noise.slow, lags, lengths.period), joint.samples);
+  return noise;
+}
+
+Choice choice_of(const JointDifferences& joint, const DifferenceLengths& lengths) {
+  Choice choice{{fit_autoregression(joint.covariance, joint.samples), {}}, {}, 0};
+  choice.with_slow = choice.alone;
+  if (lengths.longest < kShortestMemory || joint.lines.empty() ||
+      !(choice.alone.quick.innovation > 0)) {
+    return choice;
+  }
+  const double price = std::log(joint.samples);  // of a parameter (Schwarz 1978)
+  const auto worth = [&](const JointNoise& noise) {
+    return likelihood(joint.lines, noise) -
+           price * static_cast<double>(noise.quick.coefficients.size());
+  };
+  choice.gain = -std::numeric_limits<double>::infinity();
+  const double alone = worth(choice.alone) + kPrice;
+  for (const double ratio : kRatios) {
+    const std::vector<SlowNoise> parts = slow_parts(lengths.longest, ratio);
+    for (const double share : kShares) {
+      JointNoise noise = beside_process(joint, lengths, parts, share);
+      if (!(noise.quick.innovation > 0)) break;
+      const double gain = worth(noise) - alone;
+      if (gain <= choice.gain) continue;
+      choice.gain = gain;
+      choice.with_slow = std::move(noise);
+    }
+  }
+  return choice;
+}
+
+/// Slow parts that outlast half of a period may be physics that drifts, if one joint alone has
+/// them: noise is of all. No joint keeps far more of them, of its variance, than any other; its
+/// process has what the differences show of the rest.
+void keep_what_all_joints_have(std::vector<JointNoise>& noise,
+                               const std::vector<JointDifferences>& joints, double period) {
+  const auto lasts = [&](const SlowNoise& part) { return memory_of(part) > period / 2; };
+  const auto lasting_part = [&](const JointNoise& joint) {
+    double variance = 0;
+    for (const SlowNoise& part : joint.slow) {
+      if (lasts(part)) variance += part.deviation * part.deviation;
+    }
+    return variance / std::pow(joint.deviation(), 2);
+  };
+  double least = 1;
+  for (const JointNoise& joint : noise) least = std::min(least, lasting_part(joint));
+  const double most = kAlike * least;
+  for (std::size_t j = 0; j < noise.size(); ++j) {
+    const double own = lasting_part(noise[j]);
+    if (own <= most) continue;
+    // w' / (rest + w') is to be that much
+    const double factor = most * (1 - own) / (own * (1 - most));
+    for (SlowNoise& part : noise[j].slow) {
+      if (lasts(part)) part.deviation *= std::sqrt(factor);
+    }
+    const VectorXd& covariance = joints[j].covariance;
+    noise[j].quick = fit_autoregression(
+        covariance - differences_of(noise[j].slow, covariance.size(), period), joints[j].samples);
+  }
+}
+
+}  // namespace
+
+std::vector<JointNoise> noise_of_differences(const std::vector<JointDifferences>& joints,
+                                             const DifferenceLengths& lengths) {
+  std::vector<Choice> choices;
+  double gain = 0;
+  for (const JointDifferences& joint : joints) {
+    choices.push_back(choice_of(joint, lengths));
+    gain += choices.back().gain;
+  }
+  std::vector<JointNoise> all;
+  for (const Choice& choice : choices) all.push_back(gain > 0 ? choice.with_slow : choice.alone);
+  keep_what_all_joints_have(all, joints, lengths.period);
+  for (JointNoise& joint : all) {
+    const double least = kNothing * joint.deviation();
+    std::erase_if(joint.slow, [&](const SlowNoise& part) { return part.deviation <= least; });
+  }
+  return all;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/estimation/joint_noise.h"
+
+namespace dyngen::runtime {
+
+/// A line of the spectrum of (e_t - e_(t - P)) / sqrt(2) of one run, P its period.
+struct DifferenceLine {
+  double frequency = 0;  ///< cycles for a sample
+  double passed = 0;     ///< 1 - cos 2 pi f P: what the difference has of the density of e
+  double power = 0;      ///< periodogram: its expectation is passed * density
+};
+
+/// Low lines, beside the harmonics of the period, where the difference has half of the density or
+/// more.
+/// @param difference  0 where it does not count   @param counted  1 or 0   @param period  samples
+std::vector<DifferenceLine> difference_lines(const Eigen::VectorXd& difference,
+                                             const Eigen::VectorXd& counted, double period);
+
+/// What the differences of one joint over neighbouring periods are, of all runs.
+struct JointDifferences {
+  std::vector<DifferenceLine> lines;
+  Eigen::VectorXd covariance;  ///< (lags), from lag 0
+  double samples = 1;          ///< that they come from
+};
+
+/// Lengths in samples.
+struct DifferenceLengths {
+  double period = 0;   ///< a mean over runs, where their periods are not one
+  double longest = 0;  ///< of the runs
+};
+
+/// Noise of each joint: an autoregressive process, and slow parts beside it where noise is slower
+/// than a process of 40 lags tells, as 1/f noise is. Their memories are a factor of 4 apart, their
+/// variances those of the greatest likelihood of the lines (Whittle 1953), found by multiplication
+/// (Fevotte, Bertin, Durrieu 2009), in turn with the process, which is fitted to what the
+/// covariance has beside them.
+/// @return processes alone unless the likelihood of all joints pays for slow parts
+std::vector<JointNoise> noise_of_differences(const std::vector<JointDifferences>& joints,
+                                             const DifferenceLengths& lengths);
+
+}  // namespace dyngen::runtime

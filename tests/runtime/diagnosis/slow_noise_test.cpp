@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/evidence/slow_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <random>
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr Index kSamples = 2000, kPeriods = 5, kRuns = 3, kLags = 41;
+constexpr double kPeriod = double{kSamples} / kPeriods;
+
+using Series = std::function<VectorXd(std::mt19937_64&)>;
+
+/// First order noise of variance 1.
+void add_first_order(double pole, double deviation, std::mt19937_64& random, VectorXd& series) {
+  std::normal_distribution<double> normal;
+  double value = normal(random);
+  for (double& x : series) {
+    x += deviation * value;
+    value = pole * value + std::sqrt(1 - pole * pole) * normal(random);
+  }
+}
+
+/// 1/f noise of variance 1: memories double from one process to the next, up to ten periods.
+constexpr int kProcesses = 13;
+VectorXd pink(std::mt19937_64& random) {
+  VectorXd series = VectorXd::Zero(kSamples);
+  for (int k = 0; k < kProcesses; ++k) {
+    add_first_order(std::exp(-1 / std::exp2(k)), std::sqrt(1.0 / kProcesses), random, series);
+  }
+  return series;
+}
+
+double pink_density(double frequency) {
+  double sum = 0;
+  for (int k = 0; k < kProcesses; ++k) {
+    sum += density(SlowNoise{std::exp(-1 / std::exp2(k)), std::sqrt(1.0 / kProcesses)}, frequency);
+  }
+  return sum;
+}
+
+VectorXd first_order(std::mt19937_64& random) {
+  VectorXd series = VectorXd::Zero(kSamples);
+  add_first_order(0.95, 1, random, series);
+  return series;
+}
+
+JointDifferences differences(const Series& series, std::mt19937_64& random) {
+  JointDifferences joint;
+  joint.covariance = VectorXd::Zero(kLags);
+  const auto period = static_cast<Index>(kPeriod);
+  for (int run = 0; run < kRuns; ++run) {
+    const VectorXd e = series(random);
+    const VectorXd d = (e.tail(kSamples - period) - e.head(kSamples - period)) / std::sqrt(2.0);
+    for (Index lag = 0; lag < kLags; ++lag) {
+      const Index pairs = d.size() - lag;
+      joint.covariance[lag] +=
+          d.tail(pairs).dot(d.head(pairs)) / static_cast<double>(pairs * kRuns);
+    }
+    const auto lines = difference_lines(d, VectorXd::Ones(d.size()), kPeriod);
+    joint.lines.insert(joint.lines.end(), lines.begin(), lines.end());
+    joint.samples += static_cast<double>(d.size());
+  }
+  return joint;
+}
+
+TEST(SlowNoise, LinesAreBesideTheHarmonics) {
+  const VectorXd d = VectorXd::Random(4 * 100);
+  for (const DifferenceLine& line : difference_lines(d, VectorXd::Ones(d.size()), 100)) {
+    const double harmonics = line.frequency * 100;
+    EXPECT_GT(std::abs(harmonics - std::round(harmonics)), 0.16);
+    EXPECT_NEAR(line.passed, 1 - std::cos(2 * M_PI * harmonics), 1e-12);
+  }
+}
+
+TEST(SlowNoise, DensityOfOneOverFIsFound) {
+  constexpr int kDraws = 20;
+  std::mt19937_64 random(20261123);
+  // cycles for a period, and at the end some for a sample
+  const std::vector<double> frequencies = {0.5 / kPeriod, 1 / kPeriod, 3 / kPeriod,
+                                           10 / kPeriod,  0.1,         0.4};
+  VectorXd found = VectorXd::Zero(6), alone = VectorXd::Zero(6);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const std::vector<JointDifferences> joints = {differences(pink, random),
+                                                  differences(pink, random)};
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const JointNoise noise = noise_of_differences(joints, {kPeriod, double{kSamples}})[j];
+      EXPECT_FALSE(noise.slow.empty());
+      const AutoregressiveNoise process =
+          fit_autoregression(joints[j].covariance, joints[j].samples);
+      for (Index i = 0; i < 6; ++i) {
+        const double f = frequencies[static_cast<std::size_t>(i)], truth = pink_density(f);
+        found[i] += std::log(noise.density(f) / truth) / (2 * kDraws);
+        alone[i] += std::log(density(process, f) / truth) / (2 * kDraws);
+      }
+    }
+  }
+  for (Index i = 0; i < 6; ++i) {
+    std::printf(
+        "%.4f cycles for a sample: density over the true one %.2f, of a process alone %.2f\n",
+        frequencies[static_cast<std::size_t>(i)], std::exp(found[i]), std::exp(alone[i]));
+    EXPECT_NEAR(found[i], 0, std::log(1.6));
+  }
+  EXPECT_LT(found.cwiseAbs().maxCoeff(), 0.6 * alone.cwiseAbs().maxCoeff());
+}
+
+TEST(SlowNoise, OfFirstOrderThereIsHardlyAny) {
+  constexpr int kDraws = 40;
+  std::mt19937_64 random(20261123);
+  double slowest = 0;  // logarithm of the density at the lowest frequencies
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const JointNoise noise =
+        noise_of_differences({differences(first_order, random)}, {kPeriod, double{kSamples}})[0];
+    slowest += std::log(noise.density(0.5 / kPeriod) / density(SlowNoise{0.95, 1}, 0.5 / kPeriod));
+  }
+  EXPECT_NEAR(slowest / kDraws, 0, 0.15);
+}
+
+TEST(SlowNoise, OfOneJointAloneThatOutlastsThePeriodIsNot) {
+  std::mt19937_64 random(20261123);
+  const Series drifting = [](std::mt19937_64& source) {
+    VectorXd series = first_order(source);
+    add_first_order(std::exp(-1 / (3 * kPeriod)), 3, source, series);
+    return series;
+  };
+  constexpr int kDraws = 40;
+  double first = 0, second = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const std::vector<JointDifferences> joints = {differences(drifting, random),
+                                                  differences(first_order, random)};
+    const std::vector<JointNoise> noise = noise_of_differences(joints, {kPeriod, double{kSamples}});
+    first += std::pow(noise[0].deviation(), 2) / kDraws;
+    second += std::pow(noise[1].deviation(), 2) / kDraws;
+  }
+  // 9 of the variance outlast the period; differences of neighbours show 2.5 of them
+  EXPECT_NEAR(first, 1 + 9 * (1 - std::exp(-1.0 / 3)), 0.8);
+  EXPECT_NEAR(second, 1, 0.05);
+}
+
+}  // namespace
+}  // namespace dyngen::runtime
