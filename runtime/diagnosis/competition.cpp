@@ -150,6 +150,7 @@ class Competition {
     for (const GenericResult& generic : screening.generic) {
       const GenericStructure& structure = structures_[generic.structure];
       if (structure.joint != joint) continue;
+      if (!structure.is_specific()) continue;
       if (structure.form == GenericStructure::Form::kImpulses &&
           (stops_.rests(joint) ||
            generic.score.squares < kHardlyMoreThanNoise * generic.score.degrees)) {
@@ -260,13 +261,13 @@ class Competition {
     if (by_form) return true;
     // shapes of a strong effect are not quite found yet
     const double much = (1 + kOutdonePart) * net(named) + kOutdone;
-    return std::any_of(screening.generic.begin(), screening.generic.end(),
-                       [&](const GenericResult& generic) {
-                         const GenericStructure& structure = structures_[generic.structure];
-                         return structure.form != GenericStructure::Form::kImpulses &&
-                                is_own(structure.joint) && !stops_.rests(structure.joint) &&
-                                net_of(structure, generic.score, result_.noise) > much;
-                       });
+    return std::any_of(
+        screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
+          const GenericStructure& structure = structures_[generic.structure];
+          return structure.is_specific() && structure.form != GenericStructure::Form::kImpulses &&
+                 is_own(structure.joint) && !stops_.rests(structure.joint) &&
+                 net_of(structure, generic.score, result_.noise) > much;
+        });
   }
 
   /// An effect that is more than noise and helps on held-out recordings, but has more parameters
@@ -279,8 +280,8 @@ class Competition {
     for (const int joint : joints_of_hypothesis(place)) {
       for (const GenericResult& generic : screening.generic) {
         const GenericStructure& structure = structures_[generic.structure];
-        if (structure.joint != joint || structure.form == GenericStructure::Form::kImpulses ||
-            nameless_.is_said(joint))
+        if (structure.joint != joint || !structure.is_specific() ||
+            structure.form == GenericStructure::Form::kImpulses || nameless_.is_said(joint))
           continue;
         if (!nearest || generic.surprise > nearest->surprise) nearest = &generic;
       }

@@ -341,6 +341,12 @@ class Diagnostician {
       return fmt::format("most of it a sinusoid of {:.3g} Hz, with a phase of its own in each run",
                          structure.frequency[0]);
     }
+    if (structure.form == GenericStructure::Form::kRepeats) {
+      return fmt::format(
+          "below {:.3g} Hz, which comes back in every period of the motion and is no function of "
+          "one or two of its variables that was tried",
+          structure.frequency[0]);
+    }
     if (structure.form == GenericStructure::Form::kWave) {
       const std::vector<std::string> names = structure.names();
       return fmt::format("most of it a sinusoid of about {:.2g} {} {} {:.2g} {}",

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/diagnosis/repeat_scan.h"
+#include "runtime/evidence/torque_noise_model.h"
+
 namespace dyngen::runtime {
 namespace {
 
@@ -242,6 +245,8 @@ JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signal
       return impulse_columns(data, structure.joint);
     case Form::kLine:
       return line_columns(data, structure);
+    case Form::kRepeats:
+      return harmonic_columns(data, structure.joint, repeats_of(data), structure.frequency[0]);
     case Form::kWave:
       return wave_columns(data, structure, structure.frequency);
     case Form::kFunction:

@@ -70,7 +70,7 @@ std::optional<StructureVariable> variable_of_name(const std::string& name) {
 }
 
 std::vector<std::string> GenericStructure::names() const {
-  if (form == Form::kLine) return {"t"};
+  if (form == Form::kLine || form == Form::kRepeats) return {"t"};
   if (form == Form::kImpulses) return {variable_name({Kind::kDistance, joint})};
   std::vector<std::string> names;
   const auto add = [&](const StructureVariable& variable) {
@@ -101,6 +101,7 @@ std::vector<GenericStructure> generic_structures(int joints) {
     add({time}, Form::kFriction);
     add({}, Form::kImpulses);
     add({}, Form::kLine);
+    add({}, Form::kRepeats);
     for (int k = 0; k < joints; ++k) {
       if (k == j) continue;
       for (const Kind kind : {Kind::kPosition, Kind::kVelocity, Kind::kAcceleration}) {

@@ -42,22 +42,25 @@ struct GenericStructure {
     kImpulses,  ///< wherever the joint turns or stops: for that instant it is held by friction of
                 ///< any size up to its own, which no function of the motion is
     kLine,      ///< a sinusoid that goes on by itself, in every run with a phase of its own
-    kWave       ///< a sinusoid of a sum of two positions
+    kWave,      ///< a sinusoid of a sum of two positions
+    kRepeats    ///< whatever comes back in every period, up to some frequency
   };
   int joint = 0;                             ///< coordinate, from 0
-  std::vector<StructureVariable> variables;  ///< none of impulses and lines
+  std::vector<StructureVariable> variables;  ///< none of impulses, lines and what repeats
   Form form = Form::kFunction;
-  /// Of a line its Hz, and of a wave what it turns by with each of its positions, 1/rad or 1/m:
-  /// once that is known.
+  /// Of a line its Hz, of what repeats the highest, and of a wave what it turns by with each of its
+  /// positions, 1/rad or 1/m: once that is known.
   Eigen::Vector2d frequency = Eigen::Vector2d::Zero();
 
   [[nodiscard]] std::vector<std::string> names() const;
+  /// Whether it says what the torque depends on: what only repeats stands back behind all others.
+  [[nodiscard]] bool is_specific() const { return form != Form::kRepeats; }
 };
 
 /// Those that are looked at for every joint: its own position, velocity, acceleration, load, time
 /// and distance since reversal, position, velocity and acceleration of the others, friction that
 /// depends on these, pairs of positions, of velocities and of a velocity with a position, products
-/// of velocities alone and with a position, impulses at reversals, lines and waves.
+/// of velocities alone and with a position, impulses at reversals, lines, waves and what repeats.
 std::vector<GenericStructure> generic_structures(int joints);
 
 /// Impulses at each reversal of a joint.

@@ -14,7 +14,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kCaution = 0.01;  // of the false alarms: nothing held out speaks for it
-constexpr std::size_t kCandidates = 4;
+constexpr std::ptrdiff_t kCandidates = 4;
 constexpr double kRuledOutNet = 15;  // squares, net: a form that cannot be is no small thing
 
 }  // namespace
@@ -31,10 +31,18 @@ std::vector<const GenericResult*> NamelessSearch::candidates(const Screening& sc
     if (known || squares < stops_.unseen_on({structure.joint})) continue;
     if (screening.family_wise(generic.surprise) <= false_alarm_) strongest.push_back(&generic);
   }
-  std::stable_sort(
+  std::stable_sort(strongest.begin(), strongest.end(),
+                   [&](const GenericResult* a, const GenericResult* b) {
+                     const bool first = structures_[a->structure].is_specific();
+                     const bool second = structures_[b->structure].is_specific();
+                     return first != second ? first : a->surprise > b->surprise;
+                   });
+  const auto repeating = std::find_if(
       strongest.begin(), strongest.end(),
-      [](const GenericResult* a, const GenericResult* b) { return a->surprise > b->surprise; });
-  if (strongest.size() > kCandidates) strongest.resize(kCandidates);
+      [&](const GenericResult* generic) { return !structures_[generic->structure].is_specific(); });
+  if (repeating - strongest.begin() > kCandidates) {
+    strongest.erase(strongest.begin() + kCandidates, repeating);
+  }
   return strongest;
 }
 
@@ -49,9 +57,13 @@ bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screeni
     }
   }
   if (next_ruled_out(system, screening)) return true;
+  bool specific = true;  // the strongest of them may still be said
   for (const GenericResult* generic : strongest) {
-    if (is_said(structures_[generic->structure].joint) || !sure(screening, generic->surprise)) {
-      return false;
+    const GenericStructure& structure = structures_[generic->structure];
+    if (structure.is_specific() && !specific) continue;
+    if (is_said(structure.joint) || !sure(screening, generic->surprise)) {
+      specific = false;
+      continue;
     }
     if (describe(*generic, system, "")) return true;
   }
@@ -79,6 +91,7 @@ double NamelessSearch::structure_surprise(const Screening& screening,
   double most = 0;
   for (const GenericResult& generic : screening.generic) {
     const int joint = structures_[generic.structure].joint;
+    if (!structures_[generic.structure].is_specific()) continue;
     if (std::find(joints.begin(), joints.end(), joint) == joints.end()) continue;
     most = std::max(most, generic.surprise);
   }

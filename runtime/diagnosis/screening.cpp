@@ -12,6 +12,7 @@
 #include "runtime/diagnosis/generic_columns.h"
 #include "runtime/diagnosis/line_scan.h"
 #include "runtime/diagnosis/order_scan.h"
+#include "runtime/diagnosis/repeat_scan.h"
 #include "runtime/diagnosis/time_windows.h"
 #include "runtime/diagnosis/wave_scan.h"
 #include "runtime/estimation/distributions.h"
@@ -238,6 +239,11 @@ class Screener {
       LineScan scan = scan_lines(data_.whole(), system_, structure.joint, !before_);
       result.frequency[0] = scan.frequency;
       result.score = std::move(scan.score);
+    } else if (structure.form == GenericStructure::Form::kRepeats) {
+      RepeatScan scan =
+          scan_repeats(data_.coarse(), system_, structure.joint, data_.repeats(), !before_);
+      result.frequency[0] = scan.frequency;
+      result.score = std::move(scan.score);
     } else if (structure.form == GenericStructure::Form::kWave) {
       WaveScan scan = scan_waves(data_.coarse(), system_, structure, !before_);
       result.frequency = scan.frequency;
@@ -301,7 +307,8 @@ double Screening::family_wise(double surprise) const {
   return -std::expm1(tests * std::log1p(-std::exp(-surprise)));
 }
 
-ScreeningData::ScreeningData(const EffectRecordings& data) : whole_(data), coarse_(thinned(data)) {
+ScreeningData::ScreeningData(const EffectRecordings& data)
+    : whole_(data), coarse_(thinned(data)), repeats_(repeats_of(data)) {
   const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
   for (unsigned i = 0; i < threads; ++i) {
     readers_.push_back({EffectSignals(whole_), EffectSignals(coarse_)});

@@ -33,7 +33,7 @@ NamedResult without_conditions(const NamedResult& named);
 
 struct GenericResult {
   std::size_t structure = 0;                            ///< its place
-  Eigen::Vector2d frequency = Eigen::Vector2d::Zero();  ///< of a line or wave
+  Eigen::Vector2d frequency = Eigen::Vector2d::Zero();  ///< of a line, a wave, of what repeats
   Score score;
   double surprise = 0;  ///< -ln p
 };
@@ -70,11 +70,14 @@ class ScreeningData {
   [[nodiscard]] const EffectRecordings& whole() const { return whole_; }
   [[nodiscard]] const EffectRecordings& coarse() const { return coarse_; }
   [[nodiscard]] std::vector<Reader>& readers() { return readers_; }
+  /// As of repeats_of().
+  [[nodiscard]] const std::vector<double>& repeats() const { return repeats_; }
 
  private:
   const EffectRecordings& whole_;
   EffectRecordings coarse_;
   std::vector<Reader> readers_;
+  std::vector<double> repeats_;
 };
 
 /// Scores of everything. Effects without memory, and structures, are looked at at the equations

@@ -133,7 +133,8 @@ std::vector<RestingJoint> Stops::strongest(const Screening& screening) const {
     if (rests(j) || screening.family_wise(impulses) > false_alarm_) continue;
     const bool strongest = std::all_of(
         screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
-          return structures_[generic.structure].joint != j || generic.surprise <= impulses;
+          const GenericStructure& structure = structures_[generic.structure];
+          return structure.joint != j || !structure.is_specific() || generic.surprise <= impulses;
         });
     if (strongest) joints.push_back(found(screening, j));
   }

@@ -50,7 +50,10 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
   for (const GenericResult& generic : winner.generic) {
     GenericStructure& structure = structures[generic.structure];
     structure.frequency = generic.frequency;
-    if (!meets(structure.joint) || structure.form == GenericStructure::Form::kImpulses) continue;
+    if (!meets(structure.joint) || !structure.is_specific() ||
+        structure.form == GenericStructure::Form::kImpulses) {
+      continue;
+    }
     nets.emplace_back(net_of(structure, generic.score, result.noise), generic.structure);
   }
   for (const std::size_t place : largest(std::move(nets))) {

@@ -54,9 +54,7 @@ class Simulation {
   void advance(double until, double step) {
     while (until - now_.t > 1e-12) {
       take(std::min(step, until - now_.t));
-      if (!(now_.v.cwiseAbs().maxCoeff() < 1e3)) {
-        throw std::runtime_error("the simulated motion leaves 1e3 rad/s");
-      }
+      refuse_beyond(now_, 1e3);
     }
   }
 
@@ -64,8 +62,14 @@ class Simulation {
   static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
   double speed(std::size_t e) const { return plant_.friction[e].along.dot(now_.v); }
 
+  static void refuse_beyond(const Moment& m, double speed) {
+    if (m.x.allFinite() && m.v.allFinite() && m.v.cwiseAbs().maxCoeff() < speed) return;
+    throw std::runtime_error("the simulated motion leaves 1e3 rad/s");
+  }
+
   void derive(Moment& m, Rates& r) {
     const Index links = plant_.links;
+    refuse_beyond(m, 1e6);  // between two samples; engines end the program on what is not finite
     plant_.engine.dynamics(m.x.head(links), m.v.head(links), dynamics_);
     r.M = plant_.armature.asDiagonal();
     r.M.topLeftCorner(links, links) += dynamics_.M;

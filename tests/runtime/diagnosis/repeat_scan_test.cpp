@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/repeat_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "runtime/estimation/distributions.h"
+#include "tests/runtime/diagnosis/arm_diagnosis.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kPeriodTime = 5;  // s
+
+/// Two runs; what is left of their torque is white noise and, on joint 2, what is added.
+struct Case {
+  explicit Case(unsigned seed, double noise = test::kArmNoise)
+      : data(test::arm_recordings(test::two_recordings({}, seed))) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    for (const EffectRun& run : data.runs) {
+      const double dt = run.motion.sample_time * static_cast<double>(run.decimator.factor);
+      repeats.push_back(kPeriodTime / dt);
+      left.emplace_back(run.rows.Y.rows(), data.joints());
+      for (double& e : left.back().reshaped()) e = noise * normal(random);
+    }
+  }
+
+  /// A sinusoid in each run, with a phase of its own. @param harmonic  cycles a period
+  void add(double harmonic, double size) {
+    for (std::size_t run = 0; run < left.size(); ++run) {
+      for (Index k = 0; k < left[run].rows(); ++k) {
+        const double angle = 2 * M_PI * harmonic * static_cast<double>(k) / repeats[run];
+        left[run](k, 1) += size * std::sin(angle + static_cast<double>(run));
+      }
+    }
+  }
+
+  [[nodiscard]] RepeatScan scan(int joint) const {
+    const EvidenceSystem system(data, left, test::arm_noise(), {});
+    return scan_repeats(data, system, joint, repeats, false);
+  }
+  [[nodiscard]] double p_of(int joint) const {
+    const Score score = scan(joint).score;
+    return variance_ratio_tail(score.squares / score.degrees, score.degrees, 2000);
+  }
+
+  EffectRecordings data;
+  RunResiduals left;
+  std::vector<double> repeats;
+};
+
+TEST(RepeatScan, FindsWhatComesBackOnItsJoint) {
+  Case own(1);
+  own.add(3, 0.02);
+  own.add(7, 0.02);  // 1.4 Hz: within the lowest band
+  EXPECT_EQ(own.scan(1).frequency, 2);
+  EXPECT_LT(own.p_of(1), 1e-9);
+  EXPECT_GT(own.p_of(0), 1e-3);
+}
+
+TEST(RepeatScan, DoesNotTakeForThatWhatGoesOnByItself) {
+  Case own(2);
+  own.add(3.5, 0.04);
+  EXPECT_GT(own.p_of(1), 1e-3);
+}
+
+TEST(RepeatScan, MeasuresTheNoiseBesideTheHarmonics) {
+  // twice the noise that the model of noise knows: squares would be four times as many
+  constexpr unsigned kSeeds = 20;
+  double least = 1, mean = 0;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    const double p = Case(seed, 2 * test::kArmNoise).p_of(1);
+    least = std::min(least, p);
+    mean += p / kSeeds;
+  }
+  EXPECT_GT(least, 1e-3);
+  EXPECT_NEAR(mean, 0.35, 0.2);  // the best of three bands
+}
+
+TEST(RepeatScan, WhereNothingRepeatsThereIsNothing) {
+  Case own(3);
+  own.repeats.assign(own.repeats.size(), 0);
+  const EvidenceSystem system(own.data, own.left, test::arm_noise(), {});
+  EXPECT_EQ(scan_repeats(own.data, system, 1, own.repeats, true).score.degrees, 0);
+}
+
+}  // namespace
+}  // namespace dyngen::runtime
