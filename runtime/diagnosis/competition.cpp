@@ -270,11 +270,13 @@ class Competition {
         });
   }
 
-  /// An effect that is more than noise and helps on held-out recordings, but has more parameters
-  /// than its squares pay for, is structure without a name.
+  /// An effect that is far more than noise and helps on held-out recordings, but has more
+  /// parameters than its squares pay for, is structure without a name; once.
   bool keep_without_name(std::size_t place, const EvidenceSystem& system,
                          const Screening& screening) {
     const NamedResult& named = screening.named[place];
+    const std::string name = short_name(named.best.effect);
+    if (!nameless_.sure(screening, named.surprise) || nameless_.is_costly(name)) return false;
     if (stops_.explain(system, screening, hypotheses_[place], named)) return false;
     const GenericResult* nearest = nullptr;
     for (const int joint : joints_of_hypothesis(place)) {
@@ -287,7 +289,7 @@ class Competition {
       }
     }
     if (!nearest || !proof_of(with(named.best.effect)).helps()) return false;
-    return nameless_.describe(*nearest, system, short_name(named.best.effect));
+    return nameless_.describe(*nearest, system, name);
   }
 
   /// Where no motion repeats: see LikelySearch.

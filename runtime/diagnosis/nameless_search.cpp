@@ -81,6 +81,11 @@ bool NamelessSearch::is_said(int joint) const {
                      [&](const Nameless& nameless) { return nameless.structure.joint == joint; });
 }
 
+bool NamelessSearch::is_costly(const std::string& effect) const {
+  return std::any_of(result_.nameless.begin(), result_.nameless.end(),
+                     [&](const Nameless& nameless) { return nameless.costly == effect; });
+}
+
 std::vector<int> NamelessSearch::joints_of_hypothesis(std::size_t place) const {
   return joints_of(hypotheses_[place].effect, data_.joints());
 }

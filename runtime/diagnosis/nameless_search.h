@@ -43,6 +43,8 @@ class NamelessSearch {
   [[nodiscard]] bool sure(const Screening& screening, double surprise) const;
   /// Whether a joint has nameless structure already.
   [[nodiscard]] bool is_said(int joint) const;
+  /// Whether some of it was said to be what a costly effect would explain.
+  [[nodiscard]] bool is_costly(const std::string& effect) const;
 
  private:
   bool next_ruled_out(const EvidenceSystem& system, const Screening& screening);
