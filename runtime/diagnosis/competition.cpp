@@ -69,16 +69,17 @@ class Competition {
                  round == 0 ? nullptr : &result_.first, [&](double done) { tell(stage, done); });
       if (round == 0) result_.first = screening;
       result_.last = screening;
-      const bool until_rest = options_.until_rest && result_.noise.from_periods;
-      if (round == 0 && options_.rests && until_rest) {
-        result_.resting = stops_.strongest(screening);
+      // where nothing repeats, what rests leave is taken for noise, in which nothing is seen
+      const bool ask = options_.rests || !result_.noise.from_periods;
+      if (round == 0 && ask && options_.until_rest) {
+        result_.resting = stops_.strongest(system, screening);
         if (!result_.resting.empty()) return std::move(result_);
       }
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
       const bool named = result_.noise.from_periods ? next_winner(system, screening)
                                                     : next_likely(system, screening);
       if (!named && !nameless_.next(system, screening)) break;
-      if (until_rest && !result_.resting.empty()) return std::move(result_);
+      if (options_.until_rest && !result_.resting.empty()) return std::move(result_);
     }
     drop_superfluous();
     if (scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {

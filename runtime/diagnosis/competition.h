@@ -16,10 +16,10 @@ struct CompetitionOptions {
   int most_winners = 4;
   std::uint64_t seed = 1;
   bool with_regressor = true;
-  /// Whether it ends as soon as a joint is found to rest, where motion repeats.
+  /// Whether it ends as soon as a joint is found to rest.
   bool until_rest = false;
   /// Whether joints of this robot are known to rest: then another one does wherever impulses at its
-  /// reversals are its strongest structure, and that is looked for first.
+  /// reversals are its strongest structure, and that is looked for first, as where nothing repeats.
   bool rests = false;
 };
 

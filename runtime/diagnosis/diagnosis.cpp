@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -62,6 +63,14 @@ FalsifierOutcome stability_test(const Naming& naming) {
                       naming.families.size() > 1 ? "it, or a name that is not told apart," : "it",
                       100 * share),
           true};
+}
+
+/// " in a, b" where it is not all of them.
+std::string in_some(const std::vector<MotionSource>& sources, const std::vector<int>& some) {
+  if (some.size() == sources.size()) return "";
+  std::vector<std::string> names;
+  for (const int place : some) names.push_back(sources[static_cast<std::size_t>(place)].name);
+  return fmt::format(" in {}", fmt::join(names, ", "));
 }
 
 std::string when_it_acts(const Whereabouts& where) {
@@ -130,23 +139,17 @@ class Diagnostician {
       Witness slow(views_.slow);
       result_ =
           runtime::compete(views_.train, slow, views_.proof, hypotheses_, settings, progress_);
-      const bool whole = !settings.until_rest || !result_.noise.from_periods;
-      if (whole || result_.resting.empty()) return;
+      if (!settings.until_rest || result_.resting.empty()) return;
       // where that would leave too little, impulses at their reversals are left out instead
       settings.until_rest = look_beside(result_.resting);
       settings.rests = true;
     }
   }
 
-  /// @return whether equations were left out that had not been before
+  /// @return whether equations are left out that had not been before
   bool look_beside(const std::vector<RestingJoint>& found) {
-    std::vector<int> joints = seen_.resting;
-    for (const RestingJoint& resting : found) {
-      if (std::find(joints.begin(), joints.end(), resting.joint) == joints.end()) {
-        joints.push_back(resting.joint);
-      }
-    }
-    if (joints.size() == seen_.resting.size()) return false;
+    std::vector<RestingJoint> joints = seen_.resting;
+    if (!join(joints, found)) return false;
     const ViewOptions beside =
         beside_rests({diagnosis_rows(parts_.train, options_.decimation), {}}, parts_.train, joints);
     Views views = views_of(input_, parts_, beside);
@@ -186,15 +189,24 @@ class Diagnostician {
                             ? "from what differs between periods of the same motion"
                             : "from what the last model leaves: a lower bound of what is missing, "
                               "since no motion repeats";
-    const auto rests = [&](int joint, const char* what) {
+    describe_rests(seen_.resting, "the equations there are");
+    describe_rests(result_.resting, "an impulse at each reversal is");
+  }
+
+  /// Joints of the same recordings in one sentence.
+  void describe_rests(const std::vector<RestingJoint>& joints, const char* what) {
+    std::map<std::vector<int>, std::vector<int>> by_recordings;
+    for (const RestingJoint& resting : joints) {
+      by_recordings[resting.recordings].push_back(resting.joint + 1);
+    }
+    for (auto& [recordings, numbers] : by_recordings) {
+      std::sort(numbers.begin(), numbers.end());
       answer_.noise.how += fmt::format(
-          "; joint {} rests for an instant where it turns: friction there may be of any size, and "
-          "{} left out of the judgement",
-          joint + 1, what);
-    };
-    for (const int joint : seen_.resting) rests(joint, "its equations there are");
-    for (const RestingJoint& resting : result_.resting) {
-      rests(resting.joint, "an impulse at each reversal is");
+          "; {} for an instant where {}{}: friction there may be of any size, and {} left out of "
+          "the judgement",
+          numbers.size() > 1 ? fmt::format("joints {} rest", fmt::join(numbers, ", "))
+                             : fmt::format("joint {} rests", numbers.front()),
+          numbers.size() > 1 ? "they turn" : "it turns", in_some(parts_.train, recordings), what);
     }
   }
 

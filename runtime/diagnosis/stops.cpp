@@ -3,18 +3,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "runtime/diagnosis/generic_columns.h"
 
 namespace dyngen::runtime {
 namespace {
 
+using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kGoodPart = 1.0 / 3;  // of the squares of impulses: what explains it makes them
 constexpr double kImperfect = 0.02;    // of the squares of impulses: what their shape leaves
 constexpr double kThrough = 0.002;     // of those of another joint: it jolts the whole arm
 constexpr double kKnown = 4;  // squares: an effect that would have as many elsewhere is seen there
+
+/// Columns that are not 0 in one recording alone, by recordings.
+/// @param part  (equations x columns) each within one run
+std::vector<std::vector<Index>> columns_of_recordings(const EffectRecordings& data,
+                                                      const MatrixXd& part) {
+  std::vector<int> recordings;  // of every equation
+  int count = 0;
+  for (const EffectRun& run : data.runs) {
+    recordings.insert(recordings.end(), static_cast<std::size_t>(run.rows.Y.rows()), run.recording);
+    count = std::max(count, run.recording + 1);
+  }
+  std::vector<std::vector<Index>> columns(static_cast<std::size_t>(count));
+  for (Index c = 0; c < part.cols(); ++c) {
+    Index row = 0;
+    part.col(c).cwiseAbs().maxCoeff(&row);
+    columns[static_cast<std::size_t>(recordings[static_cast<std::size_t>(row)])].push_back(c);
+  }
+  return columns;
+}
 
 }  // namespace
 
@@ -119,14 +141,15 @@ std::vector<RestingJoint> Stops::resting(const EvidenceSystem& system, const Scr
     const double surprise = surprise_of(left.squares, left.degrees);
     if (screening.family_wise(surprise) <= false_alarm_) return {};
   }
-  std::vector<RestingJoint> joints = {found(screening, structure.joint)};
-  for (const RestingJoint& other : strongest(screening)) {
+  std::vector<RestingJoint> joints = {found(system, screening, structure.joint)};
+  for (const RestingJoint& other : strongest(system, screening)) {
     if (other.joint != structure.joint) joints.push_back(other);
   }
   return joints;
 }
 
-std::vector<RestingJoint> Stops::strongest(const Screening& screening) const {
+std::vector<RestingJoint> Stops::strongest(const EvidenceSystem& system,
+                                           const Screening& screening) const {
   std::vector<RestingJoint> joints;
   for (int j = 0; j < data_.joints(); ++j) {
     const double impulses = impulses_of(screening, j);
@@ -136,13 +159,32 @@ std::vector<RestingJoint> Stops::strongest(const Screening& screening) const {
           const GenericStructure& structure = structures_[generic.structure];
           return structure.joint != j || !structure.is_specific() || generic.surprise <= impulses;
         });
-    if (strongest) joints.push_back(found(screening, j));
+    if (strongest) joints.push_back(found(system, screening, j));
   }
   return joints;
 }
 
-RestingJoint Stops::found(const Screening& screening, int joint) const {
-  return {joint, impulses_at(screening, joint)->score.squares};
+RestingJoint Stops::found(const EvidenceSystem& system, const Screening& screening,
+                          int joint) const {
+  RestingJoint resting{joint, impulses_at(screening, joint)->score.squares, {}};
+  const JointColumns impulses = generic_columns(data_, signals_, impulses_at_reversals(joint));
+  const Products products = system.products(system.whitened(impulses), false);
+  const std::vector<std::vector<Index>> own = columns_of_recordings(data_, impulses.parts[0]);
+  for (std::size_t recording = 0; recording < own.size(); ++recording) {
+    const Products part{products.whole(own[recording], own[recording]),
+                        products.left(own[recording], own[recording]),
+                        products.rest(own[recording]),
+                        {}};
+    const Score score = score_of(part, false);
+    if (significant(surprise_of(score.squares, score.degrees))) {
+      resting.recordings.push_back(static_cast<int>(recording));
+    }
+  }
+  if (!resting.recordings.empty()) return resting;
+  // each by itself is too short to tell
+  resting.recordings.resize(own.size());
+  std::iota(resting.recordings.begin(), resting.recordings.end(), 0);
+  return resting;
 }
 
 }  // namespace dyngen::runtime

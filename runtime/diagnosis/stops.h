@@ -3,18 +3,13 @@
 
 #include <vector>
 
+#include "runtime/diagnosis/resting_joint.h"
 #include "runtime/diagnosis/screening.h"
 
 namespace dyngen::runtime {
 
 /// Squares of impulses over their degrees: below it they are hardly more than noise.
 inline constexpr double kHardlyMoreThanNoise = 2;
-
-/// A joint that friction holds for an instant where it turns.
-struct RestingJoint {
-  int joint = 0;
-  double squares = 0;  ///< of the impulses at its reversals, beside the model and what was found
-};
 
 /// What dry friction does where a joint turns or stops: it holds the joint for an instant, with any
 /// torque up to its own, and the equations have an impulse there. That is neither a name nor
@@ -65,12 +60,14 @@ class Stops {
                                                   const Screening& screening,
                                                   const GenericStructure& structure) const;
   /// Joints, besides those that rest already, where impulses are the strongest structure.
-  [[nodiscard]] std::vector<RestingJoint> strongest(const Screening& screening) const;
+  [[nodiscard]] std::vector<RestingJoint> strongest(const EvidenceSystem& system,
+                                                    const Screening& screening) const;
 
  private:
   [[nodiscard]] const GenericResult* impulses_at(const Screening& screening, int joint) const;
   [[nodiscard]] double impulses_of(const Screening& screening, int joint) const;
-  [[nodiscard]] RestingJoint found(const Screening& screening, int joint) const;
+  [[nodiscard]] RestingJoint found(const EvidenceSystem& system, const Screening& screening,
+                                   int joint) const;
   [[nodiscard]] bool significant(double surprise) const;
 
   const EffectRecordings& data_;

@@ -59,14 +59,25 @@ double median(std::vector<double> values) {
   return values.empty() ? 0 : values[values.size() / 2];
 }
 
+/// Joints that rest in one of the fitted recordings, or in any.
+constexpr int kAny = -1;
+std::vector<int> resting_in(const ViewOptions& options, int recording) {
+  std::vector<int> joints;
+  for (const RestingJoint& resting : options.resting) {
+    if (recording == kAny || resting.rests_in(recording)) joints.push_back(resting.joint);
+  }
+  return joints;
+}
+
+/// @param fitted  whether they are the recordings that the options speak of
 EffectRecordings equations(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
-                           const ViewOptions& options) {
+                           const ViewOptions& options, bool fitted) {
   const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
   EffectRecordings data = effect_recordings(input.model, input.robot, sources, options.rows, all);
   const VectorXd still = still_speed(sources, options.rows, data.joints());
   for (EffectRun& run : data.runs) {
     leave_out_standstill(run, still);
-    leave_out_rests(run, still, options.resting);
+    leave_out_rests(run, still, resting_in(options, fitted ? run.recording : kAny));
   }
   return data;
 }
@@ -92,7 +103,7 @@ RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Index decimati
 }
 
 ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
-                         std::vector<int> resting) {
+                         std::vector<RestingJoint> resting) {
   ViewOptions beside = options;
   beside.resting = std::move(resting);
   beside.quick = std::none_of(train.begin(), train.end(), repeats_rounding);
@@ -115,7 +126,7 @@ double least_counted(const EffectRecordings& data) {
 
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
                               const ViewOptions& options) {
-  return equations(input, seen(sources, options), options);
+  return equations(input, seen(sources, options), options, false);
 }
 
 Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options) {
@@ -123,7 +134,7 @@ Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOpt
   const std::vector<MotionSource> others = with_repeated_motion(train);
   const auto instrumental = [&](const ViewOptions& own) {
     const auto of = [&](const std::vector<MotionSource>& sources) {
-      return thinned(equations(input, sources, own), kLongestSample);
+      return thinned(equations(input, sources, own, true), kLongestSample);
     };
     EffectRecordings data = of(others);
     leave_as_at(data, of(train));

@@ -5,14 +5,15 @@
 
 #include "runtime/diagnosis/diagnosis.h"
 #include "runtime/diagnosis/division.h"
+#include "runtime/diagnosis/resting_joint.h"
 
 namespace dyngen::runtime {
 
 /// What of recordings is looked at.
 struct ViewOptions {
   RowOptions rows;
-  /// Joints, from 0, that rest for an instant where they turn, and have no equations there.
-  std::vector<int> resting;
+  /// Joints that rest for an instant where they turn, and have no equations there.
+  std::vector<RestingJoint> resting;
   /// Whether the joint state passes as quick a filter as can be.
   bool quick = false;
 };
@@ -24,12 +25,13 @@ struct ViewOptions {
 /// the same digits again the state stays slow: no other motion tells such rounding from physics.
 /// @param train  recordings that the model is fitted to
 ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
-                         std::vector<int> resting);
+                         std::vector<RestingJoint> resting);
 
 /// The smallest part of a joint's equations that count.
 double least_counted(const EffectRecordings& data);
 
-/// Equations of recordings, without those of joints that stand still.
+/// Equations of recordings that are not fitted, without those of joints that stand still, or rest
+/// in any of the fitted ones.
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
                               const ViewOptions& options);
 

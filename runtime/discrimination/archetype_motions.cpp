@@ -52,24 +52,28 @@ Strokes strokes_of(const VectorXd& x, const MotionLimits& limits, Index joint) {
   return s;
 }
 
+/// Where strokes begin and end. Patterns leave it one way and come back the other: a joint that
+/// stops turns, since friction holds one that only stops, for a while that no model tells.
+double end_of(const Strokes& s) { return s.centre - s.amplitude; }
+
 /// There and back over the whole amplitude.
 void both_ways(JointPath& path, const Strokes& s, double speed, double until) {
   fill(path, until, [&](JointPath& p, double size) {
-    for (const double end : {1.0, -1.0, 0.0}) {
-      p.move(s.centre + end * size * s.amplitude, speed, s.acceleration);
-    }
+    p.move(end_of(s) + 2 * size * s.amplitude, speed, s.acceleration);
+    p.move(end_of(s), speed, s.acceleration);
   });
 }
 
 /// Every reversal a part of the one before.
 void reversals(JointPath& path, const Strokes& s, double speed, double until) {
-  constexpr int kReversals = 6;
+  constexpr int kReversals = 5;  // odd: the last is on the other side
   fill(path, until, [&](JointPath& p, double size) {
-    double end = size * s.amplitude;
-    for (int i = 0; i < kReversals; ++i, end *= -s.ratio) {
-      p.move(s.centre + end, speed, s.acceleration);
+    double turn = s.amplitude;
+    for (int i = 0; i < kReversals; ++i) {
+      turn *= -s.ratio;
+      p.move(end_of(s) + size * (s.amplitude - turn), speed, s.acceleration);
     }
-    p.move(s.centre, speed, s.acceleration);
+    p.move(end_of(s), speed, s.acceleration);
   });
 }
 
@@ -136,7 +140,8 @@ PlannedMotion stroke_motion(Archetype archetype, Index joint, double duration, c
   const Strokes s = strokes_of(x, limits, joint);
   const VectorXd posture = posture_of(x, limits, 0);
   std::vector<JointPath> paths;
-  for (Index j = 0; j < posture.size(); ++j) paths.emplace_back(j == joint ? s.centre : posture[j]);
+  for (Index j = 0; j < posture.size(); ++j)
+    paths.emplace_back(j == joint ? end_of(s) : posture[j]);
   JointPath& path = paths[static_cast<std::size_t>(joint)];
   switch (archetype) {
     case Archetype::kNestedReversals:

@@ -10,6 +10,7 @@
 
 #include "runtime/effects/effect_rows.h"
 #include "runtime/effects/equation_stack.h"
+#include "runtime/estimation/burg.h"
 #include "runtime/evidence/slow_noise.h"
 #include "runtime/recordings/periods.h"
 
@@ -23,13 +24,16 @@ using Eigen::VectorXd;
 constexpr Index kLags = 40;
 constexpr double kLeastPart = 0.6;  // of the equations that differences between periods must give
 
-/// Sums of products at all lags, and of how many pairs of samples.
+/// A joint's residuals between what does not count; sums of their products at all lags, and of how
+/// many pairs of samples.
 struct LagProducts {
+  std::vector<VectorXd> stretches;
   VectorXd sums = VectorXd::Zero(kLags + 1);
   VectorXd pairs = VectorXd::Zero(kLags + 1);
 
   /// @param e  0 where `counted` is
   void add(const VectorXd& e, const VectorXd& counted) {
+    for (VectorXd& stretch : stretches_of(e, counted)) stretches.push_back(std::move(stretch));
     for (Index lag = 0; lag <= std::min(kLags, e.size() - 1); ++lag) {
       const Index rows = e.size() - lag;
       sums[lag] += e.tail(rows).dot(e.head(rows));
@@ -37,13 +41,9 @@ struct LagProducts {
     }
   }
 
-  void add(const LagProducts& other) {
-    sums += other.sums;
-    pairs += other.pairs;
-  }
-
   [[nodiscard]] double samples() const { return pairs[0]; }
   [[nodiscard]] VectorXd covariance() const { return sums.cwiseQuotient(pairs.cwiseMax(1)); }
+  [[nodiscard]] AutoregressiveNoise process() const { return autoregression_of(stretches, kLags); }
 };
 
 /// Differences between neighbouring periods of one joint, of all runs.
@@ -177,6 +177,8 @@ std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
                                                 const OfJoints& observed,
                                                 std::vector<AutoregressiveNoise> joints) {
   const FittedPart fit(data, joints);
+  std::vector<VectorXd> left;  // autocovariances
+  for (const AutoregressiveNoise& joint : joints) left.push_back(autocovariance(joint, kLags));
   std::mt19937_64 random(kSeed);
   for (int round = 0; round < kRounds; ++round) {
     std::vector<VectorXd> taken(joints.size(), VectorXd::Zero(kLags + 1));
@@ -191,7 +193,7 @@ std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const double samples = std::max(1.0, observed[j].samples());
-      joints[j] = fit_autoregression(observed[j].covariance() + taken[j], samples);
+      joints[j] = fit_autoregression(left[j] + taken[j], samples);
     }
   }
   return joints;
@@ -254,8 +256,7 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   } else {
     std::vector<AutoregressiveNoise> joints;
     for (const LagProducts& products : all) {
-      joints.push_back(
-          fit_autoregression(products.covariance(), std::max(products.samples(), 1.0)));
+      joints.push_back(products.process());
     }
     refuse_no_noise(quick_noise(joints));
     if (fitted) joints = before_the_fit(data, all, std::move(joints));

@@ -56,16 +56,18 @@ TEST(BesideRests, TheJointStateIsQuickUnlessRoundingRepeats) {
   ASSERT_LT(noisy[0].cutoff.hz, 50);
   const ViewOptions options{diagnosis_rows(noisy, -1), {}};
   EXPECT_FALSE(options.quick);
-  const ViewOptions quick = beside_rests(options, noisy, {1});
+  const ViewOptions quick = beside_rests(options, noisy, {{1, 0, {0}}});
   EXPECT_TRUE(quick.quick);
-  EXPECT_EQ(quick.resting, std::vector<int>{1});
-  EXPECT_FALSE(beside_rests(options, same, {1}).quick);
+  ASSERT_EQ(quick.resting.size(), 1u);
+  EXPECT_EQ(quick.resting[0].joint, 1);
+  EXPECT_FALSE(beside_rests(options, same, {{1, 0, {0}}}).quick);
 }
 
 TEST(BesideRests, EquationsAreSlowerThanTheJointState) {
   const std::vector<MotionSource> noisy = {rounded(0.5)}, same = {rounded(0)};
   const auto band = [](const std::vector<MotionSource>& sources) {
-    return 0.5 / beside_rests({diagnosis_rows(sources, -1), {}}, sources, {0}).rows.row_time;
+    return 0.5 /
+           beside_rests({diagnosis_rows(sources, -1), {}}, sources, {{0, 0, {0}}}).rows.row_time;
   };
   EXPECT_NEAR(band(noisy), 0.4 * 50, 1e-9);
   EXPECT_NEAR(band(same), 0.4 * same[0].cutoff.hz, 1e-9);
