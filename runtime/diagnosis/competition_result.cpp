@@ -46,14 +46,23 @@ JointColumns nameless_columns(const EffectRecordings& data, EffectSignals& signa
 
 namespace {
 
-double price_of_one(const TorqueNoiseModel& noise) {
-  return std::log(std::max(noise.worth.sum(), 2.0));
+/// @param part  of the equations
+double price_of_one(const TorqueNoiseModel& noise, double part = 1) {
+  return std::log(std::max(noise.worth.sum() * part, 2.0));
+}
+
+/// Of some sizes.
+double price_of(const Hypothesis& hypothesis, double sizes, double part,
+                const TorqueNoiseModel& noise) {
+  return sizes * price_of_one(noise, part) +
+         static_cast<double>(hypothesis.shapes.size()) * price_of_one(noise);
 }
 
 }  // namespace
 
-double price_of(const Hypothesis& hypothesis, int degrees, const TorqueNoiseModel& noise) {
-  return (degrees + static_cast<double>(hypothesis.shapes.size())) * price_of_one(noise);
+double price_of(const Hypothesis& hypothesis, const TrialScore& trial,
+                const TorqueNoiseModel& noise) {
+  return price_of(hypothesis, trial.score.degrees, trial.part, noise);
 }
 
 double net_of(const GenericStructure& structure, const Score& score,
@@ -66,13 +75,13 @@ double net_of(const GenericStructure& structure, const Score& score,
 
 double net_of(const Hypothesis& hypothesis, const TrialScore& trial,
               const TorqueNoiseModel& noise) {
-  double best = trial.score.squares - price_of(hypothesis, trial.score.degrees, noise);
+  double best = trial.score.squares - price_of(hypothesis, trial, noise);
   double choices = 1;  // ways to take m of all linear parameters
   const auto all = static_cast<double>(trial.few.size());
   for (std::size_t m = 1; m < trial.few.size(); ++m) {
     const auto taken = static_cast<double>(m);
     choices *= (all - taken + 1) / taken;
-    const double price = price_of(hypothesis, static_cast<int>(m), noise) + 2 * std::log(choices);
+    const double price = price_of(hypothesis, taken, trial.part, noise) + 2 * std::log(choices);
     best = std::max(best, trial.few[m - 1] - price);
   }
   return best;

@@ -83,8 +83,10 @@ EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signa
                               const EvidenceSystem::Options& options);
 
 /// What a score costs in the currency of squares: its parameters, at the information that the
-/// equations hold (Schwarz 1978 with the number of independent samples).
-double price_of(const Hypothesis& hypothesis, int degrees, const TorqueNoiseModel& noise);
+/// equations hold (Schwarz 1978 with the number of independent samples): all of them on its shapes,
+/// and on its sizes those in which it acts.
+double price_of(const Hypothesis& hypothesis, const TrialScore& trial,
+                const TorqueNoiseModel& noise);
 
 /// Squares less their price. Of the linear parameters those are paid that are worth it, and for
 /// which of them they are (Chen and Chen 2008): a load needs no tensor of inertia to be seen.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -18,6 +17,7 @@
 #include "runtime/diagnosis/name_tests.h"
 #include "runtime/diagnosis/naming.h"
 #include "runtime/diagnosis/next_experiment.h"
+#include "runtime/diagnosis/noise_sentence.h"
 #include "runtime/diagnosis/raw_residual.h"
 #include "runtime/diagnosis/reference.h"
 #include "runtime/diagnosis/sufficiency.h"
@@ -63,14 +63,6 @@ FalsifierOutcome stability_test(const Naming& naming) {
                       naming.families.size() > 1 ? "it, or a name that is not told apart," : "it",
                       100 * share),
           true};
-}
-
-/// " in a, b" where it is not all of them.
-std::string in_some(const std::vector<MotionSource>& sources, const std::vector<int>& some) {
-  if (some.size() == sources.size()) return "";
-  std::vector<std::string> names;
-  for (const int place : some) names.push_back(sources[static_cast<std::size_t>(place)].name);
-  return fmt::format(" in {}", fmt::join(names, ", "));
 }
 
 std::string when_it_acts(const Whereabouts& where) {
@@ -185,29 +177,7 @@ class Diagnostician {
     answer_.noise.correlation_time = noise.correlation_time;
     answer_.noise.worth = noise.worth;
     answer_.noise.from_periods = noise.from_periods;
-    answer_.noise.how = noise.from_periods
-                            ? "from what differs between periods of the same motion"
-                            : "from what the last model leaves: a lower bound of what is missing, "
-                              "since no motion repeats";
-    describe_rests(seen_.resting, "the equations there are");
-    describe_rests(result_.resting, "an impulse at each reversal is");
-  }
-
-  /// Joints of the same recordings in one sentence.
-  void describe_rests(const std::vector<RestingJoint>& joints, const char* what) {
-    std::map<std::vector<int>, std::vector<int>> by_recordings;
-    for (const RestingJoint& resting : joints) {
-      by_recordings[resting.recordings].push_back(resting.joint + 1);
-    }
-    for (auto& [recordings, numbers] : by_recordings) {
-      std::sort(numbers.begin(), numbers.end());
-      answer_.noise.how += fmt::format(
-          "; {} for an instant where {}{}: friction there may be of any size, and {} left out of "
-          "the judgement",
-          numbers.size() > 1 ? fmt::format("joints {} rest", fmt::join(numbers, ", "))
-                             : fmt::format("joint {} rests", numbers.front()),
-          numbers.size() > 1 ? "they turn" : "it turns", in_some(parts_.train, recordings), what);
-    }
+    answer_.noise.how = noise_sentence(noise, parts_.train, seen_.resting, result_.resting);
   }
 
   void describe_tests() {

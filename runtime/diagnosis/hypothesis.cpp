@@ -174,6 +174,20 @@ JointColumns hypothesis_columns(const EffectRecordings& data, EffectSignals& sig
   return system.whitened(effect_columns(data, signals, trial, wanted, hypothesis.held));
 }
 
+namespace {
+
+/// Equations in which columns are not 0, of those of all joints.
+double part_of(const JointColumns& columns, int joints) {
+  double count = 0, rows = 0;
+  for (const MatrixXd& part : columns.parts) {
+    count += static_cast<double>((part.rowwise().squaredNorm().array() > 0).count());
+    rows = static_cast<double>(part.rows());
+  }
+  return count / (rows * joints);
+}
+
+}  // namespace
+
 std::vector<TrialScore> try_shapes(const EffectRecordings& data, EffectSignals& signals,
                                    const EvidenceSystem& system, const Hypothesis& hypothesis,
                                    const std::vector<EffectInstance>& trials,
@@ -183,9 +197,11 @@ std::vector<TrialScore> try_shapes(const EffectRecordings& data, EffectSignals& 
   for (const int p : hypothesis.linear) wanted.push_back(1 + p);
   JointColumns all;
   std::vector<VectorXd> nothing;
+  std::vector<double> acting;  // parts of the equations
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const JointColumns plain = effect_columns(data, signals, trials[i], wanted, hypothesis.held);
     nothing.push_back(null_values(plain, hypothesis, trials[i].parameters));
+    acting.push_back(hypothesis.windowed ? part_of(plain, data.joints()) : 1);
     if (i == 0) {
       all.joints = plain.joints;
       for (const MatrixXd& part : plain.parts) {
@@ -202,6 +218,7 @@ std::vector<TrialScore> try_shapes(const EffectRecordings& data, EffectSignals& 
   for (std::size_t i = 0; i < trials.size(); ++i) {
     scores.push_back(concluded(hypothesis, trials[i], score_of(products[i], surrogates),
                                products[i], nothing[i], scales));
+    scores.back().part = acting[i];
   }
   return scores;
 }

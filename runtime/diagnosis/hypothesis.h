@@ -42,6 +42,7 @@ struct TrialScore {
   Eigen::VectorXd typical;    ///< (linear) sizes less those at which there is no effect
   double typical_lambda = 0;  ///< noncentrality of the typical size
   std::vector<double> few;    ///< squares_of_few() of the linear parameters
+  double part = 1;            ///< of all joints' equations: those in which an event acts
 };
 
 /// Whitened columns of the linear parameters at given shapes.

@@ -70,7 +70,7 @@ LikelyEffect LikelySearch::compared(std::size_t place, const LikelihoodRatio& ra
   const double squares = ratio.of(residuals_of(data_, likely.fit.point));
   const auto degrees = named.best.score.degrees + static_cast<int>(hypothesis.shapes.size());
   named.surprise = surprise_of(squares, degrees);
-  likely.net = squares - price_of(hypothesis, named.best.score.degrees, result_.noise);
+  likely.net = squares - price_of(hypothesis, named.best, result_.noise);
   return likely;
 }
 

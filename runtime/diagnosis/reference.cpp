@@ -112,8 +112,7 @@ class Changes {
           change.trial.score.coefficients[static_cast<Index>(i)];
     }
     change.covariance = products.left.completeOrthogonalDecomposition().pseudoInverse();
-    change.net = change.trial.score.squares -
-                 price_of(hypothesis, change.trial.score.degrees, result_.noise);
+    change.net = change.trial.score.squares - price_of(hypothesis, change.trial, result_.noise);
     return change;
   }
 

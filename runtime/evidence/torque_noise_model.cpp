@@ -22,18 +22,21 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kLags = 40;
+constexpr double kAsWell = 0.9;     // of an error of prediction that may be
 constexpr double kLeastPart = 0.6;  // of the equations that differences between periods must give
 
 /// A joint's residuals between what does not count; sums of their products at all lags, and of how
 /// many pairs of samples.
 struct LagProducts {
   std::vector<VectorXd> stretches;
+  std::size_t runs = 0;
   VectorXd sums = VectorXd::Zero(kLags + 1);
   VectorXd pairs = VectorXd::Zero(kLags + 1);
 
   /// @param e  0 where `counted` is
   void add(const VectorXd& e, const VectorXd& counted) {
     for (VectorXd& stretch : stretches_of(e, counted)) stretches.push_back(std::move(stretch));
+    ++runs;
     for (Index lag = 0; lag <= std::min(kLags, e.size() - 1); ++lag) {
       const Index rows = e.size() - lag;
       sums[lag] += e.tail(rows).dot(e.head(rows));
@@ -42,8 +45,18 @@ struct LagProducts {
   }
 
   [[nodiscard]] double samples() const { return pairs[0]; }
-  [[nodiscard]] VectorXd covariance() const { return sums.cwiseQuotient(pairs.cwiseMax(1)); }
-  [[nodiscard]] AutoregressiveNoise process() const { return autoregression_of(stretches, kLags); }
+  [[nodiscard]] VectorXd of_pairs() const { return sums.cwiseQuotient(pairs.cwiseMax(1)); }
+
+  /// Pairs about gaps may have that of no process, or of one that predicts too well: errors of
+  /// prediction between the gaps say so, and give one themselves.
+  [[nodiscard]] VectorXd covariance() const {
+    const VectorXd pairs_alone = of_pairs();
+    if (stretches.size() <= runs) return pairs_alone;
+    const AutoregressiveNoise between = autoregression_of(stretches, kLags);
+    const AutoregressiveNoise about = fit_autoregression(pairs_alone, std::max(samples(), 1.0));
+    if (about.innovation > kAsWell * between.innovation) return pairs_alone;
+    return autocovariance(between, kLags);
+  }
 };
 
 /// Differences between neighbouring periods of one joint, of all runs.
@@ -178,7 +191,7 @@ std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
                                                 std::vector<AutoregressiveNoise> joints) {
   const FittedPart fit(data, joints);
   std::vector<VectorXd> left;  // autocovariances
-  for (const AutoregressiveNoise& joint : joints) left.push_back(autocovariance(joint, kLags));
+  for (const LagProducts& joint : observed) left.push_back(joint.covariance());
   std::mt19937_64 random(kSeed);
   for (int round = 0; round < kRounds; ++round) {
     std::vector<VectorXd> taken(joints.size(), VectorXd::Zero(kLags + 1));
@@ -188,7 +201,7 @@ std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
       fit.take_out_of(noise);
       const OfJoints after = lag_products(data, noise);
       for (std::size_t j = 0; j < joints.size(); ++j) {
-        taken[j] += (before[j].covariance() - after[j].covariance()) / kDraws;
+        taken[j] += (before[j].of_pairs() - after[j].of_pairs()) / kDraws;
       }
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -256,7 +269,8 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   } else {
     std::vector<AutoregressiveNoise> joints;
     for (const LagProducts& products : all) {
-      joints.push_back(products.process());
+      joints.push_back(
+          fit_autoregression(products.covariance(), std::max(products.samples(), 1.0)));
     }
     refuse_no_noise(quick_noise(joints));
     if (fitted) joints = before_the_fit(data, all, std::move(joints));

@@ -191,6 +191,28 @@ TEST(Diagnosis, WhatFrictionHoldsAtReversalsIsNoNameAndNoStructure) {
       << diagnosis.noise.how;
 }
 
+TEST(Diagnosis, SaysInWhichRecordingAJointRests) {
+  std::vector<MotionSource> train = test::two_recordings({}, 9);
+  train[1] = test::two_recordings(held_at_reversals(), 9)[1];
+  const Diagnosis diagnosis =
+      diagnose(test::arm_input(train, {}, {test::spring_law()}), test::every_sample());
+  EXPECT_EQ(diagnosis.verdict, Verdict::kClean) << diagnosis.sentence;
+  EXPECT_NE(diagnosis.noise.how.find("turn in " + train[1].name), std::string::npos)
+      << diagnosis.noise.how;
+}
+
+TEST(Competition, AnEventPaysForItsSizesWithTheEquationsInWhichItActs) {
+  TorqueNoiseModel noise = test::arm_noise();
+  noise.worth = VectorXd::Constant(2, 5000);
+  Hypothesis hypothesis;
+  hypothesis.shapes = {3, 4};
+  TrialScore trial;
+  trial.score.degrees = 3;
+  EXPECT_NEAR(price_of(hypothesis, trial, noise), 5 * std::log(1e4), 1e-9);
+  trial.part = 0.01;
+  EXPECT_NEAR(price_of(hypothesis, trial, noise), 3 * std::log(1e2) + 2 * std::log(1e4), 1e-9);
+}
+
 TEST(Diagnosis, NamesAnEventOfOneRecording) {
   const EffectInstance event = test::known(push_law(), 0, {0.3, 12, 12.8});
   const Diagnosis diagnosis =

@@ -108,6 +108,36 @@ TEST(Rests, AreLeftOutOfTheJointsThatAreNamed) {
   EXPECT_NEAR(least_counted(data), 1 - left_out / all, 1e-12);
 }
 
+TEST(Rests, AreLeftOutOfTheRecordingsInWhichTheyAreSeen) {
+  const DiagnosisInput input = test::arm_input(test::two_recordings({}, 4), {}, {});
+  const Division parts{input.train, input.heldout};
+  ViewOptions options{diagnosis_rows(parts.train, -1), {}};
+  const auto counted = [](const EffectRun& run, Index joint) {
+    return run.rows.counted.col(joint).mean();
+  };
+  const Views whole = views_of(input, parts, options);
+  options.resting = {{1, 0, {1}}};
+  const Views views = views_of(input, parts, options);
+  ASSERT_EQ(views.train.runs.size(), 2U);
+  EXPECT_EQ(counted(views.train.runs[0], 1), counted(whole.train.runs[0], 1));
+  EXPECT_LT(counted(views.train.runs[1], 1), 0.99 * counted(whole.train.runs[1], 1));
+  EXPECT_EQ(counted(views.train.runs[1], 0), counted(whole.train.runs[1], 0));
+  EXPECT_EQ(counted(views.slow.runs[0], 1), counted(whole.slow.runs[0], 1));
+  // what is held out was not looked at: there it may rest too
+  EXPECT_LT(counted(views.heldout.runs[0], 1), 0.99 * counted(whole.heldout.runs[0], 1));
+}
+
+TEST(Rests, OfSeveralLooksAreJoined) {
+  std::vector<RestingJoint> known = {{1, 50, {0}}};
+  EXPECT_FALSE(join(known, {{1, 20, {0}}}));
+  EXPECT_TRUE(join(known, {{1, 20, {2}}, {0, 30, {1}}}));
+  ASSERT_EQ(known.size(), 2U);
+  EXPECT_EQ(known[0].recordings, (std::vector<int>{0, 2}));
+  EXPECT_TRUE(known[0].rests_in(2));
+  EXPECT_FALSE(known[0].rests_in(1));
+  EXPECT_EQ(known[1].joint, 0);
+}
+
 /// tau at the other motion is what it would be if the model left there what it leaves at the own.
 TEST(RepeatedMotion, LeavesWhatTheModelLeavesAtTheOwnMotion) {
   const EffectInstance spring = test::known(test::spring_law(), 1, {0.4});
