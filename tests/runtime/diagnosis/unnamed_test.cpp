@@ -112,7 +112,7 @@ TEST(Stops, LittleIsNothingOnAJointThatRests) {
   std::vector<RestingJoint> resting;
   const Stops stops(data, signals, structures, resting, 0.01);
   EXPECT_EQ(stops.unseen_on({0, 1}), 0);
-  resting = {{1, 500}};
+  resting = {{1, 500, {}}};
   EXPECT_NEAR(stops.unseen_on({0}), 1, 1e-12);  // through the arm
   EXPECT_NEAR(stops.unseen_on({0, 1}), 10, 1e-12);
   EXPECT_TRUE(stops.rests(1));
