@@ -22,6 +22,7 @@ constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as m
 constexpr double kJolts = 50;  // Hz, of jolts: a joint state of at least this cut-off has them
 constexpr double kHighest = 0.2;         // of the sampling frequency: a cut-off
 constexpr double kBesideJolts = 0.4;     // of the cut-off: what is slower is not damped at all
+constexpr double kBesideJoltsStop = 30;  // dB, of a parallel filter that is shorter still
 constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
 
 RowOptions slower(RowOptions rows) {
@@ -109,6 +110,7 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
   beside.quick = std::none_of(train.begin(), train.end(), repeats_rounding);
   beside.rows.band = kBesideJolts;
   beside.rows.multiple = kThinnedSamples / 2;
+  beside.rows.attenuation_db = kBesideJoltsStop;
   std::vector<double> times;
   for (const MotionSource& source : train) {
     const double band = kBesideJolts * (beside.quick ? quick_cutoff(source) : source.cutoff.hz);

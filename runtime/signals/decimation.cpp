@@ -43,14 +43,14 @@ Decimator design_decimator(Eigen::Index factor, double pass, double attenuation_
     throw std::invalid_argument(
         fmt::format("design_decimator(): attenuation_db {} is not 30..120", attenuation_db));
   }
-  if (factor == 1) return {Eigen::VectorXd::Ones(1), 1, pass};
+  if (factor == 1) return {Eigen::VectorXd::Ones(1), 1, pass, attenuation_db};
   // Kaiser's rule (1974) for the length; frequencies in cycles a sample.
   const double nyquist = 0.5 / static_cast<double>(factor);
   const double transition = 2 * (1 - pass) * nyquist;
   const double length = (attenuation_db - 7.95) / (14.36 * transition);
   const auto half = static_cast<Eigen::Index>(std::ceil(length / 2));
   const double shape = kaiser_shape(attenuation_db);
-  Decimator decimator{Eigen::VectorXd(2 * half + 1), factor, pass};
+  Decimator decimator{Eigen::VectorXd(2 * half + 1), factor, pass, attenuation_db};
   for (Eigen::Index i = 0; i <= half; ++i) {
     const double x = 2 * std::numbers::pi * nyquist * static_cast<double>(i);
     const double edge = static_cast<double>(i) / static_cast<double>(half);

@@ -9,9 +9,10 @@ namespace dyngen::runtime {
 /// parallel filter. Torque and every column of the regressor pass the same linear operator, so tau
 /// = W beta holds after it as it did before, whatever the filter takes away (Gautier 1997).
 struct Decimator {
-  Eigen::VectorXd taps;     ///< odd number, symmetric, sum 1
-  Eigen::Index factor = 1;  ///< samples in for one out
-  double pass = 0.8;        ///< of the new Nyquist frequency: up to there the gain is 1
+  Eigen::VectorXd taps;        ///< odd number, symmetric, sum 1
+  Eigen::Index factor = 1;     ///< samples in for one out
+  double pass = 0.8;           ///< of the new Nyquist frequency: up to there the gain is 1
+  double attenuation_db = 60;  ///< of the stop band
 };
 
 /// Windowed sinc (Kaiser's window), -6 dB at the new Nyquist frequency.

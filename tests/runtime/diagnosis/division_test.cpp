@@ -75,26 +75,34 @@ TEST(RowPlan, GivesNoMoreEquationsThanAskedFor) {
 }
 
 TEST(Thinned, ColumnsAreThoseOfAllSamples) {
-  // equations of 20 samples: columns of a spring and of dry friction
+  // equations of 20 samples: columns of a spring
   const EffectInstance spring = test::known(test::spring_law(), 1, {0.2});
-  RowOptions rows;
-  rows.decimation = 20;
-  rows.pass = 0.5;
-  const EffectRecordings data = effect_recordings(
-      test::planar_arm(), test::planar_arm_tangents(),
-      test::measured({test::sines(20, 0.002)}, test::planar_arm_values(), {spring}, 0, 0, 1), rows,
-      {true, true});
-  const EffectRecordings few = thinned(data), some = thinned(data, 0.0041);
-  EXPECT_EQ(few.runs.front().decimator.factor, kThinnedSamples);
-  EXPECT_EQ(some.runs.front().decimator.factor, 10);
-  EffectSignals all_signals(data), few_signals(few), some_signals(some);
-  const Eigen::MatrixXd all = effect_columns(data, all_signals, spring, {0}).parts[0];
-  const double size = all.cwiseAbs().maxCoeff();
-  for (const auto& [thin, signals] :
-       {std::pair(&few, &few_signals), std::pair(&some, &some_signals)}) {
-    const Eigen::MatrixXd part = effect_columns(*thin, *signals, spring, {0}).parts[0];
-    ASSERT_EQ(part.rows(), all.rows());
-    EXPECT_LT((part - all).cwiseAbs().maxCoeff(), 1e-3 * size);
+  for (const double attenuation : {60.0, 30.0}) {
+    RowOptions rows;
+    rows.decimation = 20;
+    rows.pass = 0.5;
+    rows.attenuation_db = attenuation;
+    const EffectRecordings data = effect_recordings(
+        test::planar_arm(), test::planar_arm_tangents(),
+        test::measured({test::sines(20, 0.002)}, test::planar_arm_values(), {spring}, 0, 0, 1),
+        rows, {true, true});
+    const EffectRecordings few = thinned(data), some = thinned(data, 0.0041);
+    EXPECT_EQ(few.runs.front().decimator.factor, kThinnedSamples);
+    EXPECT_EQ(some.runs.front().decimator.factor, 10);
+    EffectSignals all_signals(data), few_signals(few), some_signals(some);
+    const Eigen::MatrixXd all = effect_columns(data, all_signals, spring, {0}).parts[0];
+    const double size = all.cwiseAbs().maxCoeff();
+    const double reach = data.runs.front().motion.sample_time *
+                         static_cast<double>(data.runs.front().decimator.taps.size());
+    for (const auto& [thin, signals] :
+         {std::pair(&few, &few_signals), std::pair(&some, &some_signals)}) {
+      const EffectRun& run = thin->runs.front();
+      const Eigen::MatrixXd part = effect_columns(*thin, *signals, spring, {0}).parts[0];
+      ASSERT_EQ(part.rows(), all.rows());
+      EXPECT_LT((part - all).cwiseAbs().maxCoeff(), 1e-3 * size);
+      EXPECT_NEAR(run.motion.sample_time * static_cast<double>(run.decimator.taps.size()), reach,
+                  3 * run.motion.sample_time);
+    }
   }
 }
 

@@ -50,6 +50,13 @@ TEST(Decimation, PassesWhatIsSlowAndStopsWhatWouldFold) {
   }
 }
 
+TEST(Decimation, ReachesLessFarWhereLessIsStopped) {
+  const Decimator sharp = design_decimator(6, 0.5), brief = design_decimator(6, 0.5, 30);
+  EXPECT_EQ(brief.attenuation_db, 30);
+  EXPECT_LT(brief.taps.size(), 0.5 * static_cast<double>(sharp.taps.size()));
+  for (const double stop : {1.5, 1.7, 2.5}) EXPECT_LT(gain(brief, stop), 0.04) << stop;
+}
+
 TEST(Decimation, OutputsStandAtMultiplesOfTheFactorWithAllTapsInside) {
   for (const Eigen::Index factor : {1, 2, 7, 50}) {
     const Decimator decimator = design_decimator(factor);
