@@ -10,6 +10,7 @@
 #include "runtime/diagnosis/likely_search.h"
 #include "runtime/diagnosis/nameless_search.h"
 #include "runtime/diagnosis/own_scatter.h"
+#include "runtime/diagnosis/repeated_rounding.h"
 #include "runtime/diagnosis/second_scan.h"
 #include "runtime/diagnosis/stops.h"
 #include "runtime/diagnosis/time_windows.h"
@@ -51,8 +52,8 @@ class Competition {
         repeats_(repeats_of(train)),
         witness_(witness),
         stops_(train_, signals_, structures_, result_.resting, options_.false_alarm),
-        nameless_(train_, signals_, hypotheses_, structures_, stops_, witness_, system_options(),
-                  options_.false_alarm, result_),
+        nameless_(train_, signals_, heldout_, hypotheses_, structures_, stops_, witness_,
+                  system_options(), options_.false_alarm, result_),
         likely_(train_, signals_, hypotheses_, scales_, result_,
                 [this](const EffectInstance& effect) { return with(effect); }) {}
 
@@ -179,6 +180,8 @@ class Competition {
       return size_of(a) < size_of(b);
     };
     std::stable_sort(order.begin(), order.end(), best_first);
+    std::set<std::size_t> attempted;  // fitted and turned down
+    std::set<std::size_t> stopped;    // explained by stops, or by rounding
     if (order.size() > kRefined) order.resize(kRefined);
     for (std::size_t i = 0; i < order.size(); ++i) {
       tell("shapes of the strongest effects", static_cast<double>(i) / kRefined);
@@ -188,13 +191,14 @@ class Competition {
       named.best = refined(train_, signals_, system, hypothesis, named.best,
                            scales_.of(result_.fit.point.beta, hypothesis.effect));
       named.surprise = surprise_of(named);
+      if (within_rounding(train_, hypothesis, named.best.effect)) stopped.insert(order[i]);
     }
     std::stable_sort(order.begin(), order.end(), best_first);
-    std::set<std::size_t> attempted, stopped;  // fitted and turned down; explained by stops
     std::optional<std::size_t> costly;
     for (const std::size_t place : order) {
       const NamedResult& named = screening.named[place];
       if (attempted.size() == kAttempts) break;
+      if (stopped.contains(place)) continue;
       if (screening.family_wise(named.surprise) > options_.false_alarm) continue;
       if (net(named) <= 0) {
         if (!costly) costly = place;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "runtime/diagnosis/repeat_scan.h"
 #include "runtime/evidence/torque_noise_model.h"
@@ -159,48 +160,66 @@ MatrixXd products_of(const MatrixXd& first, const MatrixXd& second) {
   return both;
 }
 
-/// A smooth function of one variable, in hats.
-std::vector<MatrixXd> function_of(const RunValues& values, int knots) {
-  const std::vector<double> places = knots_of(values, knots);
-  std::vector<MatrixXd> shapes;
-  for (const VectorXd& run : values) shapes.push_back(hats(run, places));
-  return shapes;
-}
+/// What the functions of a structure are of, and what multiplies them; nothing where that is 1.
+struct Arguments {
+  std::vector<RunValues> of;
+  RunValues factor;
+  int knots = kAlone;  // of each
+};
 
-/// Shapes of each run at all samples.
-std::vector<MatrixXd> shapes_of(const EffectRecordings& data, EffectSignals& signals,
-                                const GenericStructure& structure) {
-  std::vector<RunValues> values;
+Arguments arguments_of(const EffectRecordings& data, EffectSignals& signals,
+                       const GenericStructure& structure) {
+  Arguments arguments;
   for (const StructureVariable& variable : structure.variables) {
-    values.push_back(values_of(data, signals, variable));
+    arguments.of.push_back(values_of(data, signals, variable));
   }
   if (structure.form == Form::kSpeeds) {
-    RunValues product = values[0];
+    RunValues product = arguments.of[0];
     for (std::size_t run = 0; run < product.size(); ++run) {
-      product[run].array() *= values[1][run].array();
+      product[run].array() *= arguments.of[1][run].array();
     }
-    if (values.size() == 2) return function_of(product, kAlone);
-    std::vector<MatrixXd> shapes = function_of(values[2], kOfSpeeds);
-    for (std::size_t run = 0; run < product.size(); ++run) {
-      shapes[run] = product[run].asDiagonal() * shapes[run];
+    if (arguments.of.size() == 2) {
+      arguments.of = {std::move(product)};
+    } else {
+      arguments.of = {std::move(arguments.of[2])};
+      arguments.factor = std::move(product);
+      arguments.knots = kOfSpeeds;
     }
-    return shapes;
+    return arguments;
   }
   const bool speeds = std::all_of(
       structure.variables.begin(), structure.variables.end(),
       [](const StructureVariable& variable) { return variable.kind == Kind::kVelocity; });
-  const int knots = values.size() == 1 ? kAlone : speeds ? kOfSpeeds : kInPairs;
-  std::vector<MatrixXd> shapes = function_of(values[0], knots);
-  if (values.size() > 1) {
-    const std::vector<MatrixXd> second = function_of(values[1], knots);
-    for (std::size_t run = 0; run < shapes.size(); ++run) {
-      shapes[run] = products_of(shapes[run], second[run]);
+  if (arguments.of.size() > 1) arguments.knots = speeds ? kOfSpeeds : kInPairs;
+  if (structure.form == Form::kFriction) {
+    for (std::size_t run = 0; run < data.runs.size(); ++run) {
+      arguments.factor.push_back(travelled_sign_of(data, run, structure.joint));
     }
   }
-  if (structure.form == Form::kFriction) {
-    for (std::size_t run = 0; run < shapes.size(); ++run) {
-      shapes[run] = travelled_sign_of(data, run, structure.joint).asDiagonal() * shapes[run];
-    }
+  return arguments;
+}
+
+bool is_function(const GenericStructure& structure) {
+  return structure.form == Form::kFunction || structure.form == Form::kFriction ||
+         structure.form == Form::kSpeeds;
+}
+
+StructureKnots knots_of(const Arguments& arguments) {
+  StructureKnots knots;
+  for (const RunValues& values : arguments.of) {
+    knots.push_back(knots_of(values, arguments.knots));
+  }
+  return knots;
+}
+
+/// Shapes of each run at all samples.
+std::vector<MatrixXd> shapes_of(const Arguments& arguments, const StructureKnots& knots) {
+  std::vector<MatrixXd> shapes;
+  for (std::size_t run = 0; run < arguments.of[0].size(); ++run) {
+    MatrixXd shape = hats(arguments.of[0][run], knots[0]);
+    if (arguments.of.size() > 1) shape = products_of(shape, hats(arguments.of[1][run], knots[1]));
+    if (!arguments.factor.empty()) shape = arguments.factor[run].asDiagonal() * shape;
+    shapes.push_back(std::move(shape));
   }
   return shapes;
 }
@@ -238,6 +257,19 @@ JointColumns wave_columns(const EffectRecordings& data, const GenericStructure& 
   return columns_of(data, structure.joint, shapes);
 }
 
+StructureKnots structure_knots(const EffectRecordings& data, EffectSignals& signals,
+                               const GenericStructure& structure) {
+  if (!is_function(structure)) return {};
+  return knots_of(arguments_of(data, signals, structure));
+}
+
+JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
+                             const GenericStructure& structure, const StructureKnots& knots) {
+  if (!is_function(structure)) return generic_columns(data, signals, structure);
+  return columns_of(data, structure.joint,
+                    shapes_of(arguments_of(data, signals, structure), knots));
+}
+
 JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
                              const GenericStructure& structure) {
   switch (structure.form) {
@@ -254,7 +286,8 @@ JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signal
     case Form::kSpeeds:
       break;
   }
-  return columns_of(data, structure.joint, shapes_of(data, signals, structure));
+  const Arguments arguments = arguments_of(data, signals, structure);
+  return columns_of(data, structure.joint, shapes_of(arguments, knots_of(arguments)));
 }
 
 }  // namespace dyngen::runtime

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "runtime/diagnosis/nameless_proof.h"
 #include "runtime/diagnosis/own_scatter.h"
 
 namespace dyngen::runtime {
@@ -61,11 +62,11 @@ bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screeni
   for (const GenericResult* generic : strongest) {
     const GenericStructure& structure = structures_[generic->structure];
     if (structure.is_specific() && !specific) continue;
-    if (is_said(structure.joint) || !sure(screening, generic->surprise)) {
+    if (is_said(structure.joint)) {
       specific = false;
       continue;
     }
-    if (describe(*generic, system, "")) return true;
+    if (describe(*generic, system, "", !sure(screening, generic->surprise))) return true;
   }
   return false;
 }
@@ -135,20 +136,27 @@ bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screenin
 }
 
 bool NamelessSearch::describe(const GenericResult& generic, const EvidenceSystem& system,
-                              const std::string& costly) {
+                              const std::string& costly, bool needs_proof) {
   Nameless nameless;
   nameless.structure = structures_[generic.structure];
   nameless.structure.frequency = generic.frequency;
   nameless.surprise = generic.surprise;
   nameless.costly = costly;
-  return add(std::move(nameless), system);
+  return add(std::move(nameless), system, needs_proof);
 }
 
-bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system) {
+/// @param needs_proof  that held-out recordings have it too
+bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system, bool needs_proof) {
   const int joint = nameless.structure.joint;
   const JointColumns plain = nameless_columns(data_, signals_, nameless);
   const JointColumns white = system.whitened(plain);
   nameless.score = score_of(system.products(white, false), false);
+  if (needs_proof &&
+      !(is_provable(nameless) &&
+        nameless_proof(data_, signals_, heldout_, hypotheses_, result_, nameless, options_)
+            .helps())) {
+    return false;
+  }
   const auto own = std::find(plain.joints.begin(), plain.joints.end(), joint);
   const auto place = static_cast<std::size_t>(own - plain.joints.begin());
   if (result_.noise.from_periods &&

@@ -14,14 +14,17 @@ namespace dyngen::runtime {
 /// that effects are looked for beside it.
 class NamelessSearch {
  public:
-  /// All must outlive it. @param result  what was found so far; grows
+  /// All must outlive it.
+  /// @param heldout  what was found in the others is held against them
+  /// @param result   what was found so far; grows
   NamelessSearch(const EffectRecordings& data, EffectSignals& signals,
-                 const std::vector<Hypothesis>& hypotheses,
+                 const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
                  const std::vector<GenericStructure>& structures, const Stops& stops,
                  Witness& witness, const EvidenceSystem::Options& options, double false_alarm,
                  CompetitionResult& result)
       : data_(data),
         signals_(signals),
+        heldout_(heldout),
         hypotheses_(hypotheses),
         structures_(structures),
         stops_(stops),
@@ -37,7 +40,9 @@ class NamelessSearch {
   /// Generic structure that `costly` would explain, for more parameters than the data pay for.
   /// @return false if the witness contradicts it
   bool describe(const GenericResult& generic, const EvidenceSystem& system,
-                const std::string& costly);
+                const std::string& costly) {
+    return describe(generic, system, costly, false);
+  }
 
   /// Whether structure may be said to be there although nothing that is held out speaks for it.
   [[nodiscard]] bool sure(const Screening& screening, double surprise) const;
@@ -52,10 +57,13 @@ class NamelessSearch {
                                           const std::vector<int>& joints) const;
   [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
   [[nodiscard]] std::vector<const GenericResult*> candidates(const Screening& screening) const;
-  bool add(Nameless nameless, const EvidenceSystem& system);
+  bool describe(const GenericResult& generic, const EvidenceSystem& system,
+                const std::string& costly, bool needs_proof);
+  bool add(Nameless nameless, const EvidenceSystem& system, bool needs_proof = false);
 
   const EffectRecordings& data_;
   EffectSignals& signals_;
+  const EffectRecordings& heldout_;
   const std::vector<Hypothesis>& hypotheses_;
   const std::vector<GenericStructure>& structures_;
   const Stops& stops_;

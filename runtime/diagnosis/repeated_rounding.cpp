@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "runtime/recordings/periods.h"
 #include "runtime/signals/low_pass_state.h"
@@ -16,6 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kMuchLess = 0.5;  // of the standard deviation of rounding
+constexpr double kOfStep = 0.25;   // of an encoder: an error that is no rounding
 constexpr int kOrder = 4;          // of the joint state's filter
 constexpr double kHighest = 0.49;  // of the sampling frequency: a cut-off
 
@@ -64,6 +67,21 @@ bool repeats_rounding(const MotionSource& source) {
     repeats = repeats || (scatter(piece.motion).array() < much_less.array()).any();
   });
   return repeats;
+}
+
+bool within_rounding(const EffectRecordings& data, const Hypothesis& hypothesis,
+                     const EffectInstance& estimate) {
+  const std::vector<std::string>& read = estimate.law.variables;
+  const bool error =
+      hypothesis.ordered && std::find(read.begin(), read.end(), "d_qdd") != read.end();
+  if (!error || estimate.joint < 0) return false;
+  double step = 0;
+  for (const EffectRun& run : data.runs) step = std::max(step, run.position_step[estimate.joint]);
+  double squares = 0;
+  for (const int p : hypothesis.linear) {
+    squares += estimate.parameters[p] * estimate.parameters[p];
+  }
+  return std::sqrt(squares) < kOfStep * step;
 }
 
 }  // namespace dyngen::runtime

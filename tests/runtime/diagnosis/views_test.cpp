@@ -51,6 +51,31 @@ TEST(RepeatedRounding, IsSeenWherePeriodsShowTheSameDigits) {
   EXPECT_FALSE(repeats_rounding(part_of(rounded(0), 0, 0.25)));  // a period alone
 }
 
+TEST(WithinRounding, IsAnErrorOfThePositionBelowAQuarterOfTheStep) {
+  EffectRecordings data = test::arm_recordings(test::two_recordings({}, 1));
+  Hypothesis hypothesis;
+  hypothesis.linear = {0, 1};
+  hypothesis.shapes = {2};
+  hypothesis.ordered = true;
+  const auto within = [&](const std::vector<std::string>& variables, double a, double b) {
+    const EffectLaw law = test::algebraic_law("error", variables,
+                                              {{"a", EffectRole::kLinear, -1, 1, 0, 1},
+                                               {"b", EffectRole::kLinear, -1, 1, 0, 1},
+                                               {"n", EffectRole::kScanned, 1, 400, 50, 50}},
+                                              [](const VectorXd&, const VectorXd&) { return 0.0; });
+    return within_rounding(data, hypothesis, test::known(law, 1, {a, b, 80}));
+  };
+  const std::vector<std::string> error = {"q", "d_qdd"};
+  for (EffectRun& run : data.runs) run.position_step = VectorXd::Zero(2);
+  EXPECT_FALSE(within(error, 1e-9, 0));  // nothing is known of the encoder
+  data.runs[1].position_step[1] = 1e-4;
+  EXPECT_TRUE(within(error, 1.5e-5, -1.5e-5));
+  EXPECT_FALSE(within(error, 2e-5, -2e-5));
+  EXPECT_FALSE(within({"q"}, 1.5e-5, 0));  // a torque
+  hypothesis.ordered = false;
+  EXPECT_FALSE(within(error, 1.5e-5, 0));
+}
+
 TEST(BesideRests, TheJointStateIsQuickUnlessRoundingRepeats) {
   const std::vector<MotionSource> noisy = {rounded(0.5)}, same = {rounded(0)};
   ASSERT_LT(noisy[0].cutoff.hz, 50);
@@ -106,6 +131,25 @@ TEST(Rests, AreLeftOutOfTheJointsThatAreNamed) {
   EXPECT_GE(left_out, static_cast<double>(2 * turns));
   EXPECT_LE(left_out, static_cast<double>(5 * turns));  // one equation a sample reaches one further
   EXPECT_NEAR(least_counted(data), 1 - left_out / all, 1e-12);
+}
+
+TEST(Rests, TakeFewerEquationsWithAShorterFilter) {
+  const auto left_out = [](double attenuation) {
+    RowOptions rows;
+    rows.decimation = 6;
+    rows.pass = 0.5;
+    rows.attenuation_db = attenuation;
+    EffectRecordings data = effect_recordings(
+        test::planar_arm(), test::planar_arm_tangents(),
+        test::measured({test::sines(30, 0.004)}, test::planar_arm_values(), {}, 0.1, 0, 1), rows,
+        {true, true});
+    EffectRun& run = data.runs.front();
+    const double before = run.rows.counted.col(1).sum();
+    leave_out_rests(run, VectorXd::Constant(2, 1e-3), {1});
+    return before - run.rows.counted.col(1).sum();
+  };
+  EXPECT_GT(left_out(30), 0);
+  EXPECT_LT(left_out(30), 0.8 * left_out(60));
 }
 
 TEST(Rests, AreLeftOutOfTheRecordingsInWhichTheyAreSeen) {
