@@ -28,16 +28,23 @@ std::vector<Recording> record_all(const Draft& draft, const std::vector<Truth>& 
   return all;
 }
 
+/// What equations can hold that are made of filtered positions, beside joints that stick: nothing
+/// faster than the joint state, nothing within a filter's reach of a rest.
+struct Reach {
+  double hz = 0;       // 0: all that was recorded
+  double seconds = 0;  // around a rest
+};
+constexpr Reach kFiltered{20, 0.04};
+
 /// Training recordings in the coordinates in which noise is white.
 struct Whitened {
-  explicit Whitened(const Machine& machine, const std::vector<Recording>& training)
+  explicit Whitened(const Machine& machine, const std::vector<Recording>& training,
+                    const Reach& reach = {})
       : whitener(training) {
+    if (reach.hz > 0) whitener.stop_above(reach.hz, training.front().log.rate);
     std::vector<MatrixXd> columns;
     for (const Recording& each : training) {
-      const auto white = [&](MatrixXd rows) {
-        leave_out_rest(each.log, rows);
-        return whitener(rows);
-      };
+      const RestWhitener white(whitener, each.log, reach.seconds);
       columns.push_back(white(base_columns(machine, each.log)));
       const VectorXd tau = torque_rows(each.log.recorded);
       torque.emplace_back(white(tau));
@@ -116,11 +123,11 @@ std::vector<double> heldout_rms(const Draft& draft, const std::vector<Recording>
   std::vector<MatrixXd> columns;
   std::vector<VectorXd> torque;
   for (const Recording& each : training) {
-    MatrixXd own = columns_of(each, each.log);
-    MatrixXd tau = torque_rows(each.log.recorded + each.torque_noise);
-    for (MatrixXd* rows : {&own, &tau}) leave_out_rest(each.log, *rows);
-    columns.push_back(whitener(own));
-    torque.emplace_back(whitener(tau));
+    const MatrixXd own = columns_of(each, each.log);
+    const MatrixXd tau = torque_rows(each.log.recorded + each.torque_noise);
+    const RestWhitener white(whitener, each.log);
+    columns.push_back(white(own));
+    torque.emplace_back(white(tau));
   }
   const VectorXd answer = Refit(std::move(columns)).solve(torque);
   const Index joints = draft.machine.joints();
@@ -181,6 +188,7 @@ std::optional<Case> make_case(const CaseOptions& options, const std::string& arm
   double rows = 0;
   for (const VectorXd& each : whitened.left) rows += static_cast<double>(each.size());
   made.excess = std::sqrt(1 + whitened.lambda() / rows) - 1;
+  made.filtered = Whitened(draft.machine, made.training, kFiltered).lambda();
   if (options.kind == "single") {
     made.imitated = imitated_shares(draft.machine, made.truths.front(), made.training,
                                     whitened.whitener, *whitened.refit, whitened.left);

@@ -77,6 +77,7 @@ nlohmann::json manifest_entry(const Case& made) {
                           {"encoder_bits", made.noise.bits},
                           {"excess", made.excess},
                           {"heldout_oracle", made.heldout_oracle},
+                          {"filtered", made.filtered},
                           {"heldout_base", made.heldout_base},
                           {"imitated", made.imitated},
                           {"truths", nlohmann::json::array()}};

@@ -113,7 +113,22 @@ TEST(Simulation, HasTheWantedStrength) {
   EXPECT_LT(made->lambdas.front(), 40 * 1.3);
   EXPECT_GT(made->absorbed.front(), 0);
   EXPECT_LT(made->absorbed.front(), 1);
+  // some of it is at rests, some too fast for filtered positions
+  EXPECT_GT(made->filtered, 0.05 * made->lambdas.front());
+  EXPECT_LT(made->filtered, made->lambdas.front());
   ASSERT_EQ(made->heldout_oracle.size(), made->heldout_base.size());
+}
+
+TEST(Simulation, LatenessShowsMostlyInJolts) {
+  CaseOptions options;
+  options.arm = "planar2";
+  options.kind = "single";
+  options.family = "time_delay";
+  options.lambda = 80;
+  options.seed = 5;
+  const auto made = make_case(options, kArms);
+  ASSERT_TRUE(made);
+  EXPECT_LT(made->filtered, 0.5 * made->lambdas.front());
 }
 
 // Arms that come to rest under a noisy encoder let go and hold on again.

@@ -238,13 +238,16 @@ std::map<std::string, double> imitated_shares(const Machine& machine, const Trut
   for (Index j = 0; j < machine.joints(); ++j) {
     if (truth.joint == 0 || j + 1 == truth.joint || j + 1 == truth.other) joints.push_back(j);
   }
+  std::vector<RestWhitener> white;
+  for (const Recording& each : training) white.emplace_back(whitener, each.log);
   std::map<std::string, double> shares;
   for (const Rival& rival : rivals()) {
     if (rival.family == truth.family) continue;
     double& best = shares[rival.family];
     for (const Index joint : joints) {
       std::vector<MatrixXd> columns;
-      for (const Recording& each : training) {
+      for (std::size_t i = 0; i < training.size(); ++i) {
+        const Recording& each = training[i];
         const MatrixXd own = rival.columns(machine, each.log, joint);
         MatrixXd rows = MatrixXd::Zero(each.log.q.size(), own.cols());
         if (rival.spread) {
@@ -252,8 +255,7 @@ std::map<std::string, double> imitated_shares(const Machine& machine, const Trut
         } else {
           rows.middleRows(joint * each.log.q.rows(), each.log.q.rows()) = own;
         }
-        leave_out_rest(each.log, rows);
-        columns.push_back(whitener(rows));
+        columns.push_back(white[i](rows));
       }
       best = std::max(best, share(columns, refit, left));
     }

@@ -13,6 +13,7 @@ Json single() {
   return {{"case", "c"},
           {"kind", "single"},
           {"excess", 0.001},
+          {"filtered", 30.0},
           {"imitated", Json::object()},
           {"heldout_oracle", {1.0, 2.0}},
           {"truths", Json::array({Json{{"family", "stribeck"},

@@ -25,6 +25,7 @@ Json entry(const std::string& kind, const Json& truths) {
   return {{"case", "c"},
           {"kind", kind},
           {"excess", 0.004},
+          {"filtered", 30.0},
           {"wanted_lambda", 80},
           {"arm", "planar2"},
           {"loop", "PD"},

@@ -71,6 +71,7 @@ Judged judge(const Json& truth, const Json& answer) {
   if (!truths.empty()) {
     judged.lambda = truths[0]["lambda"];
     judged.absorbed = truths[0]["absorbed"];
+    judged.filtered = truth.at("filtered");
     double imitated = 0;
     for (const auto& [family, share] : truth["imitated"].items()) {
       imitated = std::max(imitated, share.get<double>());

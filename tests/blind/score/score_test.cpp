@@ -13,6 +13,7 @@ Json truth(const std::string& kind, const std::vector<std::pair<std::string, int
   Json entry = {{"case", "c"},
                 {"kind", kind},
                 {"excess", 0.001},
+                {"filtered", 30.0},
                 {"wanted_lambda", 80},
                 {"arm", "planar2"},
                 {"loop", "PD"},

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -116,6 +117,34 @@ std::string ladder(const Set& singles) {
   return text + "\n";
 }
 
+/// By what is left of lambda in equations of filtered positions, away from rests.
+std::string filtered_ladder(const Set& singles) {
+  constexpr std::array<double, 7> kEdges = {0, 5, 10, 20, 40, 80, 1e9};
+  std::string text =
+      "| lambda below 20 Hz, away from rests | found | by who knows the form and has that much |\n"
+      "|---|---|---|\n";
+  for (std::size_t i = 0; i + 1 < kEdges.size(); ++i) {
+    const Set here = part(singles, [&](const Judged& e) {
+      return e.filtered >= kEdges[i] && e.filtered < kEdges[i + 1];
+    });
+    if (here.empty()) continue;
+    double expected = 0;
+    for (const Judged* each : here) {
+      expected += oracle_power(each->filtered, 1) / static_cast<double>(here.size());
+    }
+    const std::string range = i + 2 < kEdges.size()
+                                  ? fmt::format("{:g} to {:g}", kEdges[i], kEdges[i + 1])
+                                  : fmt::format("{:g} and more", kEdges[i]);
+    text += fmt::format("| {} | {} | {:.1f} % |\n", range,
+                        rate(here, [](const Judged& e) { return e.found; }), 100 * expected);
+  }
+  const Set strong = part(singles, is_strong);
+  return text +
+         fmt::format(
+             "\nOf effects of lambda 60 and more the median has {:.0f} % of it there.\n\n",
+             100 * quantile(strong, 0.5, [](const Judged& e) { return e.filtered / e.lambda; }));
+}
+
 std::string confusion(const Set& all) {
   std::map<std::string, std::map<std::string, int>> counts;
   for (const Judged* each : all) ++counts[family_of(*each)][first_name(*each)];
@@ -190,7 +219,9 @@ std::string tables(const std::vector<Judged>& judged) {
   add("passing: found", kind("passing"), [](const Judged& e) { return e.found; });
   text += "\n";
   const Set singles = kind("single");
-  if (!singles.empty()) text += concealment(singles) + single_table(singles) + ladder(singles);
+  if (!singles.empty())
+    text +=
+        concealment(singles) + single_table(singles) + ladder(singles) + filtered_ladder(singles);
   text += estimate_table(judged);
   return text + confusion(all);
 }

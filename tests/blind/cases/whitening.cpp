@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "tests/blind/cases/whitening.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <unsupported/Eigen/FFT>
+
+#include "tests/blind/truths/parts.h"
+
+namespace blind {
+namespace {
+
+using Eigen::MatrixXd;
+
+constexpr double kSmooth = 0.12;  // of a frequency: lines on each side whose mean is its power
+// of the weight of unknown values, so that those which a stopped band cannot show have one too
+constexpr double kLeast = 1e-9;
+
+VectorXd whitened(const VectorXd& values, const VectorXd& deviation) {
+  Eigen::FFT<double> fft;
+  std::vector<double> time(values.begin(), values.end());
+  std::vector<std::complex<double>> lines;
+  fft.fwd(lines, time);
+  const double n = static_cast<double>(time.size());
+  const double last = static_cast<double>(deviation.size() - 1);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const double line = std::min(static_cast<double>(k), n - static_cast<double>(k));
+    const double place = line / (n / 2) * last;
+    const Index low = std::min<Index>(static_cast<Index>(place), deviation.size() - 2);
+    const double share = place - static_cast<double>(low);
+    const bool stopped = std::isinf(deviation[low + 1]);
+    lines[k] = stopped ? 0 : lines[k] / ((1 - share) * deviation[low] + share * deviation[low + 1]);
+  }
+  fft.inv(time, lines);
+  return Eigen::Map<VectorXd>(time.data(), static_cast<Index>(time.size()));
+}
+
+/// Error of the equations: of the torque, and of the acceleration that positions give.
+MatrixXd equation_error(const Recording& recording) {
+  const MatrixXd& n = recording.encoder_error;
+  MatrixXd error = recording.torque_noise;
+  const double square = recording.log.rate * recording.log.rate;
+  for (Index k = 1; k + 1 < n.rows(); ++k) {
+    const VectorXd ddn = (n.row(k + 1) - 2 * n.row(k) + n.row(k - 1)).transpose() * square;
+    error.row(k) -= (recording.log.M[at(k)] * ddn).transpose();
+  }
+  return error;
+}
+
+}  // namespace
+
+std::vector<std::vector<Index>> rests_of(const Log& log, double reach) {
+  const Index samples = log.q.rows(), around = std::lround(reach * log.rate);
+  std::vector<std::vector<Index>> rests(at(log.q.cols()));
+  for (Index j = 0; j < log.q.cols(); ++j) {
+    Index next = 0;  // the first sample that is not among them
+    for (Index k = 0; k < samples; ++k) {
+      const bool turns = around > 0 && k > 0 && log.sign(k, j) * log.sign(k - 1, j) <= -1;
+      if (std::abs(log.sign(k, j)) >= 1 && !turns) continue;
+      const Index to = std::min(samples, k + around + 1);
+      for (next = std::max(next, k - around); next < to; ++next) rests[at(j)].push_back(next);
+    }
+  }
+  return rests;
+}
+
+void leave_out_rest(const Log& log, Eigen::Ref<MatrixXd> rows) {
+  const auto rests = rests_of(log);
+  for (Index j = 0; j < log.q.cols(); ++j) {
+    for (const Index k : rests[at(j)]) rows.row(j * log.q.rows() + k).setZero();
+  }
+}
+
+Whitener::Whitener(const std::vector<Recording>& training) {
+  const Index joints = training.front().log.q.cols(), samples = training.front().log.q.rows();
+  MatrixXd power = MatrixXd::Zero(samples / 2 + 1, joints);
+  Eigen::FFT<double> fft;
+  VectorXd window(samples);
+  for (Index k = 0; k < samples; ++k) {
+    const double turn = 2 * kPi * static_cast<double>(k) / static_cast<double>(samples);
+    window[k] = 0.5 - 0.5 * std::cos(turn);
+  }
+  const double scale = window.squaredNorm() * static_cast<double>(training.size());
+  for (const Recording& recording : training) {
+    const MatrixXd error = equation_error(recording);
+    for (Index j = 0; j < joints; ++j) {
+      const VectorXd part = error.col(j).cwiseProduct(window);
+      std::vector<double> time(part.begin(), part.end());
+      std::vector<std::complex<double>> lines;
+      fft.fwd(lines, time);
+      for (Index k = 0; k < power.rows(); ++k) power(k, j) += std::norm(lines[at(k)]) / scale;
+    }
+  }
+  // the mean over lines near in their logarithm: what is slow has few of them
+  MatrixXd sum = MatrixXd::Zero(power.rows() + 1, joints);
+  for (Index k = 0; k < power.rows(); ++k) sum.row(k + 1) = sum.row(k) + power.row(k);
+  deviation_.resize(power.rows(), joints);
+  for (Index k = 0; k < power.rows(); ++k) {
+    const auto reach = static_cast<Index>(2 + kSmooth * static_cast<double>(k));
+    const Index from = std::max<Index>(0, k - reach);
+    const Index to = std::min<Index>(power.rows(), k + reach + 1);
+    deviation_.row(k) =
+        ((sum.row(to) - sum.row(from)) / static_cast<double>(to - from)).cwiseSqrt();
+  }
+}
+
+VectorXd Whitener::column(Index joint, const VectorXd& values) const {
+  return whitened(values, deviation_.col(joint));
+}
+
+void Whitener::stop_above(double hz, double rate) {
+  const auto last = static_cast<double>(deviation_.rows() - 1);
+  const auto first = static_cast<Index>(std::ceil(hz / (rate / 2) * last));
+  if (first >= deviation_.rows()) return;
+  deviation_.bottomRows(deviation_.rows() - first)
+      .setConstant(std::numeric_limits<double>::infinity());
+}
+
+RestWhitener::RestWhitener(const Whitener& whitener, const Log& log, double reach)
+    : whitener_(whitener), rests_(rests_of(log, reach)), weight_(rests_.size()) {
+  const Index samples = log.q.rows();
+  for (Index j = 0; j < log.q.cols(); ++j) {
+    const std::vector<Index>& rests = rests_[at(j)];
+    if (rests.empty()) continue;
+    // what two of them share depends on how far apart they are
+    const VectorXd shared = whitener.column(j, whitener.column(j, VectorXd::Unit(samples, 0)));
+    const auto count = static_cast<Index>(rests.size());
+    MatrixXd weight(count, count);
+    for (Index a = 0; a < count; ++a) {
+      for (Index b = 0; b <= a; ++b) weight(a, b) = shared[rests[at(a)] - rests[at(b)]];
+    }
+    weight.diagonal().array() += kLeast * shared[0];
+    weight_[at(j)].compute(weight);
+  }
+}
+
+MatrixXd RestWhitener::operator()(const MatrixXd& rows) const {
+  const Index joints = whitener_.joints(), samples = rows.rows() / joints;
+  MatrixXd result = MatrixXd::Zero(rows.rows(), rows.cols());
+  for (Index c = 0; c < rows.cols(); ++c) {
+    for (Index j = 0; j < joints; ++j) {
+      const std::vector<Index>& rests = rests_[at(j)];
+      VectorXd part = rows.col(c).segment(j * samples, samples);
+      part(rests).setZero();
+      if (part.isZero(0)) continue;
+      VectorXd white = whitener_.column(j, part);
+      if (!rests.empty()) {
+        const VectorXd shown = whitener_.column(j, white)(rests);
+        const VectorXd there = weight_[at(j)].solve(shown);
+        VectorXd unknown = VectorXd::Zero(samples);
+        unknown(rests) = there;
+        white -= whitener_.column(j, unknown);
+      }
+      result.col(c).segment(j * samples, samples) = white;
+    }
+  }
+  return result;
+}
+
+}  // namespace blind

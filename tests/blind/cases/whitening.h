@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// What noise leaves to be seen: equations in coordinates in which it is white.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <vector>
+
+#include "tests/blind/simulation/machine.h"
+#include "tests/blind/simulation/noise.h"
+
+namespace blind {
+
+/// A recording, and what was added to it.
+struct Recording {
+  Log log;
+  Eigen::MatrixXd torque_noise;   ///< (N x j) N m
+  Eigen::MatrixXd encoder_error;  ///< (N x j) rad
+};
+
+/// Samples of each joint at which it rests: friction holds it with any torque there.
+/// @param reach  s, before and after
+std::vector<std::vector<Eigen::Index>> rests_of(const Log& log, double reach = 0);
+
+/// Makes the equations 0 = 0 where a joint rests.
+/// @param rows   (N j x k), in place
+void leave_out_rest(const Log& log, Eigen::Ref<Eigen::MatrixXd> rows);
+
+/// The noise of the equations: of the torque, and what encoders add through the accelerations.
+/// Spectra of all training recordings, smoothed over near lines. Dividing by their root makes it
+/// white, of variance 1.
+class Whitener {
+ public:
+  explicit Whitener(const std::vector<Recording>& training);
+  /// One joint's values, (N). Symmetric in time.
+  Eigen::VectorXd column(Eigen::Index joint, const Eigen::VectorXd& values) const;
+  /// Takes away what is faster.
+  void stop_above(double hz, double rate);
+  Eigen::Index joints() const { return deviation_.cols(); }
+
+ private:
+  Eigen::MatrixXd deviation_;  // (lines x j) root of the spectrum, from 0 to half of the rate
+};
+
+/// Whitens the equations of one recording but for those where a joint rests, of which nothing is
+/// known: what any torque there would change is taken out, so that gaps in coloured noise tell
+/// nothing by their edges.
+class RestWhitener {
+ public:
+  /// @param whitener  must outlive it
+  /// @param reach     s, before and after a rest
+  RestWhitener(const Whitener& whitener, const Log& log, double reach = 0);
+  /// @param rows  (N j x k), with any values where joints rest
+  Eigen::MatrixXd operator()(const Eigen::MatrixXd& rows) const;
+
+ private:
+  const Whitener& whitener_;
+  std::vector<std::vector<Eigen::Index>> rests_;     // of each joint
+  std::vector<Eigen::LLT<Eigen::MatrixXd>> weight_;  // of unknown values there, inverse covariance
+};
+
+}  // namespace blind
