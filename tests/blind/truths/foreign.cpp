@@ -101,16 +101,17 @@ Truth rail(const Machine& machine, Random random) {
   return truth;
 }
 
-/// A compensation in the drive that the record does not show, and that reads the wrong encoder.
+/// A compensation in the drive that the record does not show, and that reads the wrong encoder and
+/// loses its sign.
 Truth compensation(const Machine& machine, Index joint, Random) {
   Truth truth = truth_of("unknown", joint,
-                         "the drive adds s tanh(v_other/0.1 rad/s), which is not recorded", true);
+                         "the drive adds s tanh(|v_other|/0.5 rad/s), which is not recorded", true);
   const Index other = joint + 1 < machine.joints() ? joint + 1 : joint - 1;
   truth.other = static_cast<int>(other) + 1;
   truth.typical = 0.3 * machine.coulomb[joint];
   truth.plant = [=](double size, int, Plant& plant) {
     change(plant.acting, joint, [=, c = plant.drive[at(other)]](const Moment& m, double u) {
-      return u + size * std::tanh(m.v[c] / 0.1);
+      return u + size * std::tanh(std::abs(m.v[c]) / 0.5);
     });
   };
   return truth;
