@@ -199,11 +199,6 @@ Arguments arguments_of(const EffectRecordings& data, EffectSignals& signals,
   return arguments;
 }
 
-bool is_function(const GenericStructure& structure) {
-  return structure.form == Form::kFunction || structure.form == Form::kFriction ||
-         structure.form == Form::kSpeeds;
-}
-
 StructureKnots knots_of(const Arguments& arguments) {
   StructureKnots knots;
   for (const RunValues& values : arguments.of) {
@@ -239,6 +234,11 @@ JointColumns columns_of(const EffectRecordings& data, int joint,
 }
 
 }  // namespace
+
+bool is_function(const GenericStructure& structure) {
+  return structure.form == Form::kFunction || structure.form == Form::kFriction ||
+         structure.form == Form::kSpeeds;
+}
 
 JointColumns wave_columns(const EffectRecordings& data, const GenericStructure& structure,
                           const Eigen::Matrix2Xd& frequencies) {

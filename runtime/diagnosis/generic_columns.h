@@ -7,6 +7,9 @@
 
 namespace dyngen::runtime {
 
+/// Whether it is a function of the motion, of any kind.
+bool is_function(const GenericStructure& structure);
+
 /// Values between which functions are straight lines: of each variable, or of a product of two
 /// velocities; none of what is no function.
 using StructureKnots = std::vector<std::vector<double>>;

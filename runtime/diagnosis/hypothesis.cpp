@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace dyngen::runtime {
 namespace {
@@ -128,6 +129,11 @@ EffectInstance with_shapes(const Hypothesis& hypothesis, const VectorXd& shapes)
     effect.parameters[hypothesis.shapes[i]] = shapes[static_cast<Index>(i)];
   }
   return effect;
+}
+
+bool is_position_error(const Hypothesis& hypothesis) {
+  const std::vector<std::string>& read = hypothesis.effect.law.variables;
+  return hypothesis.ordered && std::find(read.begin(), read.end(), "d_qdd") != read.end();
 }
 
 std::vector<VectorXd> shape_grid(const Hypothesis& hypothesis, const EffectScales& scales,

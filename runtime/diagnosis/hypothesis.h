@@ -25,6 +25,9 @@ struct Hypothesis {
 /// @param scales  at the model's present estimate
 Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scales);
 
+/// Whether it is an error of a joint's position that repeats with the position.
+bool is_position_error(const Hypothesis& hypothesis);
+
 /// Trial values of the shapes: a grid between the bounds, around the typical values. The shapes of
 /// each entry, in the order of Hypothesis::shapes.
 std::vector<Eigen::VectorXd> shape_grid(const Hypothesis& hypothesis, const EffectScales& scales,

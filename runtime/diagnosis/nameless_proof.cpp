@@ -8,16 +8,12 @@
 namespace dyngen::runtime {
 
 using Eigen::VectorXd;
-using Form = GenericStructure::Form;
 
 bool is_provable(const Nameless& nameless) {
   const GenericStructure& structure = nameless.structure;
   if (nameless.ruled_out) return false;
-  if (structure.form == Form::kWave) return true;
-  if (structure.form != Form::kFunction && structure.form != Form::kFriction &&
-      structure.form != Form::kSpeeds) {
-    return false;
-  }
+  if (structure.form == GenericStructure::Form::kWave) return true;
+  if (!is_function(structure)) return false;
   return std::none_of(structure.variables.begin(), structure.variables.end(),
                       [](const StructureVariable& variable) {
                         return variable.kind == StructureVariable::Kind::kTime;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "runtime/recordings/periods.h"
@@ -71,10 +70,7 @@ bool repeats_rounding(const MotionSource& source) {
 
 bool within_rounding(const EffectRecordings& data, const Hypothesis& hypothesis,
                      const EffectInstance& estimate) {
-  const std::vector<std::string>& read = estimate.law.variables;
-  const bool error =
-      hypothesis.ordered && std::find(read.begin(), read.end(), "d_qdd") != read.end();
-  if (!error || estimate.joint < 0) return false;
+  if (!is_position_error(hypothesis) || estimate.joint < 0) return false;
   double step = 0;
   for (const EffectRun& run : data.runs) step = std::max(step, run.position_step[estimate.joint]);
   double squares = 0;

@@ -62,9 +62,7 @@ std::vector<VectorXd> ordered_grid(const Hypothesis& hypothesis, const EffectSca
   const EffectSizes sizes = hypothesis.effect.law.sizes(scales);
   std::vector<VectorXd> grid;
   const bool harmonics = hypothesis.linear.size() > 2;
-  const auto& read = hypothesis.effect.law.variables;
-  const bool error = std::find(read.begin(), read.end(), "d_qdd") != read.end();
-  for (const double peak : error ? orders.error_peaks : orders.peaks) {
+  for (const double peak : is_position_error(hypothesis) ? orders.error_peaks : orders.peaks) {
     for (const double harmonic : {1.0, 2.0, 4.0}) {
       if (harmonic > 1 && !harmonics) continue;
       const double value = peak / harmonic;

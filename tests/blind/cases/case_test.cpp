@@ -49,6 +49,15 @@ CaseOptions quiet(const std::string& kind, std::uint64_t seed) {
   return options;
 }
 
+CaseOptions single(const std::string& family, double lambda, std::uint64_t seed) {
+  CaseOptions options;
+  options.kind = "single";
+  options.family = family;
+  options.lambda = lambda;
+  options.seed = seed;
+  return options;
+}
+
 /// Accelerations that positions give, less the simulation's, rms over rms, the worst joint: what
 /// the integrator errs. Not where a joint turns or rests: acceleration jumps there.
 double acceleration_error(const Case& made) {
@@ -102,12 +111,7 @@ TEST(Simulation, OfWhatIsHiddenLeavesLessThanTwoThousandths) {
 }
 
 TEST(Simulation, HasTheWantedStrength) {
-  CaseOptions options;
-  options.kind = "single";
-  options.family = "load_friction";
-  options.lambda = 40;
-  options.seed = 3;
-  const auto made = make_case(options, kArms);
+  const auto made = make_case(single("load_friction", 40, 3), kArms);
   ASSERT_TRUE(made);
   EXPECT_GT(made->lambdas.front(), 40 / 1.3);
   EXPECT_LT(made->lambdas.front(), 40 * 1.3);
@@ -120,12 +124,8 @@ TEST(Simulation, HasTheWantedStrength) {
 }
 
 TEST(Simulation, LatenessShowsMostlyInJolts) {
-  CaseOptions options;
+  CaseOptions options = single("time_delay", 80, 5);
   options.arm = "planar2";
-  options.kind = "single";
-  options.family = "time_delay";
-  options.lambda = 80;
-  options.seed = 5;
   const auto made = make_case(options, kArms);
   ASSERT_TRUE(made);
   EXPECT_LT(made->filtered, 0.5 * made->lambdas.front());

@@ -63,7 +63,8 @@ TEST(WithinRounding, IsAnErrorOfThePositionBelowAQuarterOfTheStep) {
                                                {"b", EffectRole::kLinear, -1, 1, 0, 1},
                                                {"n", EffectRole::kScanned, 1, 400, 50, 50}},
                                               [](const VectorXd&, const VectorXd&) { return 0.0; });
-    return within_rounding(data, hypothesis, test::known(law, 1, {a, b, 80}));
+    hypothesis.effect = test::known(law, 1, {a, b, 80});
+    return within_rounding(data, hypothesis, hypothesis.effect);
   };
   const std::vector<std::string> error = {"q", "d_qdd"};
   for (EffectRun& run : data.runs) run.position_step = VectorXd::Zero(2);
