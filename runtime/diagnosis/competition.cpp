@@ -37,10 +37,11 @@ constexpr double kShortest = 3;          // equations that an event lasts
 /// One competition's data and what was found so far.
 class Competition {
  public:
-  Competition(const EffectRecordings& train, Witness& witness, const EffectRecordings& heldout,
-              const std::vector<Hypothesis>& hypotheses, const CompetitionOptions& options,
-              const CompetitionProgress& progress)
+  Competition(const EffectRecordings& train, const EffectRecordings& fitted, Witness& witness,
+              const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
+              const CompetitionOptions& options, const CompetitionProgress& progress)
       : train_(train),
+        fitted_(fitted),
         heldout_(heldout),
         hypotheses_(hypotheses),
         structures_(generic_structures(train.joints())),
@@ -49,7 +50,7 @@ class Competition {
         scales_(train),
         signals_(train),
         screening_data_(train),
-        repeats_(repeats_of(train)),
+        repeats_(repeats_of(fitted)),
         witness_(witness),
         stops_(train_, signals_, structures_, result_.resting, options_.false_alarm),
         nameless_(train_, signals_, heldout_, hypotheses_, structures_, stops_, witness_,
@@ -99,15 +100,15 @@ class Competition {
     settings.most_rounds = 2;
     settings.most_steps = 15;
     settings.tolerance = 1e-6;
-    return fit_effects(train_, effects, settings);
+    return fit_effects(fitted_, effects, settings);
   }
 
   /// Effects of all winners, with their latest estimates.
   [[nodiscard]] std::vector<EffectInstance> effects() const { return result_.fit.point.effects; }
 
   void measure_noise() {
-    const RunResiduals residuals = residuals_of(train_, result_.fit.point);
-    result_.noise = torque_noise_model(train_, residuals, repeats_, options_.with_regressor);
+    const RunResiduals residuals = residuals_of(fitted_, result_.fit.point);
+    result_.noise = torque_noise_model(fitted_, residuals, repeats_, options_.with_regressor);
   }
 
   [[nodiscard]] EvidenceSystem::Options system_options() const {
@@ -462,6 +463,7 @@ class Competition {
   }
 
   const EffectRecordings& train_;
+  const EffectRecordings& fitted_;
   const EffectRecordings& heldout_;
   const std::vector<Hypothesis>& hypotheses_;
   std::vector<GenericStructure> structures_;
@@ -482,11 +484,11 @@ class Competition {
 
 }  // namespace
 
-CompetitionResult compete(const EffectRecordings& train, Witness& witness,
-                          const EffectRecordings& heldout,
+CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
+                          Witness& witness, const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options, const CompetitionProgress& progress) {
-  return Competition(train, witness, heldout, hypotheses, options, progress).run();
+  return Competition(train, fitted, witness, heldout, hypotheses, options, progress).run();
 }
 
 }  // namespace dyngen::runtime

@@ -29,9 +29,11 @@ using CompetitionProgress = std::function<void(const std::string& stage, double 
 /// effect is fitted together with all of it and stays if noise alone would hardly have given it and
 /// it is proved on held-out recordings and, where motions repeat, the witness does not contradict
 /// it. At the end each winner is tested again beside all others.
-/// @param witness  of the same recordings as `train`
-CompetitionResult compete(const EffectRecordings& train, Witness& witness,
-                          const EffectRecordings& heldout,
+/// @param train    what evidence is of
+/// @param fitted   the same equations, without those near rests: what fits are of, and noise
+/// @param witness  of the same recordings
+CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
+                          Witness& witness, const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options,
                           const CompetitionProgress& progress = {});

@@ -129,8 +129,8 @@ class Diagnostician {
     settings.until_rest = true;
     for (;;) {
       Witness slow(views_.slow);
-      result_ =
-          runtime::compete(views_.train, slow, views_.proof, hypotheses_, settings, progress_);
+      result_ = runtime::compete(views_.evidence(), views_.train, slow, views_.proof, hypotheses_,
+                                 settings, progress_);
       if (!settings.until_rest || result_.resting.empty()) return;
       // where that would leave too little, impulses at their reversals are left out instead
       settings.until_rest = look_beside(result_.resting);
@@ -210,13 +210,14 @@ class Diagnostician {
     std::vector<EffectInstance> effects = result_.fit.point.effects;
     answer_.fit = fit_effects(views_.train, effects);
     result_.fit = answer_.fit;
-    EffectSignals signals(views_.train);
+    EffectSignals signals(views_.evidence());
     EvidenceSystem::Options system;
     system.seed = options_.seed;
     system.surrogates = 0;
     system.with_regressor = !options_.residual_only;
     const std::vector<Naming> namings =
-        settle_names(views_.train, views_.proof, signals, hypotheses_, result_, system, progress_);
+        settle_names(views_.evidence(), views_.train, views_.proof, signals, hypotheses_, result_,
+                     system, progress_);
     answer_.fit = result_.fit;
     for (std::size_t i = 0; i < namings.size(); ++i) {
       answer_.findings.push_back(finding(i, namings[i], signals, system));
@@ -235,10 +236,10 @@ class Diagnostician {
     finding.absorbed = 1 - naming.part_left;
     finding.evidence = {naming.lambda, naming.delta_bic, 0};
     const EvidenceSystem system =
-        system_without(views_.train, signals, hypotheses_, result_, place, options);
-    finding.tests = name_tests(views_.train, signals, system, finding.effect);
+        system_without(views_.evidence(), signals, hypotheses_, result_, place, options);
+    finding.tests = name_tests(views_.evidence(), signals, system, finding.effect);
     if (!hypothesis.windowed) finding.tests.push_back(stability_test(naming));
-    finding.where = whereabouts_of(views_.train, signals, system, hypothesis, finding.effect);
+    finding.where = whereabouts_of(views_.evidence(), signals, system, hypothesis, finding.effect);
     if (finding.effect.recording >= 0) {
       finding.where.recording =
           parts_.train[static_cast<std::size_t>(finding.effect.recording)].name;

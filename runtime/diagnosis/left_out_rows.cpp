@@ -57,6 +57,28 @@ Index felt(const Decimator& decimator) {
   return reach;
 }
 
+/// Whether a joint turns or stops at a sample.
+bool rests_at(const Motion& motion, int joint, Index at, double still_speed) {
+  const auto speed = motion.dq.col(joint);
+  const bool turns = at > 0 && (speed[at] < 0) != (speed[at - 1] < 0);
+  return turns || std::abs(speed[at]) < still_speed;
+}
+
+/// Ascending ranges, those that meet joined.
+std::vector<SampleRange> joined_ranges(std::vector<SampleRange> ranges) {
+  std::sort(ranges.begin(), ranges.end(),
+            [](const SampleRange& a, const SampleRange& b) { return a.from < b.from; });
+  std::vector<SampleRange> joined;
+  for (const SampleRange& range : ranges) {
+    if (!joined.empty() && range.from <= joined.back().to) {
+      joined.back().to = std::max(joined.back().to, range.to);
+    } else {
+      joined.push_back(range);
+    }
+  }
+  return joined;
+}
+
 }  // namespace
 
 void leave_out_rests(EffectRun& run, const Eigen::VectorXd& still_speed,
@@ -67,14 +89,27 @@ void leave_out_rests(EffectRun& run, const Eigen::VectorXd& still_speed,
   const Index reach = felt(run.decimator) + factor;
   const Index size = run.rows.Y.cols() / motion.joints();
   for (const int j : joints) {
-    const auto speed = motion.dq.col(j);
     for (Index at = 0; at < motion.samples(); ++at) {
-      const bool turns = at > 0 && (speed[at] < 0) != (speed[at - 1] < 0);
-      if (!turns && std::abs(speed[at]) >= still_speed[j]) continue;
+      if (!rests_at(motion, j, at, still_speed[j])) continue;
       const Index from = std::max<Index>(0, (at - reach - first + factor - 1) / factor);
       const Index to = std::min<Index>(run.rows.Y.rows() - 1, (at + reach - first) / factor);
       for (Index k = from; k <= to; ++k) leave_out(run.rows, k, j, size);
     }
+  }
+}
+
+void mark_rests(EffectRun& run, const Motion& motion, const Eigen::VectorXd& still_speed,
+                const std::vector<int>& joints, double around) {
+  const auto reach = static_cast<Index>(std::ceil(around / motion.sample_time));
+  if (!joints.empty()) run.unknown.resize(static_cast<std::size_t>(motion.joints()));
+  for (const int j : joints) {
+    std::vector<SampleRange>& ranges = run.unknown[static_cast<std::size_t>(j)];
+    for (Index at = 0; at < motion.samples(); ++at) {
+      if (!rests_at(motion, j, at, still_speed[j])) continue;
+      ranges.push_back(
+          {std::max<Index>(0, at - reach), std::min(motion.samples(), at + reach + 1)});
+    }
+    ranges = joined_ranges(std::move(ranges));
   }
 }
 

@@ -93,12 +93,12 @@ double heldout_gain(const EffectRecordings& heldout, const TorqueNoiseModel& noi
 
 /// The model with a rival in the place of a winner; nothing if a bound, a falsifier or a parameter
 /// that the data do not determine speaks against it.
-std::optional<EffectFit> with_rival(const EffectRecordings& train, const CompetitionResult& result,
+std::optional<EffectFit> with_rival(const EffectRecordings& fitted, const CompetitionResult& result,
                                     std::size_t place, const Rival& rival) {
   std::vector<EffectInstance> effects = result.fit.point.effects;
   effects[place] = rival.trial.effect;
   try {
-    EffectFit fit = fit_effects(train, effects);
+    EffectFit fit = fit_effects(fitted, effects);
     for (const EffectRemark& remark : fit.remarks) {
       if (fit.objects(remark, static_cast<int>(place))) return std::nullopt;
     }
@@ -225,7 +225,8 @@ namespace {
 
 /// Adds to the distance of the nearest rival what held-out recordings say, and puts it in the
 /// winner's place if it is better then.
-void settle(const EffectRecordings& train, const EffectRecordings& heldout, EffectSignals& signals,
+void settle(const EffectRecordings& train, const EffectRecordings& fitted,
+            const EffectRecordings& heldout, EffectSignals& signals,
             const std::vector<Hypothesis>& hypotheses, CompetitionResult& result,
             std::size_t winner, const EvidenceSystem::Options& options, Naming& naming) {
   Rival& nearest = naming.rivals.front();
@@ -235,7 +236,7 @@ void settle(const EffectRecordings& train, const EffectRecordings& heldout, Effe
       scatter_refutes(train, signals,
                       system_without(train, signals, hypotheses, result, winner, options),
                       hypotheses[nearest.hypothesis], nearest.trial.effect);
-  if (!refuted) other = with_rival(train, result, winner, nearest);
+  if (!refuted) other = with_rival(fitted, result, winner, nearest);
   if (!other) {
     naming.rivals.erase(naming.rivals.begin());
     return;
@@ -257,8 +258,9 @@ void settle(const EffectRecordings& train, const EffectRecordings& heldout, Effe
 
 }  // namespace
 
-std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& heldout,
-                                 EffectSignals& signals, const std::vector<Hypothesis>& hypotheses,
+std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& fitted,
+                                 const EffectRecordings& heldout, EffectSignals& signals,
+                                 const std::vector<Hypothesis>& hypotheses,
                                  CompetitionResult& result, const EvidenceSystem::Options& options,
                                  const CompetitionProgress& progress) {
   std::vector<Naming> namings;
@@ -268,7 +270,7 @@ std::vector<Naming> settle_names(const EffectRecordings& train, const EffectReco
     }
     Naming naming = name_winner(train, signals, hypotheses, result, i, options);
     if (!naming.rivals.empty() && naming.rivals.front().distance < kApart) {
-      settle(train, heldout, signals, hypotheses, result, i, options, naming);
+      settle(train, fitted, heldout, signals, hypotheses, result, i, options, naming);
       conclude(naming);
     }
     namings.push_back(std::move(naming));

@@ -55,8 +55,9 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
 /// fitted with it in the winner's place, and what held-out recordings say of the two is added to
 /// their distance; a rival that is better then takes the place.
 /// @param result  its winners and its fit, in place
-std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& heldout,
-                                 EffectSignals& signals, const std::vector<Hypothesis>& hypotheses,
+std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& fitted,
+                                 const EffectRecordings& heldout, EffectSignals& signals,
+                                 const std::vector<Hypothesis>& hypotheses,
                                  CompetitionResult& result, const EvidenceSystem::Options& options,
                                  const CompetitionProgress& progress);
 

@@ -76,7 +76,7 @@ void append(Motion& run, const Motion& piece) {
 
 MotionSource with_repeated_motion(const MotionSource& source) {
   MotionSource result = source;
-  result.with_cutoff = nullptr;
+  result.with_low_pass = nullptr;
   result.pieces = [all = source.pieces](const std::function<void(const StreamPiece&)>& visit) {
     std::vector<Motion> runs;
     all([&](const StreamPiece& piece) {
@@ -91,14 +91,22 @@ MotionSource with_repeated_motion(const MotionSource& source) {
   return result;
 }
 
-void leave_as_at(EffectRecordings& repeated, const EffectRecordings& own) {
+Eigen::VectorXd leave_as_at(EffectRecordings& repeated, const EffectRecordings& own) {
   Eigen::VectorXd beta = fit_effects(own, {}).point.beta;
   const EffectRecordings recorded = repeated;
   for (int round = 0; round < kRounds; ++round) {
     if (round > 0) beta = fit_effects(repeated, {}).point.beta;
-    for (std::size_t run = 0; run < own.runs.size(); ++run) {
-      leave_as_at(recorded.runs[run].rows, own.runs[run].rows, beta, repeated.runs[run].rows);
-    }
+    repeated = recorded;
+    leave_as_at(repeated, own, beta);
+  }
+  return beta;
+}
+
+void leave_as_at(EffectRecordings& repeated, const EffectRecordings& own,
+                 const Eigen::VectorXd& beta) {
+  for (std::size_t run = 0; run < own.runs.size(); ++run) {
+    const RowBlock recorded = repeated.runs[run].rows;
+    leave_as_at(recorded, own.runs[run].rows, beta, repeated.runs[run].rows);
   }
 }
 

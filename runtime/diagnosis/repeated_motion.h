@@ -18,6 +18,11 @@ MotionSource with_repeated_motion(const MotionSource& source);
 /// rounds, since what is left depends on it. Equations count that do at both.
 /// @param repeated  equations at the mean motion of the other periods  @param own  the same as they
 ///                  are recorded
-void leave_as_at(EffectRecordings& repeated, const EffectRecordings& own);
+/// @return          the model's parameters, (nb)
+Eigen::VectorXd leave_as_at(EffectRecordings& repeated, const EffectRecordings& own);
+
+/// The same with parameters that other equations of these recordings gave. @param beta  (nb)
+void leave_as_at(EffectRecordings& repeated, const EffectRecordings& own,
+                 const Eigen::VectorXd& beta);
 
 }  // namespace dyngen::runtime

@@ -2,6 +2,7 @@
 #include "runtime/diagnosis/views.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "runtime/diagnosis/left_out_rows.h"
@@ -19,9 +20,12 @@ constexpr double kBand = 0.9;  // of the cut-off: what is faster is damped in th
 constexpr double kPass =
     0.5;  // of the parallel filter: a short one, that standstill cuts less from
 constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
-constexpr double kJolts = 50;  // Hz, of jolts: a joint state of at least this cut-off has them
-constexpr double kHighest = 0.2;         // of the sampling frequency: a cut-off
-constexpr double kBesideJolts = 0.4;     // of the cut-off: what is slower is not damped at all
+constexpr double kJolts = 80;  // Hz, of jolts: a joint state of at least this cut-off has them
+constexpr double kHighest = 1.0 / 3;     // of the sampling frequency: a cut-off
+constexpr int kSteep = 8;                // order of that low-pass
+constexpr double kBesideJolts = 0.5;     // of its cut-off: what is slower is not damped at all
+constexpr double kBesideRests = 0.4;     // of that of the joint state as it is
+constexpr double kWidened = 0.5;         // over the cut-off: what the low-pass makes of a rest
 constexpr double kBesideJoltsStop = 30;  // dB, of a parallel filter that is shorter still
 constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
 
@@ -40,7 +44,6 @@ VectorXd still_speed(const std::vector<MotionSource>& sources, const RowOptions&
 }
 
 double quick_cutoff(const MotionSource& source) {
-  if (!source.with_cutoff) return source.cutoff.hz;
   return std::max(source.cutoff.hz, std::min(kJolts, kHighest / source.sample_time));
 }
 
@@ -49,8 +52,8 @@ std::vector<MotionSource> seen(const std::vector<MotionSource>& sources,
                                const ViewOptions& options) {
   std::vector<MotionSource> result;
   for (const MotionSource& source : sources) {
-    const double hz = quick_cutoff(source);
-    result.push_back(options.quick && hz > source.cutoff.hz ? source.with_cutoff(hz) : source);
+    const bool quick = options.quick && source.with_low_pass;
+    result.push_back(quick ? source.with_low_pass(kSteep, quick_cutoff(source)) : source);
   }
   return result;
 }
@@ -78,9 +81,44 @@ EffectRecordings equations(const DiagnosisInput& input, const std::vector<Motion
   const VectorXd still = still_speed(sources, options.rows, data.joints());
   for (EffectRun& run : data.runs) {
     leave_out_standstill(run, still);
-    leave_out_rests(run, still, resting_in(options, fitted ? run.recording : kAny));
+    if (!fitted) leave_out_rests(run, still, resting_in(options, kAny));
   }
   return data;
+}
+
+/// Fitted recordings at the mean motion of the other periods, and at their own.
+struct Fitted {
+  Fitted(const DiagnosisInput& input, const std::vector<MotionSource>& train,
+         const std::vector<MotionSource>& others, const ViewOptions& options)
+      : repeated(thinned(equations(input, others, options, true), kLongestSample)),
+        own(thinned(equations(input, train, options, true), kLongestSample)),
+        still(still_speed(train, options.rows, own.joints())) {}
+  EffectRecordings repeated, own;
+  VectorXd still;  // (n) rad/s or m/s
+};
+
+/// Without what is near rests.
+EffectRecordings without_rests(EffectRecordings data, const VectorXd& still,
+                               const ViewOptions& options) {
+  for (EffectRun& run : data.runs) {
+    leave_out_rests(run, still, resting_in(options, run.recording));
+  }
+  return data;
+}
+
+/// With what is near rests, at which friction is not known. @param beta  that the others gave
+EffectRecordings with_rests(Fitted whole, const std::vector<MotionSource>& train,
+                            const VectorXd& beta, const ViewOptions& options) {
+  leave_as_at(whole.repeated, whole.own, beta);
+  double cutoff = std::numeric_limits<double>::infinity();
+  for (const MotionSource& source : train) cutoff = std::min(cutoff, source.cutoff.hz);
+  for (std::size_t r = 0; r < whole.own.runs.size(); ++r) {
+    EffectRun& run = whole.repeated.runs[r];
+    const std::vector<int> joints = resting_in(options, run.recording);
+    mark_rests(run, run.motion, whole.still, joints, kWidened / cutoff);
+    mark_rests(run, whole.own.runs[r].motion, whole.still, joints, kWidened / cutoff);
+  }
+  return std::move(whole.repeated);
 }
 
 std::vector<MotionSource> with_repeated_motion(const std::vector<MotionSource>& sources) {
@@ -107,14 +145,16 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
                          std::vector<RestingJoint> resting) {
   ViewOptions beside = options;
   beside.resting = std::move(resting);
-  beside.quick = std::none_of(train.begin(), train.end(), repeats_rounding);
-  beside.rows.band = kBesideJolts;
-  beside.rows.multiple = kThinnedSamples / 2;
+  beside.quick = std::all_of(train.begin(), train.end(), [](const MotionSource& source) {
+    return source.with_low_pass && !repeats_rounding(source);
+  });
+  beside.rows.band = beside.quick ? kBesideJolts : kBesideRests;
+  beside.rows.multiple = 1;
   beside.rows.attenuation_db = kBesideJoltsStop;
   std::vector<double> times;
   for (const MotionSource& source : train) {
-    const double band = kBesideJolts * (beside.quick ? quick_cutoff(source) : source.cutoff.hz);
-    times.push_back(0.5 / band);
+    const double cutoff = beside.quick ? quick_cutoff(source) : source.cutoff.hz;
+    times.push_back(0.5 / (beside.rows.band * cutoff));
   }
   beside.rows.row_time = median(std::move(times));
   return beside;
@@ -134,17 +174,15 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
 Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options) {
   const std::vector<MotionSource> train = seen(parts.train, options);
   const std::vector<MotionSource> others = with_repeated_motion(train);
-  const auto instrumental = [&](const ViewOptions& own) {
-    const auto of = [&](const std::vector<MotionSource>& sources) {
-      return thinned(equations(input, sources, own, true), kLongestSample);
-    };
-    EffectRecordings data = of(others);
-    leave_as_at(data, of(train));
-    return data;
-  };
   Views views;
-  views.train = instrumental(options);
-  views.slow = instrumental({slower(options.rows), options.resting, options.quick});
+  Fitted whole(input, train, others, options);
+  views.train = without_rests(whole.repeated, whole.still, options);
+  const VectorXd beta = leave_as_at(views.train, without_rests(whole.own, whole.still, options));
+  if (!options.resting.empty()) views.beside = with_rests(std::move(whole), train, beta, options);
+  const ViewOptions half{slower(options.rows), options.resting, options.quick};
+  Fitted slow(input, train, others, half);
+  views.slow = without_rests(std::move(slow.repeated), slow.still, half);
+  leave_as_at(views.slow, without_rests(std::move(slow.own), slow.still, half));
   views.heldout = equations_of(input, parts.heldout, options);
   for (EffectRun& run : views.heldout.runs) run.recording = -1 - run.recording;
   views.proof = views.heldout;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "runtime/diagnosis/diagnosis.h"
@@ -39,8 +40,14 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
 /// repeats, columns are made of the mean motion of the other periods, and held against what the
 /// model leaves at the own: noise of positions is in what is left as well as in columns of the same
 /// motion, where it looks like physics (instrumental variables; Janot, Vandanjon and Gautier 2014).
+///
+/// Where joints rest, `train` has no equations of them near their rests, as far as filters reach.
+/// `beside` has them, and EffectRun::unknown says where friction is not known: most of what is seen
+/// near a rest is not friction's at rest.
 struct Views {
-  EffectRecordings train;
+  EffectRecordings train;                  ///< what fits are of, and noise
+  std::optional<EffectRecordings> beside;  ///< where joints rest: what evidence is of
+  [[nodiscard]] const EffectRecordings& evidence() const { return beside ? *beside : train; }
   EffectRecordings heldout;  ///< EffectRun::recording is -1 less the place of the recording
   EffectRecordings proof;    ///< what is held out, where the fitted recordings have been
   EffectRecordings slow;     ///< the fitted ones again, in half the band: the witness

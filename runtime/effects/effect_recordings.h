@@ -29,6 +29,11 @@ struct EffectRobot {
   Eigen::VectorXd joined_rotors{};
 };
 
+/// Samples [from, to) of a run.
+struct SampleRange {
+  Eigen::Index from = 0, to = 0;
+};
+
 /// A run of a recording as effects see it: all samples, and the equations of the model alone.
 struct EffectRun {
   int recording = 0;  ///< its place, from 0; negative: of none that events were found in
@@ -37,6 +42,9 @@ struct EffectRun {
   Eigen::VectorXd position_step;  ///< (n) rad or m of the encoder; 0: not known
   Decimator decimator;            ///< the parallel filter
   RowBlock rows;                  ///< behind it; tau is 0 where none was recorded
+  /// (n) ascending: where a joint's friction may be any torque, since it rests. Its equations count,
+  /// and evidence takes out of them what any torque there would change. Empty: nowhere.
+  std::vector<std::vector<SampleRange>> unknown{};
 };
 
 /// Recordings of one robot, with all that effects and their estimation read.

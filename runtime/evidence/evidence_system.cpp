@@ -56,6 +56,17 @@ std::shared_ptr<const std::vector<std::vector<Whitener>>> whiteners_of(
   return all;
 }
 
+std::shared_ptr<const std::vector<std::deque<UnknownTorque>>> unknown_of(
+    const EffectRecordings& data, const std::vector<std::vector<Whitener>>& whiteners) {
+  auto all = std::make_shared<std::vector<std::deque<UnknownTorque>>>(whiteners.size());
+  for (std::size_t j = 0; j < all->size(); ++j) {
+    for (std::size_t run = 0; run < data.runs.size(); ++run) {
+      (*all)[j].emplace_back(data.runs[run], static_cast<int>(j), whiteners[j][run]);
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 Score score_of(const Products& products, bool surrogates) {
@@ -124,6 +135,7 @@ EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals&
   const int n = data.joints();
   const Index size = data.model.size();
   whiteners_ = whiteners_of(data, noise);
+  unknown_ = unknown_of(data, *whiteners_);
   rest_.resize(n * rows_);
   MatrixXd W = MatrixXd::Zero(options.with_regressor ? n * rows_ : 0, size);
   for (int j = 0; j < n; ++j) {
@@ -159,8 +171,18 @@ EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals&
     }
   }
   noise_.array().colwise() *= counted.array();
+  for (int j = 0; j < n; ++j) take_out_unknown(noise_.middleRows(j * rows_, rows_), j);
   basis_.resize(n * rows_, 0);
   if (options.with_regressor) project(orthonormal(W));
+}
+
+void EvidenceSystem::take_out_unknown(Eigen::Ref<MatrixXd> rows, int joint) const {
+  Index start = 0;
+  for (std::size_t run = 0; run < data_.runs.size(); ++run) {
+    const Index count = data_.runs[run].rows.Y.rows();
+    (*unknown_)[static_cast<std::size_t>(joint)][run].take_out_of(rows.middleRows(start, count));
+    start += count;
+  }
 }
 
 void EvidenceSystem::whiten(Eigen::Ref<MatrixXd> rows, int joint) const {
@@ -170,6 +192,7 @@ void EvidenceSystem::whiten(Eigen::Ref<MatrixXd> rows, int joint) const {
     (*whiteners_)[static_cast<std::size_t>(joint)][run].apply(rows.middleRows(start, count));
     start += count;
   }
+  take_out_unknown(rows, joint);
   const auto& left_out = left_out_[static_cast<std::size_t>(joint)];
   if (left_out) left_out->take_out_of(rows);
 }
@@ -319,6 +342,9 @@ VectorXd EvidenceSystem::taken() const {
     const auto& left_out = left_out_[static_cast<std::size_t>(j)];
     degrees[j] = basis_.middleRows(j * rows_, rows_).squaredNorm() +
                  (left_out ? static_cast<double>(left_out->rank()) : 0.0);
+    for (const UnknownTorque& unknown : (*unknown_)[static_cast<std::size_t>(j)]) {
+      degrees[j] += static_cast<double>(unknown.degrees());
+    }
   }
   return degrees;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "runtime/evidence/joint_columns.h"
 #include "runtime/evidence/local_reflections.h"
 #include "runtime/evidence/torque_noise_model.h"
+#include "runtime/evidence/unknown_torque.h"
 
 namespace dyngen::runtime {
 
@@ -40,7 +42,8 @@ std::vector<double> squares_of_few(const Products& products);
 /// they leave of the torque, and noise of the same kind, projected alike.
 ///
 /// After whitening noise is white and of unit variance, so that a surrogate of the recordings under
-/// "nothing is left out" is a vector of standard normal numbers.
+/// "nothing is left out" is a vector of standard normal numbers. Where friction at rest is unknown
+/// (EffectRun::unknown) what any torque there would change is taken out of all of them.
 class EvidenceSystem {
  public:
   struct Options {
@@ -90,11 +93,13 @@ class EvidenceSystem {
 
  private:
   void whiten(Eigen::Ref<Eigen::MatrixXd> rows, int joint) const;
+  void take_out_unknown(Eigen::Ref<Eigen::MatrixXd> rows, int joint) const;
   void project(const Eigen::MatrixXd& columns);
 
   const EffectRecordings& data_;
   std::shared_ptr<const std::vector<std::vector<Whitener>>>
-      whiteners_;                                                  // of each joint in each run
+      whiteners_;  // of each joint in each run
+  std::shared_ptr<const std::vector<std::deque<UnknownTorque>>> unknown_;  // the same
   std::vector<std::shared_ptr<const LocalReflections>> left_out_;  // of each joint; or nothing
   Eigen::VectorXd worth_;                                          // (n)
   Eigen::Index rows_ = 0;                                          // of one joint

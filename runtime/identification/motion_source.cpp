@@ -116,8 +116,9 @@ MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
     source.fastest = source.fastest.cwiseMax(run.dq.cwiseAbs().colwise().maxCoeff().transpose());
   }
   if (options.method == StateMethod::kLowPass && !(options.cutoff_hz > 0)) {
-    source.with_cutoff = [recording, start, condition, options](double hz) {
+    source.with_low_pass = [recording, start, condition, options](int order, double hz) {
       JointStateOptions other = options;
+      other.order = order;
       other.cutoff_hz = hz;
       return filtered(recording, start, condition, other);
     };
@@ -169,7 +170,7 @@ MotionSource stream_of_file(const std::string& path, MotionOptions options) {
   MotionOptions of_first = options;
   of_first.average_periods = false;
   MotionSource source = motion_in_memory(std::move(first), {}, of_first);
-  source.with_cutoff = nullptr;
+  source.with_low_pass = nullptr;
   source.name = path;
   options.state.cutoff_hz = source.cutoff.hz;
   source.condition.messages.push_back("read piece by piece; periods were not looked for");
@@ -203,9 +204,9 @@ MotionSource motion_of_file(const std::string& path, const MotionOptions& option
 
 MotionSource part_of(const MotionSource& source, double from, double to) {
   MotionSource part = source;
-  if (source.with_cutoff) {
-    part.with_cutoff = [other = source.with_cutoff, from, to](double hz) {
-      return part_of(other(hz), from, to);
+  if (source.with_low_pass) {
+    part.with_low_pass = [other = source.with_low_pass, from, to](int order, double hz) {
+      return part_of(other(order, hz), from, to);
     };
   }
   // lengths of the runs first: pieces of a run do not know how long it is

@@ -56,9 +56,10 @@ struct MotionSource {
   RecordingCondition condition;
   /// Consecutive pieces of all runs.
   std::function<void(const std::function<void(const StreamPiece&)>&)> pieces;
-  /// The same recording with a cut-off, Hz, of the caller's. Empty where the cut-off was given, no
-  /// low-pass gives the joint state, or the file is too large to be in memory.
-  std::function<MotionSource(double hz)> with_cutoff;
+  /// The same recording behind a low-pass of the caller's: its order and cut-off, Hz. Empty where
+  /// the cut-off was given, no low-pass gives the joint state, or the file is too large to be in
+  /// memory.
+  std::function<MotionSource(int order, double hz)> with_low_pass;
 
   [[nodiscard]] int joints() const { return static_cast<int>(position_noise.size()); }
 };

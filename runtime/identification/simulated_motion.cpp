@@ -77,7 +77,7 @@ std::vector<MatrixXd> simulated_regressors(const LinearModel& model, const Motio
     runs->push_back({simulate_tracking(model, beta, piece.motion, loop), piece.continues_run});
   });
   MotionSource simulated = recorded;
-  simulated.with_cutoff = nullptr;
+  simulated.with_low_pass = nullptr;
   simulated.pieces = [runs](const std::function<void(const StreamPiece&)>& visit) {
     for (const StreamPiece& piece : *runs) visit(piece);
   };

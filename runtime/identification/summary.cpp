@@ -92,7 +92,7 @@ RecordingSummary summarise_without_noise(const LinearModel& model, const MotionS
   RecordingSummary summary = empty_summary(model.columns, model.size());
   PostureSample postures;
   MotionSource watched = source;
-  watched.with_cutoff = nullptr;
+  watched.with_low_pass = nullptr;
   watched.pieces = [&](const std::function<void(const StreamPiece&)>& visit) {
     source.pieces([&](const StreamPiece& piece) {
       summary.extent.add(piece.motion.q, piece.motion.dq, piece.motion.ddq);

@@ -79,7 +79,7 @@ TEST(WithinRounding, IsAnErrorOfThePositionBelowAQuarterOfTheStep) {
 
 TEST(BesideRests, TheJointStateIsQuickUnlessRoundingRepeats) {
   const std::vector<MotionSource> noisy = {rounded(0.5)}, same = {rounded(0)};
-  ASSERT_LT(noisy[0].cutoff.hz, 50);
+  ASSERT_LT(noisy[0].cutoff.hz, 80);
   const ViewOptions options{diagnosis_rows(noisy, -1), {}};
   EXPECT_FALSE(options.quick);
   const ViewOptions quick = beside_rests(options, noisy, {{1, 0, {0}}});
@@ -95,21 +95,21 @@ TEST(BesideRests, EquationsAreSlowerThanTheJointState) {
     return 0.5 /
            beside_rests({diagnosis_rows(sources, -1), {}}, sources, {{0, 0, {0}}}).rows.row_time;
   };
-  EXPECT_NEAR(band(noisy), 0.4 * 50, 1e-9);
+  EXPECT_NEAR(band(noisy), 0.5 * 80, 1e-9);
   EXPECT_NEAR(band(same), 0.4 * same[0].cutoff.hz, 1e-9);
 }
 
-TEST(MotionSource, ComesWithAnotherCutoffUnlessItWasGiven) {
+TEST(MotionSource, ComesBehindAnotherLowPassUnlessItWasGiven) {
   const MotionSource source = rounded(0.5);
-  ASSERT_TRUE(source.with_cutoff);
-  const MotionSource quick = part_of(source, 0, 0.5).with_cutoff(50);
+  ASSERT_TRUE(source.with_low_pass);
+  const MotionSource quick = part_of(source, 0, 0.5).with_low_pass(8, 50);
   EXPECT_EQ(quick.cutoff.hz, 50);
   EXPECT_EQ(quick.position_noise.size(), 2);
   Index samples = 0, all = 0;
   quick.pieces([&](const StreamPiece& piece) { samples += piece.motion.samples(); });
   source.pieces([&](const StreamPiece& piece) { all += piece.motion.samples(); });
   EXPECT_NEAR(static_cast<double>(samples), static_cast<double>(all) / 2, 200);  // edges are cut
-  EXPECT_FALSE(rounded(0.5, 20).with_cutoff);
+  EXPECT_FALSE(rounded(0.5, 20).with_low_pass);
 }
 
 TEST(Rests, AreLeftOutOfTheJointsThatAreNamed) {
@@ -170,6 +170,62 @@ TEST(Rests, AreLeftOutOfTheRecordingsInWhichTheyAreSeen) {
   EXPECT_EQ(counted(views.slow.runs[0], 1), counted(whole.slow.runs[0], 1));
   // what is held out was not looked at: there it may rest too
   EXPECT_LT(counted(views.heldout.runs[0], 1), 0.99 * counted(whole.heldout.runs[0], 1));
+}
+
+TEST(Rests, AreUnknownWhereEquationsStay) {
+  EffectRecordings data = test::arm_recordings({test::source_of(test::sines(20, 0.01))});
+  EffectRun& run = data.runs.front();
+  const double all = run.rows.counted.sum();
+  mark_rests(run, run.motion, VectorXd::Constant(2, 1e-4), {1}, 0.015);
+  EXPECT_EQ(run.rows.counted.sum(), all);
+  ASSERT_EQ(run.unknown.size(), 2U);
+  EXPECT_TRUE(run.unknown[0].empty());
+  const std::vector<SampleRange> once = run.unknown[1];
+  Index turns = 0, before = -1;
+  for (const SampleRange& range : once) {
+    EXPECT_GT(range.from, before);
+    before = range.to;
+    EXPECT_GE(range.to - range.from, 4);  // two samples about the turn, less where the run ends
+    EXPECT_LE(range.to - range.from, 6);
+    turns += run.motion.dq(range.from, 1) * run.motion.dq(range.to - 1, 1) < 0 ? 1 : 0;
+  }
+  EXPECT_GT(turns, 4);
+  // those of another motion of the same samples join them
+  Motion later = run.motion;
+  later.dq.bottomRows(later.samples() - 2) = run.motion.dq.topRows(later.samples() - 2);
+  mark_rests(run, later, VectorXd::Constant(2, 1e-4), {1}, 0.015);
+  ASSERT_EQ(run.unknown[1].size(), once.size());
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_LE(run.unknown[1][i].from, once[i].from);
+    EXPECT_GE(run.unknown[1][i].to, once[i].to);
+  }
+}
+
+TEST(Rests, LeaveEvidenceTheEquationsBesideThem) {
+  const DiagnosisInput input = test::arm_input(test::two_recordings({}, 4), {}, {});
+  const Division parts{input.train, input.heldout};
+  ViewOptions options{diagnosis_rows(parts.train, -1), {}};
+  const Views whole = views_of(input, parts, options);
+  EXPECT_FALSE(whole.beside);
+  EXPECT_EQ(&whole.evidence(), &whole.train);
+  options.resting = {{1, 0, {1}}};
+  const Views views = views_of(input, parts, options);
+  ASSERT_TRUE(views.beside);
+  const EffectRecordings& evidence = views.evidence();
+  ASSERT_EQ(evidence.runs.size(), 2U);
+  for (std::size_t r = 0; r < 2; ++r) {
+    EXPECT_EQ(evidence.runs[r].rows.counted.sum(), whole.train.runs[r].rows.counted.sum());
+  }
+  EXPECT_LT(views.train.runs[1].rows.counted.sum(), evidence.runs[1].rows.counted.sum());
+  EXPECT_TRUE(evidence.runs[0].unknown.empty());
+  EXPECT_TRUE(evidence.runs[1].unknown[0].empty());
+  EXPECT_GT(evidence.runs[1].unknown[1].size(), 4U);
+  // where both have equations they are the same
+  const RowBlock& train = views.train.runs[1].rows;
+  const RowBlock& beside = evidence.runs[1].rows;
+  for (Index k = 0; k < train.tau.rows(); ++k) {
+    EXPECT_NEAR(train.tau(k, 1), train.counted(k, 1) * beside.tau(k, 1), 1e-12);
+  }
 }
 
 TEST(Rests, OfSeveralLooksAreJoined) {

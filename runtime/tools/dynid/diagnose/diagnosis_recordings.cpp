@@ -91,9 +91,9 @@ MotionSource without_effects(const MotionSource& source, const KnownEffects& kno
         2 * motion.tau - recorded_torque(known.robot, known.effects, recording);
   });
   MotionSource without = source;
-  if (source.with_cutoff) {
-    without.with_cutoff = [other = source.with_cutoff, known](double hz) {
-      return without_effects(other(hz), known);
+  if (source.with_low_pass) {
+    without.with_low_pass = [other = source.with_low_pass, known](int order, double hz) {
+      return without_effects(other(order, hz), known);
     };
   }
   without.pieces = [pieces](const std::function<void(const StreamPiece&)>& visit) {

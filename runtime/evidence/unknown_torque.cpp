@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/evidence/unknown_torque.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double kNothing = 1e-6;  // of a column's length, in one equation
+constexpr double kSeen = 1e-6;     // of a column's squares: what equations hardly show stays
+
+/// Half of the time between equations, in samples: faster torque they do not show.
+Index apart_in(const EffectRun& run) {
+  return std::max<Index>(1, std::lround(static_cast<double>(run.decimator.factor) / 2));
+}
+
+/// Points of a range, spread evenly about its middle.
+struct Points {
+  Points(const SampleRange& range, Index apart)
+      : count((range.to - range.from - 1 + apart - 1) / apart + 1),
+        first(range.from - ((count - 1) * apart - (range.to - 1 - range.from)) / 2) {}
+  Index count, first;
+};
+
+/// A hat about a sample behind the parallel filter, added to a column of equations.
+void add_hat(const EffectRun& run, Index peak, Index apart, Eigen::Ref<Eigen::VectorXd> column) {
+  const Index middle = run.decimator.taps.size() / 2;
+  const Index origin = first_sample(run.decimator), factor = run.decimator.factor;
+  for (Index offset = 1 - apart; offset < apart; ++offset) {
+    const Index at = peak + offset;
+    const double height = 1 - std::abs(static_cast<double>(offset)) / static_cast<double>(apart);
+    // equations whose taps hold this sample
+    if (at + middle < origin) continue;
+    const Index from = std::max<Index>(0, (at - middle - origin + factor - 1) / factor);
+    const Index last = std::min(column.size() - 1, (at + middle - origin) / factor);
+    for (Index k = from; k <= last; ++k) {
+      column[k] += height * run.decimator.taps[at - (origin + k * factor) + middle];
+    }
+  }
+}
+
+/// Columns of all points, whitened.
+MatrixXd whitened_hats(const EffectRun& run, int joint, const Whitener& whitener) {
+  const auto place = static_cast<std::size_t>(joint);
+  const Index rows = run.rows.tau.rows(), apart = apart_in(run);
+  if (place >= run.unknown.size()) return {rows, 0};
+  Index count = 0;
+  for (const SampleRange& range : run.unknown[place]) count += Points(range, apart).count;
+  MatrixXd columns = MatrixXd::Zero(rows, count);
+  Index column = 0;
+  for (const SampleRange& range : run.unknown[place]) {
+    const Points points(range, apart);
+    for (Index i = 0; i < points.count; ++i, ++column) {
+      add_hat(run, points.first + i * apart, apart, columns.col(column));
+    }
+  }
+  columns = run.rows.counted.col(joint).asDiagonal() * columns;
+  if (count > 0) whitener.apply(columns);
+  return columns;
+}
+
+}  // namespace
+
+UnknownTorque::UnknownTorque(const EffectRun& run, int joint, const Whitener& whitener) {
+  const MatrixXd hats = whitened_hats(run, joint, whitener);
+  std::vector<Eigen::Triplet<double>> values;
+  Index seen = 0;
+  for (Index c = 0; c < hats.cols(); ++c) {
+    const double length = hats.col(c).norm();
+    if (!(length > 0)) continue;
+    for (Index k = 0; k < hats.rows(); ++k) {
+      const double value = hats(k, c) / length;
+      if (std::abs(value) > kNothing) {
+        values.emplace_back(static_cast<int>(k), static_cast<int>(seen), value);
+      }
+    }
+    ++seen;
+  }
+  columns_.resize(hats.rows(), seen);
+  columns_.setFromTriplets(values.begin(), values.end());
+  if (seen == 0) return;
+  Eigen::SparseMatrix<double> products = columns_.transpose() * columns_;
+  for (Index c = 0; c < seen; ++c) products.coeffRef(c, c) += kSeen;
+  products_.compute(products);
+}
+
+void UnknownTorque::take_out_of(Eigen::Ref<MatrixXd> rows) const {
+  if (columns_.cols() == 0) return;
+  const MatrixXd inner = columns_.transpose() * rows;
+  rows -= columns_ * products_.solve(inner);
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "runtime/effects/effect_recordings.h"
+#include "runtime/estimation/whitener.h"
+
+namespace dyngen::runtime {
+
+/// What any torque of a joint would change where EffectRun::unknown says that it is not known, in
+/// the whitened equations of that joint in one run: taken out of them, they say what they say
+/// whatever it was. Torque there is straight between points half an equation apart. What one point
+/// changes lies in few equations, and the cost grows with their number.
+class UnknownTorque {
+ public:
+  UnknownTorque(const EffectRun& run, int joint, const Whitener& whitener);
+
+  /// @param rows  (equations of the run x any), whitened, in place
+  void take_out_of(Eigen::Ref<Eigen::MatrixXd> rows) const;
+  /// Degrees of freedom that it takes from the equations.
+  [[nodiscard]] Eigen::Index degrees() const { return columns_.cols(); }
+
+ private:
+  Eigen::SparseMatrix<double> columns_;  // (equations x points) of unit length
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> products_;  // of their inner products
+};
+
+}  // namespace dyngen::runtime
