@@ -34,7 +34,7 @@ struct Reach {
   double hz = 0;       // 0: all that was recorded
   double seconds = 0;  // around a rest
 };
-constexpr Reach kFiltered{33, 0.01};
+constexpr Reach kFiltered{20, 0.04};
 
 /// Training recordings in the coordinates in which noise is white.
 struct Whitened {

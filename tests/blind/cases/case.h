@@ -33,7 +33,7 @@ struct Case {
   std::vector<double> absorbed;  ///< share of its squares that the refit takes, each alone
   std::vector<Recording> training, heldout;
   double excess = 0;  ///< rms of what is left over the noise's, whitened
-  /// Lambda of all truths together below 33 Hz, 10 ms and more from where a joint rests: what is in
+  /// Lambda of all truths together below 20 Hz, 40 ms and more from where a joint rests: what is in
   /// equations that are made of filtered positions and know no friction at rest.
   double filtered = 0;
   std::vector<double> heldout_oracle;      ///< rms by joint of who knows the truth's form, N m
