@@ -106,6 +106,13 @@ EffectRecordings without_rests(EffectRecordings data, const VectorXd& still,
   return data;
 }
 
+/// Whether equations are made of more than a sample each: else none is both at a rest and beside
+/// it.
+bool is_filtered(const EffectRecordings& data) {
+  return std::any_of(data.runs.begin(), data.runs.end(),
+                     [](const EffectRun& run) { return run.decimator.factor > 1; });
+}
+
 /// With what is near rests, at which friction is not known. @param beta  that the others gave
 EffectRecordings with_rests(Fitted whole, const std::vector<MotionSource>& train,
                             const VectorXd& beta, const ViewOptions& options) {
@@ -178,7 +185,9 @@ Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOpt
   Fitted whole(input, train, others, options);
   views.train = without_rests(whole.repeated, whole.still, options);
   const VectorXd beta = leave_as_at(views.train, without_rests(whole.own, whole.still, options));
-  if (!options.resting.empty()) views.beside = with_rests(std::move(whole), train, beta, options);
+  if (!options.resting.empty() && is_filtered(whole.own)) {
+    views.beside = with_rests(std::move(whole), train, beta, options);
+  }
   const ViewOptions half{slower(options.rows), options.resting, options.quick};
   Fitted slow(input, train, others, half);
   views.slow = without_rests(std::move(slow.repeated), slow.still, half);

@@ -46,7 +46,7 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
 /// near a rest is not friction's at rest.
 struct Views {
   EffectRecordings train;                  ///< what fits are of, and noise
-  std::optional<EffectRecordings> beside;  ///< where joints rest: what evidence is of
+  std::optional<EffectRecordings> beside;  ///< where joints rest and equations are filtered
   [[nodiscard]] const EffectRecordings& evidence() const { return beside ? *beside : train; }
   EffectRecordings heldout;  ///< EffectRun::recording is -1 less the place of the recording
   EffectRecordings proof;    ///< what is held out, where the fitted recordings have been

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/evidence/unknown_torque.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace dyngen::runtime {
@@ -13,6 +15,7 @@ using Eigen::MatrixXd;
 
 constexpr double kNothing = 1e-6;  // of a column's length, in one equation
 constexpr double kSeen = 1e-6;     // of a column's squares: what equations hardly show stays
+constexpr double kDense = 0.2;     // of all values: with more than that columns are not sparse
 
 /// Half of the time between equations, in samples: faster torque they do not show.
 Index apart_in(const EffectRun& run) {
@@ -68,31 +71,41 @@ MatrixXd whitened_hats(const EffectRun& run, int joint, const Whitener& whitener
 
 UnknownTorque::UnknownTorque(const EffectRun& run, int joint, const Whitener& whitener) {
   const MatrixXd hats = whitened_hats(run, joint, whitener);
-  std::vector<Eigen::Triplet<double>> values;
-  Index seen = 0;
+  std::vector<Index> seen;
   for (Index c = 0; c < hats.cols(); ++c) {
-    const double length = hats.col(c).norm();
-    if (!(length > 0)) continue;
-    for (Index k = 0; k < hats.rows(); ++k) {
-      const double value = hats(k, c) / length;
-      if (std::abs(value) > kNothing) {
-        values.emplace_back(static_cast<int>(k), static_cast<int>(seen), value);
-      }
-    }
-    ++seen;
+    if (hats.col(c).squaredNorm() > 0) seen.push_back(c);
   }
-  columns_.resize(hats.rows(), seen);
-  columns_.setFromTriplets(values.begin(), values.end());
-  if (seen == 0) return;
+  const auto count = static_cast<Index>(seen.size());
+  columns_.resize(hats.rows(), 0);
+  basis_.resize(hats.rows(), 0);
+  if (count == 0) return;
+  MatrixXd columns = hats(Eigen::all, seen);
+  columns.colwise().normalize();
+  const auto values = static_cast<double>((columns.array().abs() > kNothing).count());
+  if (values > kDense * static_cast<double>(columns.size())) {
+    MatrixXd products = MatrixXd::Zero(count, count);
+    products.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+    products.diagonal().array() += kSeen;
+    const Eigen::LLT<MatrixXd> triangle(products);
+    triangle.matrixU().solveInPlace<Eigen::OnTheRight>(columns);
+    basis_ = std::move(columns);
+    return;
+  }
+  columns_ = columns.sparseView(1, kNothing);
   Eigen::SparseMatrix<double> products = columns_.transpose() * columns_;
-  for (Index c = 0; c < seen; ++c) products.coeffRef(c, c) += kSeen;
+  for (Index c = 0; c < count; ++c) products.coeffRef(c, c) += kSeen;
   products_.compute(products);
 }
 
 void UnknownTorque::take_out_of(Eigen::Ref<MatrixXd> rows) const {
-  if (columns_.cols() == 0) return;
-  const MatrixXd inner = columns_.transpose() * rows;
-  rows -= columns_ * products_.solve(inner);
+  if (basis_.cols() > 0) {
+    const MatrixXd inner = basis_.transpose() * rows;
+    rows.noalias() -= basis_ * inner;
+  }
+  if (columns_.cols() > 0) {
+    const MatrixXd inner = columns_.transpose() * rows;
+    rows -= columns_ * products_.solve(inner);
+  }
 }
 
 }  // namespace dyngen::runtime

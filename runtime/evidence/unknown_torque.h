@@ -13,7 +13,8 @@ namespace dyngen::runtime {
 /// What any torque of a joint would change where EffectRun::unknown says that it is not known, in
 /// the whitened equations of that joint in one run: taken out of them, they say what they say
 /// whatever it was. Torque there is straight between points half an equation apart. What one point
-/// changes lies in few equations, and the cost grows with their number.
+/// changes lies in few equations, and the cost grows with their number; where noise has slow parts
+/// it lies in many.
 class UnknownTorque {
  public:
   UnknownTorque(const EffectRun& run, int joint, const Whitener& whitener);
@@ -21,11 +22,12 @@ class UnknownTorque {
   /// @param rows  (equations of the run x any), whitened, in place
   void take_out_of(Eigen::Ref<Eigen::MatrixXd> rows) const;
   /// Degrees of freedom that it takes from the equations.
-  [[nodiscard]] Eigen::Index degrees() const { return columns_.cols(); }
+  [[nodiscard]] Eigen::Index degrees() const { return columns_.cols() + basis_.cols(); }
 
  private:
-  Eigen::SparseMatrix<double> columns_;  // (equations x points) of unit length
+  Eigen::SparseMatrix<double> columns_;  // (equations x points) of unit length; or no columns, and
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> products_;  // of their inner products
+  Eigen::MatrixXd basis_;  // (equations x points) orthonormal, where they are not sparse
 };
 
 }  // namespace dyngen::runtime

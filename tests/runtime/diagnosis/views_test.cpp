@@ -204,7 +204,10 @@ TEST(Rests, AreUnknownWhereEquationsStay) {
 TEST(Rests, LeaveEvidenceTheEquationsBesideThem) {
   const DiagnosisInput input = test::arm_input(test::two_recordings({}, 4), {}, {});
   const Division parts{input.train, input.heldout};
-  ViewOptions options{diagnosis_rows(parts.train, -1), {}};
+  ViewOptions every_sample{diagnosis_rows(parts.train, 1), {{1, 0, {1}}}};
+  EXPECT_FALSE(
+      views_of(input, parts, every_sample).beside);  // none is both at a rest and beside it
+  ViewOptions options{diagnosis_rows(parts.train, 4), {}};
   const Views whole = views_of(input, parts, options);
   EXPECT_FALSE(whole.beside);
   EXPECT_EQ(&whole.evidence(), &whole.train);
