@@ -118,7 +118,10 @@ EffectRecordings with_rests(Fitted whole, const std::vector<MotionSource>& train
                             const VectorXd& beta, const ViewOptions& options) {
   leave_as_at(whole.repeated, whole.own, beta);
   double cutoff = std::numeric_limits<double>::infinity();
-  for (const MotionSource& source : train) cutoff = std::min(cutoff, source.cutoff.hz);
+  for (const MotionSource& source : train) {
+    const double nyquist = 0.5 / source.sample_time;
+    cutoff = std::min(cutoff, source.cutoff.hz > 0 ? source.cutoff.hz : nyquist);
+  }
   for (std::size_t r = 0; r < whole.own.runs.size(); ++r) {
     EffectRun& run = whole.repeated.runs[r];
     const std::vector<int> joints = resting_in(options, run.recording);
