@@ -42,8 +42,8 @@ struct EffectRun {
   Eigen::VectorXd position_step;  ///< (n) rad or m of the encoder; 0: not known
   Decimator decimator;            ///< the parallel filter
   RowBlock rows;                  ///< behind it; tau is 0 where none was recorded
-  /// (n) ascending: where a joint's friction may be any torque, since it rests. Its equations count,
-  /// and evidence takes out of them what any torque there would change. Empty: nowhere.
+  /// (n) ascending: where a joint's friction may be any torque, since it rests. Its equations
+  /// count, and evidence takes out of them what any torque there would change. Empty: nowhere.
   std::vector<std::vector<SampleRange>> unknown{};
 };
 
