@@ -24,8 +24,8 @@ void leave_out_rests(EffectRun& run, const Eigen::VectorXd& still_speed,
                      const std::vector<int>& joints);
 
 /// Adds to what is unknown of a run where joints turn or stop, and equations stay.
-/// @param run          its `unknown` grows   @param motion  of the same samples, whose rests they
-/// are
+/// @param run          its `unknown` grows
+/// @param motion       whose rests they are, of the same samples
 /// @param still_speed  (n) rad/s or m/s
 /// @param joints       from 0
 /// @param around       s, before and after: what the joint state's filter makes of a rest

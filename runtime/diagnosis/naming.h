@@ -54,6 +54,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
 /// Names of all winners. Where the nearest rival is no more than kApart squares worse, the model is
 /// fitted with it in the winner's place, and what held-out recordings say of the two is added to
 /// their distance; a rival that is better then takes the place.
+/// @param train   what evidence is of   @param fitted  what fits are of
 /// @param result  its winners and its fit, in place
 std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& fitted,
                                  const EffectRecordings& heldout, EffectSignals& signals,

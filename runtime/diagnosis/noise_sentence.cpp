@@ -45,7 +45,7 @@ std::string noise_sentence(const TorqueNoiseModel& noise, const std::vector<Moti
   return (noise.from_periods ? "from what differs between periods of the same motion"
                              : "from what the last model leaves: a lower bound of what is missing, "
                                "since no motion repeats") +
-         rests(left_out, train, "the equations there are") +
+         rests(left_out, train, "what it would change there is") +
          rests(impulses, train, "an impulse at each reversal is");
 }
 
