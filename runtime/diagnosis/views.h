@@ -22,7 +22,7 @@ struct ViewOptions {
 /// The view of recordings whose joints, as was found, rest. Where friction holds a joint it has any
 /// torque up to its own: nothing is said of it there. What lets go jolts the arm, and of jolts a
 /// slow joint state is not the state: it passes a filter that is as quick as can be, and the
-/// equations a much slower one, so that what noise is in it does not reach them. Where periods show
+/// equations one half as quick, up to which the first one damps nothing. Where periods show
 /// the same digits again the state stays slow: no other motion tells such rounding from physics.
 /// @param train  recordings that the model is fitted to
 ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
