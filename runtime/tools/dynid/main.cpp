@@ -13,6 +13,7 @@
 #include "runtime/tools/dynid/fit/file_summaries.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/options/options.h"
+#include "runtime/tools/dynid/process/memory.h"
 #include "runtime/tools/dynid/process/process_group.h"
 
 namespace dyngen::runtime {
@@ -110,6 +111,7 @@ int main_of_group(int argc, const char* const* argv, ProcessGroup& group) {
 }  // namespace dyngen::runtime
 
 int main(int argc, char** argv) {
+  dyngen::runtime::keep_memory();
   dyngen::runtime::ProcessGroup group;
   const int code = dyngen::runtime::main_of_group(argc, argv, group);
   group.finish();
