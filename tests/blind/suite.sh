@@ -3,7 +3,8 @@
 #
 #   suite.sh BUILD SET              all of it: make, seal, diagnose, score
 #   suite.sh BUILD SET make         simulates the cases of sets/SET.txt and seals what is in them
-#   suite.sh BUILD SET diagnose     answers every case, in a process that can read nothing else
+#   suite.sh BUILD SET diagnose     answers every case, in a process that can read nothing else; broken off, the
+#                                   same dynid goes on with those that have no answer
 #   suite.sh BUILD SET baselines    the same of simpler methods
 #   suite.sh BUILD SET active       lets dynid ask for one more recording where names are left, makes
 #                                   it, and has it answered again
@@ -85,9 +86,15 @@ check_seal() {
 
 diagnose_cases() {
   check_seal
+  sha256sum "$dynid" >"$out/diagnosed_by.now"
+  if [ -f "$out/answers.sha256" ] || ! cmp -s "$out/diagnosed_by" "$out/diagnosed_by.now"; then
+    rm -rf "$out/answers" "$out/answers.sha256"
+  fi
+  mv "$out/diagnosed_by.now" "$out/diagnosed_by"
   mkdir -p "$out/answers"
   find "$out/cases" -mindepth 1 -maxdepth 1 | sort | xargs -P "$jobs" -I{} sh -c '
     name=$(basename {})
+    if [ -f "$OUT/answers/$name.json" ]; then exit; fi
     begin=$(date +%s)
     recordings=$(cd {} && ls train*.csv; cd {} && ls held*.csv 2>/dev/null | sed "s/^/--holdout /")
     timeout 1200 "$TOOLS/blind_sealed_run" {} "$OUT/answers" "$DYNID" diagnose robot.robot $recordings \
