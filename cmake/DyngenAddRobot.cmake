@@ -170,6 +170,7 @@ function(dyngen_add_robot target)
 
   # The library.
   add_library(${target} STATIC "${source}" ${headers})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)  # what is emitted is compiled alone
   target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${files_dir}>")
   set_target_properties(${target} PROPERTIES PUBLIC_HEADER "${headers}")
   get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)

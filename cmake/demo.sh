@@ -12,7 +12,8 @@ build=build/demo
 log=$build.log
 mkdir -p build
 echo "Building dyngen in $build (two or three minutes the first time) ..."
-if ! { cmake -G Ninja -S . -B $build -DCMAKE_BUILD_TYPE=Release -DDYNGEN_BUILD_TESTS=OFF &&
+if ! { cmake -G Ninja -S . -B $build -DCMAKE_BUILD_TYPE=Release -DDYNGEN_BUILD_TESTS=OFF \
+         -DDYNGEN_PRECOMPILE=ON -DCMAKE_UNITY_BUILD=ON &&
        cmake --build $build --target dyngen; } >"$log" 2>&1; then
   cat "$log" >&2
   exit 1
