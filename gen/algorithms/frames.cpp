@@ -65,6 +65,8 @@ Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
+
 Vector3 assign_vector(Trace& trace, const std::string& name, int link, const Vector3& v) {
   Vector3 result;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -54,6 +54,8 @@ Vector3 turn_back(const FrameRotation& rotation, const Vector3& v);
 
 /// a x b
 Vector3 cross(const Vector3& a, const Vector3& b);
+/// All three components are written 0.
+bool is_zero(const Vector3& v);
 
 /// name1_j, name2_j, name3_j = v
 Vector3 assign_vector(Trace& trace, const std::string& name, int link, const Vector3& v);

@@ -15,8 +15,6 @@ using GiNaC::ex;
 /// A vector that only turns along a chain of parallel axes, in the frame below the chain.
 using Anchored = std::optional<Vector3>;
 
-bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
-
 bool is_own_axis(const Vector3& a) {
   return a[0].is_zero() && a[1].is_zero() && (a[2].is_equal(1) || a[2].is_equal(-1));
 }

@@ -8,8 +8,6 @@ namespace {
 
 using GiNaC::ex;
 
-bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
-
 /// Right angles and parallel axes.
 bool is_plain(const FrameRotation& rotation) {
   return rotation.sin_alpha.is_zero() || rotation.cos_alpha.is_zero();

@@ -11,8 +11,6 @@ namespace {
 
 using GiNaC::ex;
 
-bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
-
 ex dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Vector3 column(const Matrix3& U, std::size_t k) { return {U[0][k], U[1][k], U[2][k]}; }

@@ -27,8 +27,6 @@ struct Columns {
   std::size_t width;
 };
 
-bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
-
 /// What one joint's drive adds to its own row.
 ex drive_entry(const CodeLink& link, Chi kind) {
   switch (kind) {

@@ -18,28 +18,28 @@ using cln::cl_R;
 using cln::cl_RA;
 using Geometry = NumericGeometry<cl_R>;
 using Row = std::vector<cl_R>;
-using Vector = std::array<cl_R, 3>;
+using ExactVector = std::array<cl_R, 3>;
 
 constexpr std::size_t kTwistSize = 6;  // angular, then linear velocity of the origin
 
-Vector cross(const Vector& a, const Vector& b) {
+ExactVector cross(const ExactVector& a, const ExactVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// A link's frame in its parent's at one position of the joint.
-struct Pose {
-  std::array<Vector, 3> R;  // R[i][k]: component i of the child's axis k
-  Vector p;
+struct ExactPose {
+  std::array<ExactVector, 3> R;  // R[i][k]: component i of the child's axis k
+  ExactVector p;
 
-  [[nodiscard]] Vector to_child(const Vector& v) const {
-    Vector result;
+  [[nodiscard]] ExactVector to_child(const ExactVector& v) const {
+    ExactVector result;
     for (std::size_t k = 0; k < 3; ++k) {
       result[k] = R[0][k] * v[0] + R[1][k] * v[1] + R[2][k] * v[2];
     }
     return result;
   }
-  [[nodiscard]] Vector to_parent(const Vector& v) const {
-    Vector result;
+  [[nodiscard]] ExactVector to_parent(const ExactVector& v) const {
+    ExactVector result;
     for (std::size_t i = 0; i < 3; ++i) {
       result[i] = R[i][0] * v[0] + R[i][1] * v[1] + R[i][2] * v[2];
     }
@@ -51,18 +51,18 @@ struct Pose {
 ///
 /// 1, c, s, c^2, c s take five points of the circle, 1, q, q^2 three of the line. With the
 /// functions chosen to vanish at q = 0 (c - 1, s, ...) the coefficient of 1 is the value there.
-std::vector<Pose> poses(const Geometry::Link& link) {
+std::vector<ExactPose> poses(const Geometry::Link& link) {
   const auto at = [&](const cl_R& c, const cl_R& s, const cl_R& along) {
     const cl_R cos = link.cos_theta * c - link.sin_theta * s;
     const cl_R sin = link.sin_theta * c + link.cos_theta * s;
     const cl_R &ca = link.cos_alpha, &sa = link.sin_alpha;
     const cl_R r = link.r + along;
-    Pose pose;
+    ExactPose pose;
     pose.R = {{{cos, -sin, 0}, {ca * sin, ca * cos, -sa}, {sa * sin, sa * cos, ca}}};
     pose.p = {link.d, -r * sa, r * ca};
     return pose;
   };
-  std::vector<Pose> result = {at(1, 0, 0)};
+  std::vector<ExactPose> result = {at(1, 0, 0)};
   if (link.type == JointType::kRevolute) {
     result.push_back(at(cl_RA("3/5"), cl_RA("4/5"), 0));
     result.push_back(at(cl_RA("-5/13"), cl_RA("12/13"), 0));
@@ -76,25 +76,25 @@ std::vector<Pose> poses(const Geometry::Link& link) {
 }
 
 /// A twist of the parent as the child's frame has it.
-Row twist_in_child(const Pose& pose, const Row& twist) {
-  const Vector w = {twist[0], twist[1], twist[2]};
-  const Vector carried = cross(w, pose.p);
-  const Vector angular = pose.to_child(w);
-  const Vector linear =
+Row twist_in_child(const ExactPose& pose, const Row& twist) {
+  const ExactVector w = {twist[0], twist[1], twist[2]};
+  const ExactVector carried = cross(w, pose.p);
+  const ExactVector angular = pose.to_child(w);
+  const ExactVector linear =
       pose.to_child({twist[3] + carried[0], twist[4] + carried[1], twist[5] + carried[2]});
   return {angular[0], angular[1], angular[2], linear[0], linear[1], linear[2]};
 }
 
 /// Inertial parameters of a body in the child's frame, as the parent's frame has them: a matrix
 /// whose row k makes the k-th parameter.
-NumberMatrix inertia_to_parent(const Pose& pose) {
+NumberMatrix inertia_to_parent(const ExactPose& pose) {
   constexpr std::array<std::array<std::size_t, 2>, 6> kPlaces = {
       {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
   NumberMatrix matrix(kInertialCount, Row(kInertialCount, cl_R(0)));
   for (std::size_t unit = 0; unit < kInertialCount; ++unit) {
-    std::array<Vector, 3> J;
-    for (Vector& row : J) row = {0, 0, 0};
-    Vector s = {0, 0, 0};
+    std::array<ExactVector, 3> J;
+    for (ExactVector& row : J) row = {0, 0, 0};
+    ExactVector s = {0, 0, 0};
     cl_R mass = 0;
     if (unit < kPlaces.size()) {
       const auto [a, b] = kPlaces[unit];
@@ -105,7 +105,7 @@ NumberMatrix inertia_to_parent(const Pose& pose) {
       mass = 1;
     }
     s = pose.to_parent(s);
-    const Vector& p = pose.p;
+    const ExactVector& p = pose.p;
     const cl_R trace = 2 * (s[0] * p[0] + s[1] * p[1] + s[2] * p[2]) +
                        mass * (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
     // J' = R J R^T + 2 (s.p) 1 - s p^T - p s^T + M (p.p 1 - p p^T)
@@ -205,8 +205,8 @@ class CoefficientRoute {
     const auto& link = geometry_.links[static_cast<std::size_t>(j - 1)];
     const LinkSpans& parent = spans_[static_cast<std::size_t>(link.parent)];
     LinkSpans& own = spans_[static_cast<std::size_t>(j)];
-    const std::vector<Pose> positions = poses(link);
-    for (const Pose& pose : positions) {
+    const std::vector<ExactPose> positions = poses(link);
+    for (const ExactPose& pose : positions) {
       for (const Row& twist : parent.twists) own.twists.push_back(twist_in_child(pose, twist));
       for (const Row& twist : parent.gravity) own.gravity.push_back(twist_in_child(pose, twist));
     }
@@ -222,7 +222,7 @@ class CoefficientRoute {
     own.forms = asked;
     for (const Row& form : parent.forms) {
       Row at_zero;
-      for (const Pose& pose : positions) {
+      for (const ExactPose& pose : positions) {
         Row moved = times(form, inertia_to_parent(pose));
         own.forms.push_back(moved);
         if (at_zero.empty()) {

@@ -11,7 +11,7 @@
 namespace dyngen {
 namespace {
 
-constexpr std::size_t kColumns = 100;
+constexpr std::size_t kLineColumns = 100;
 
 /// "q[6] rad" with the joints that differ: "q[4] rad (m: 3)".
 std::string array_legend(const CodeModel& code, std::string_view array, const char* revolute_unit,
@@ -106,7 +106,7 @@ std::string function_comment(const CodeModel& code, const RobotFunction& functio
   std::string line = " *";
   for (const Argument& argument : arguments(spec, code)) {
     const std::string entry = "   " + argument_legend(code, spec, argument, options);
-    if (line.size() > 2 && line.size() + entry.size() > kColumns) {
+    if (line.size() > 2 && line.size() + entry.size() > kLineColumns) {
       text += line + "\n";
       line = " *";
     }

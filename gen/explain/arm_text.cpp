@@ -15,8 +15,8 @@ namespace {
 using GiNaC::ex;
 
 std::string degrees(const ex& angle) {
-  constexpr double kDegree = 57.29577951308232;
-  return fmt::format("{:.6g} deg", to_double(angle) * kDegree);
+  constexpr double kDegreesOfRadian = 57.29577951308232;
+  return fmt::format("{:.6g} deg", to_double(angle) * kDegreesOfRadian);
 }
 
 std::string length_text(const ex& value) {

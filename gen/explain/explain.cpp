@@ -92,7 +92,7 @@ std::string base_text(const RobotModel& model, const SymbolicRobot& robot, const
   return text;
 }
 
-std::string gravity_text(const SymbolicRobot& robot) {
+std::string standing_text(const SymbolicRobot& robot) {
   std::vector<std::string> names;
   for (const GroupedParameter& parameter : regroup(robot, Motions::kStanding).parameters) {
     if (index(parameter.column.kind) < kInertialCount) names.push_back(parameter.name());
@@ -145,7 +145,7 @@ std::string explain(const RobotModel& model) {
   text += describe_places(make_posture(model));
   text += base_text(model, robot, base);
   text += visibility_text(robot, base);
-  return text + gravity_text(robot);
+  return text + standing_text(robot);
 }
 
 }  // namespace dyngen

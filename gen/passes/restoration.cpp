@@ -8,7 +8,7 @@
 namespace dyngen {
 namespace {
 
-constexpr std::size_t kMostTerms = 64;
+constexpr std::size_t kMostRestored = 64;
 
 class Restoration {
  public:
@@ -49,7 +49,7 @@ class Restoration {
         parts = std::move(next);
       }
       result.insert(result.end(), parts.begin(), parts.end());
-      if (result.size() > kMostTerms) return {};
+      if (result.size() > kMostRestored) return {};
     }
     return normalised(network_, std::move(result));
   }

@@ -10,7 +10,7 @@ namespace dyngen {
 namespace {
 
 /// Sums that get longer than this are left: the pairs of their terms are too many.
-constexpr std::size_t kMostTerms = 16;
+constexpr std::size_t kMostWrittenOut = 16;
 
 /// A small program needs more tries per sum.
 constexpr int kTriesOfSmallest = 100;
@@ -61,7 +61,7 @@ Network searched(const Network& network, const SearchOptions& options) {
     const int before = workspace.operations();
     for (int k = how_many(random); k > 0; --k) {
       const int id = sums[static_cast<std::size_t>(random.below(static_cast<int>(sums.size())))];
-      if (workspace.is_live_sum(id)) workspace.write_out(id, kMostTerms);
+      if (workspace.is_live_sum(id)) workspace.write_out(id, kMostWrittenOut);
     }
     workspace.settle(random() | 1);
     if (workspace.operations() > before) {

@@ -18,7 +18,7 @@ bool is_copy(const std::vector<Term>& terms) {
 }
 
 /// Zero, one or minus one.
-bool is_number(const std::vector<Term>& terms) {
+bool is_constant(const std::vector<Term>& terms) {
   return terms.empty() || (terms.size() == 1 && terms[0].factors.empty());
 }
 
@@ -92,7 +92,7 @@ void Workspace::enter(int id) {
   }
   if (offers_[at(id)].empty()) offers_[at(id)] = table_.offers(node.terms);
   table_.add(id, offers_[at(id)]);
-  if (!is_number(node.terms)) equal_.emplace(unsigned_hash(node.terms), id);
+  if (!is_constant(node.terms)) equal_.emplace(unsigned_hash(node.terms), id);
   operations_ += dyngen::operations(node.terms);
 }
 
@@ -113,7 +113,7 @@ void Workspace::leave(int id) {
     }
   }
   table_.remove(id, offers_[at(id)]);
-  if (!is_number(node.terms)) {
+  if (!is_constant(node.terms)) {
     const auto [first, last] = equal_.equal_range(unsigned_hash(node.terms));
     equal_.erase(std::find_if(first, last, [&](const auto& entry) { return entry.second == id; }));
   }
@@ -253,7 +253,7 @@ void Workspace::tidy(int id) {
     return;
   }
   if (!sum) return;
-  if (is_number(node.terms)) {
+  if (is_constant(node.terms)) {
     write_out_everywhere(id);
   } else if (is_copy(node.terms)) {
     replace(id, node.terms[0].factors[0], node.terms[0].negative);

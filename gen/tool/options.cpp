@@ -11,7 +11,7 @@
 namespace dyngen {
 namespace {
 
-constexpr int kUsage = 2;
+constexpr int kMisused = 2;
 
 bool is_source_name(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
@@ -184,10 +184,10 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     parsed.exit_code = app.exit(success);
   } catch (const CLI::ParseError& error) {
     std::cerr << "dyngen: " << error.what() << "\nRun 'dyngen --help' for the options.\n";
-    parsed.exit_code = kUsage;
+    parsed.exit_code = kMisused;
   } catch (const std::invalid_argument& error) {
     std::cerr << "dyngen: " << error.what() << "\nRun 'dyngen --help' for the options.\n";
-    parsed.exit_code = kUsage;
+    parsed.exit_code = kMisused;
   }
   return parsed;
 }

@@ -16,10 +16,10 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr int kMaxIterations = 100;  // usually 12 to 30
-constexpr double kOfTheWay = 0.95;   // to the edge of consistency: at most this part in a step
-constexpr double kNear = 1e-6;       // squared step / w at which Newton's method goes on
-constexpr double kBoundGap = 1e-6;   // a y / w of what is told to be at its bound, or not
+constexpr int kMostIterations = 100;  // usually 12 to 30
+constexpr double kOfTheWay = 0.95;    // to the edge of consistency: at most this part in a step
+constexpr double kNear = 1e-6;        // squared step / w at which Newton's method goes on
+constexpr double kBoundGap = 1e-6;    // a y / w of what is told to be at its bound, or not
 
 /// A point of the search: S and Z, a and y are both positive (definite).
 struct PrimalDual {
@@ -204,7 +204,7 @@ PrimalDual approach(const ConsistencyCost& cost, int& iterations) {
     at.y[k] = centre / at.primal.actuators[k];
   }
   const Products end{cost.weight, kBoundGap * cost.weight};
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration, ++iterations) {
+  for (int iteration = 0; iteration < kMostIterations; ++iteration, ++iterations) {
     SearchStep step(cost, at);
     step.solve(end, 0);
     if (!step.is_finite()) break;

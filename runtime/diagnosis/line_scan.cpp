@@ -16,8 +16,8 @@ using Eigen::VectorXd;
 
 constexpr double kFinest = 2;  // frequencies for each that the longest run resolves
 constexpr double kLeastPeriods = 1.5;
-constexpr double kLeastRows = 20;  // of a run
-constexpr double kBand = 0.9;      // of half the rate of the equations
+constexpr double kLeastOfRun = 20;  // of a run
+constexpr double kBand = 0.9;       // of half the rate of the equations
 
 /// Squares of the sinusoids of all frequencies k / duration.
 class Periodogram {
@@ -71,7 +71,7 @@ LineScan scan_lines(const EffectRecordings& data, const EvidenceSystem& system, 
     const Index rows = run.rows.Y.rows();
     const double dt = run.motion.sample_time * static_cast<double>(run.decimator.factor);
     const double counted = run.rows.counted.col(joint).sum();
-    if (counted >= kLeastRows) {
+    if (counted >= kLeastOfRun) {
       squares += periodogram.of(rest.segment(start, rows), dt, counted);
       for (Index m = 0; m < noise.cols(); ++m) {
         of_noise.col(m) += periodogram.of(noise.col(m).segment(start, rows), dt, counted);

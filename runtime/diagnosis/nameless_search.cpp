@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kCaution = 0.01;  // of the false alarms: nothing held out speaks for it
+constexpr double kUnheldCaution = 0.01;  // of the false alarms: nothing held out speaks for it
 constexpr std::ptrdiff_t kCandidates = 4;
 constexpr double kRuledOutNet = 15;  // squares, net: a form that cannot be is no small thing
 
@@ -73,7 +73,7 @@ bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screeni
 
 bool NamelessSearch::sure(const Screening& screening, double surprise) const {
   // where no motion repeats, noise has much of the structure in it: the p-value is too large anyway
-  const double caution = result_.noise.from_periods ? kCaution : 1;
+  const double caution = result_.noise.from_periods ? kUnheldCaution : 1;
   return screening.family_wise(surprise) <= caution * false_alarm_;
 }
 

@@ -21,7 +21,7 @@ constexpr double kApart = 4;           // from one memory to the next
 constexpr double kPrice = 2;           // twice log likelihood that slow parts pay (Akaike): with
                                        // them in vain power is lost, without them there are alarms
 constexpr double kAlike = 3;           // parts of the variance, of two joints
-constexpr double kNothing = 1e-3;      // of a joint's deviation: such a part is left out
+constexpr double kNegligible = 1e-3;   // of a joint's deviation: such a part is left out
 constexpr std::array<double, 5> kRatios = {0.25, 0.5, 1, 2, 4};  // 1: 1/f noise
 constexpr std::array<double, 12> kShares = {0.01, 0.02, 0.04, 0.08, 0.13, 0.2,
                                             0.3,  0.4,  0.5,  0.6,  0.75, 0.9};
@@ -188,7 +188,7 @@ std::vector<JointNoise> noise_of_differences(const std::vector<JointDifferences>
   for (const Choice& choice : choices) all.push_back(gain > 0 ? choice.with_slow : choice.alone);
   keep_what_all_joints_have(all, joints, lengths.period);
   for (JointNoise& joint : all) {
-    const double least = kNothing * joint.deviation();
+    const double least = kNegligible * joint.deviation();
     std::erase_if(joint.slow, [&](const SlowNoise& part) { return part.deviation <= least; });
   }
   return all;

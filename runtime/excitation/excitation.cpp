@@ -111,9 +111,10 @@ VectorXd minimise(const Problem& problem, const VectorXd& start, const Sharpness
   return minimum.x;
 }
 
-class Search {
+class MotionSearch {
  public:
-  Search(const LinearModel& model, const MotionLimits& limits, const ExcitationOptions& options)
+  MotionSearch(const LinearModel& model, const MotionLimits& limits,
+               const ExcitationOptions& options)
       : model_(model),
         limits_(limits),
         options_(options),
@@ -267,7 +268,7 @@ Excitation excite(const LinearModel& model, const MotionLimits& limits,
   options.validate();
   options.information.validate(model);
   limits.validate(model);
-  return Search(model, limits, options).run();
+  return MotionSearch(model, limits, options).run();
 }
 
 }  // namespace dyngen::runtime

@@ -11,7 +11,7 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 18;
+constexpr std::size_t kRawPiece = 1 << 18;
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void ByteSource::detect_gzip() {
 }
 
 void ByteSource::refill() {
-  raw_.resize(kPiece);
+  raw_.resize(kRawPiece);
   begin_ = 0;
   const std::size_t got = std::fread(raw_.data(), 1, raw_.size(), file_.get());
   if (got == 0 && std::ferror(file_.get()) != 0) {

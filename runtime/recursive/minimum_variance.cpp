@@ -11,15 +11,15 @@
 namespace dyngen::runtime {
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("MinimumVarianceOptions: " + what);
 }
 
 void check_positive(const char* name, const Eigen::MatrixXd& P) {
   if (P.size() == 0 || P.rows() != P.cols() || !P.allFinite() ||
       !P.isApprox(P.transpose(), 1e-12) || P.llt().info() != Eigen::Success) {
-    fail(fmt::format("{} ({} x {}) is not square, symmetric and positive definite", name, P.rows(),
-                     P.cols()));
+    refuse(fmt::format("{} ({} x {}) is not square, symmetric and positive definite", name,
+                       P.rows(), P.cols()));
   }
 }
 
@@ -45,13 +45,13 @@ void MinimumVarianceOptions::validate() const {
   check_positive("measurement_covariance", measurement_covariance);
   const Eigen::Index nb = prior_covariance.rows();
   if (prior_mean.size() != 0 && (prior_mean.size() != nb || !prior_mean.allFinite())) {
-    fail(fmt::format("prior_mean has {} values, expected {} finite ones (or none)",
-                     prior_mean.size(), nb));
+    refuse(fmt::format("prior_mean has {} values, expected {} finite ones (or none)",
+                       prior_mean.size(), nb));
   }
   if (walk_covariance.size() != 0) {
     if (walk_covariance.rows() != nb) {
-      fail(fmt::format("walk_covariance is {} x {}, expected {} x {}", walk_covariance.rows(),
-                       walk_covariance.cols(), nb, nb));
+      refuse(fmt::format("walk_covariance is {} x {}, expected {} x {}", walk_covariance.rows(),
+                         walk_covariance.cols(), nb, nb));
     }
     (void)UdCovariance("MinimumVarianceOptions: walk_covariance", walk_covariance);
   }

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 using Json = nlohmann::ordered_json;
 
 /// As many digits as a chart shows.
-Json number(double value) {
+Json json_number(double value) {
   if (!std::isfinite(value)) return nullptr;
   return std::strtod(fmt::format("{:.5g}", value).c_str(), nullptr);
 }
@@ -33,11 +33,13 @@ Json abscissae(const VectorXd& x) {
 
 Json numbers(const VectorXd& values) {
   Json array = Json::array();
-  for (const double value : values) array.push_back(number(value));
+  for (const double value : values) array.push_back(json_number(value));
   return array;
 }
 
-Json point(const ReportArm::Point& p) { return {number(p[0]), number(p[1]), number(p[2])}; }
+Json point(const ReportArm::Point& p) {
+  return {json_number(p[0]), json_number(p[1]), json_number(p[2])};
+}
 
 const char* tone_name(ReportText::Tone tone) {
   switch (tone) {
@@ -70,7 +72,7 @@ Json spelled(const ReportTable& block) {
   for (const auto& row : block.rows) {
     Json cells = Json::array();
     for (const ReportCell& cell : row) {
-      cells.push_back(cell.is_number ? number(cell.value) : Json(cell.text));
+      cells.push_back(cell.is_number ? json_number(cell.value) : Json(cell.text));
     }
     rows.push_back(std::move(cells));
   }
@@ -90,7 +92,7 @@ Json spelled(const ReportBars& block) {
     Json bars = Json::array();
     for (const ReportBar& bar : group.bars) {
       bars.push_back(
-          {{"name", bar.name}, {"role", role_name(bar.role)}, {"value", number(bar.value)}});
+          {{"name", bar.name}, {"role", role_name(bar.role)}, {"value", json_number(bar.value)}});
     }
     groups.push_back({{"label", group.label},
                       {"unit", group.unit},
@@ -141,7 +143,8 @@ Json spelled(const ReportPanel& panel, const ReportPanel& first) {
                       {"y", numbers(own.y)}});
   }
   for (const ReportSpan& own : panel.spans) {
-    spans.push_back({{"from", number(own.from)}, {"to", number(own.to)}, {"label", own.label}});
+    spans.push_back(
+        {{"from", json_number(own.from)}, {"to", json_number(own.to)}, {"label", own.label}});
   }
   const bool again = &panel != &first && panel.x.size() == first.x.size() && panel.x == first.x;
   return {{"x_label", panel.x_label},

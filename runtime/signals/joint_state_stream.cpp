@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kUniform = 0.02;  // of a period: two samples, each at most one percent off
+constexpr double kUniformStep = 0.02;  // of a period: two samples, each at most one percent off
 
 }  // namespace
 
@@ -92,7 +92,7 @@ void JointStateStream::add(const Recording& chunk, Index from, Index to) {
   for (Index k = from; k < to; ++k) {
     auto& time = raw_.columns[0];
     if (!time.empty() &&
-        !(std::abs(chunk.time[k] - time.back() - sample_time_) <= kUniform * sample_time_)) {
+        !(std::abs(chunk.time[k] - time.back() - sample_time_) <= kUniformStep * sample_time_)) {
       throw std::invalid_argument(fmt::format(
           "JointStateStream::push(): {:.9g} s does not follow {:.9g} s by {:.3g} s; resample first",
           chunk.time[k], time.back(), sample_time_));

@@ -74,7 +74,7 @@ double least_cost(const std::function<double(double)>& cost) {
   return 0.5 * (low + high);
 }
 
-void check(const char* function, const Eigen::VectorXd& y, double sample_time) {
+void check_enough(const char* function, const Eigen::VectorXd& y, double sample_time) {
   if (y.size() < 8 || !y.allFinite() || !(sample_time > 0)) {
     throw std::invalid_argument(
         fmt::format("{}(): {} samples of {} s, needed: at least eight, finite, of positive length",
@@ -85,7 +85,7 @@ void check(const char* function, const Eigen::VectorXd& y, double sample_time) {
 }  // namespace
 
 KalmanOptions choose_kalman_options(const Eigen::VectorXd& y, double sample_time) {
-  check("choose_kalman_options", y, sample_time);
+  check_enough("choose_kalman_options", y, sample_time);
   if (y.minCoeff() == y.maxCoeff()) return {};
   const auto count = static_cast<double>(y.size() - 3);
   const double exponent = least_cost([&](double e) {
@@ -99,7 +99,7 @@ KalmanOptions choose_kalman_options(const Eigen::VectorXd& y, double sample_time
 
 double choose_jerk_intensity(const Eigen::VectorXd& y, double sample_time,
                              double measurement_variance) {
-  check("choose_jerk_intensity", y, sample_time);
+  check_enough("choose_jerk_intensity", y, sample_time);
   KalmanOptions{1, measurement_variance}.validate();
   if (y.minCoeff() == y.maxCoeff()) return 0;
   const double exponent = least_cost([&](double e) {

@@ -17,7 +17,7 @@ namespace {
 
 using dyngen::test::NumericJoint;
 
-constexpr double kTolerance = 1e-12;
+constexpr double kKdlTolerance = 1e-12;
 
 /// The table's rows as KDL has them: Rx(al) Tx(d), then a joint about z and Tz(r).
 KDL::Chain puma560() {
@@ -57,9 +57,9 @@ TEST_F(FromKdl, InverseDynamics) {
   KDL::ChainIdSolver_RNE solver(chain, g);
   solver.CartToJnt(q, dq, ddq, no_wrenches, tau);
 
-  EXPECT_TRUE(arm::id_rigid(q.data, dq.data, ddq.data).isApprox(tau.data, kTolerance));
-  EXPECT_TRUE(
-      arm::id(q.data, dq.data, ddq.data).isApprox(tau.data + arm::friction(dq.data), kTolerance));
+  EXPECT_TRUE(arm::id_rigid(q.data, dq.data, ddq.data).isApprox(tau.data, kKdlTolerance));
+  EXPECT_TRUE(arm::id(q.data, dq.data, ddq.data)
+                  .isApprox(tau.data + arm::friction(dq.data), kKdlTolerance));
 }
 
 TEST_F(FromKdl, InverseDynamicsWithAWrenchAndGravityOfTheCaller) {
@@ -75,7 +75,7 @@ TEST_F(FromKdl, InverseDynamicsWithAWrenchAndGravityOfTheCaller) {
   const loaded_arm::Matrix<10> no_payload = loaded_arm::Matrix<10>::Zero();
   EXPECT_TRUE(loaded_arm::id_rigid(q.data, dq.data, ddq.data, gravity, wrench, no_payload,
                                    loaded_arm::chi_values())
-                  .isApprox(tau.data, kTolerance));
+                  .isApprox(tau.data, kKdlTolerance));
 }
 
 TEST_F(FromKdl, MassMatrix) {
@@ -83,21 +83,21 @@ TEST_F(FromKdl, MassMatrix) {
   KDL::JntSpaceInertiaMatrix M(6);
   dynamics.JntToMass(q, M);
 
-  EXPECT_TRUE(arm::mass_matrix(q.data).isApprox(M.data, kTolerance));
+  EXPECT_TRUE(arm::mass_matrix(q.data).isApprox(M.data, kKdlTolerance));
 }
 
 TEST_F(FromKdl, Gravity) {
   KDL::ChainDynParam dynamics(chain, g);
   dynamics.JntToGravity(q, tau);
 
-  EXPECT_TRUE(arm::gravity(q.data).isApprox(tau.data, kTolerance));
+  EXPECT_TRUE(arm::gravity(q.data).isApprox(tau.data, kKdlTolerance));
 }
 
 TEST_F(FromKdl, Coriolis) {
   KDL::ChainDynParam dynamics(chain, g);
   dynamics.JntToCoriolis(q, dq, tau);
 
-  EXPECT_TRUE(arm::coriolis(q.data, dq.data).isApprox(tau.data, kTolerance));
+  EXPECT_TRUE(arm::coriolis(q.data, dq.data).isApprox(tau.data, kKdlTolerance));
 }
 
 TEST_F(FromKdl, ForwardKinematics) {
@@ -112,7 +112,7 @@ TEST_F(FromKdl, ForwardKinematics) {
     }
     return result;
   };
-  EXPECT_TRUE(arm::fk(q.data).isApprox(matrix(last), kTolerance));
+  EXPECT_TRUE(arm::fk(q.data).isApprox(matrix(last), kKdlTolerance));
 }
 
 TEST_F(FromKdl, Jacobian) {
@@ -120,7 +120,7 @@ TEST_F(FromKdl, Jacobian) {
   KDL::Jacobian last(6);
   solver.JntToJac(q, last);
 
-  EXPECT_TRUE(arm::jacobian(q.data).isApprox(last.data, kTolerance));
+  EXPECT_TRUE(arm::jacobian(q.data).isApprox(last.data, kKdlTolerance));
 }
 
 }  // namespace

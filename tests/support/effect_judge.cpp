@@ -60,7 +60,7 @@ double numeric_value(const EffectExpression& expression, const NumericValues& va
 
 EffectJudge::EffectJudge(const EffectFile& effect, NumericValues parameters)
     : effect_(effect), parameters_(std::move(parameters)) {
-  for (const EffectState& state : effect.states) {
+  for (const dyngen::EffectState& state : effect.states) {
     double start = 0;
     if (state.max) start = std::min(start, numeric_value(*state.max, parameters_));
     if (state.min) start = std::max(start, numeric_value(*state.min, parameters_));
@@ -93,7 +93,7 @@ void EffectJudge::move_states(const NumericValues& now, double step) {
     return now(name);  // sign(qd) reads qd, which may not be among the variables
   };
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    const EffectState& state = effect_.states[i];
+    const dyngen::EffectState& state = effect_.states[i];
     const double before = states_[i], rate = value(state.rate, middle);
     constexpr double kDifference = 1e-6;
     states_[i] = before + kDifference;

@@ -20,7 +20,7 @@ namespace {
 using Eigen::Index;
 namespace fs = std::filesystem;
 
-const std::string kArms = DYNGEN_SOURCE_DIR "/tests/blind/arms";
+const std::string kArmFolder = DYNGEN_SOURCE_DIR "/tests/blind/arms";
 
 std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -65,13 +65,13 @@ TEST_F(Asked, CaseIsTheSameByteForByte) {
     options.lambda = 80;
     std::optional<Case> made;
     for (options.seed = 5; !made && options.seed < 15;) {
-      made = make_case(options, kArms);
+      made = make_case(options, kArmFolder);
       if (!made) ++options.seed;
     }
     ASSERT_TRUE(made) << family;
-    write_case(*made, kArms, folder_ / "case");
+    write_case(*made, kArmFolder, folder_ / "case");
     const auto entry = nlohmann::json::parse(manifest_entry(*made).dump(1));
-    const Redrawn redrawn = redraw(entry, kArms);
+    const Redrawn redrawn = redraw(entry, kArmFolder);
     const fs::path again = folder_ / "again.csv";
     write_recording(record_again(redrawn, 0), false, again);
     const std::string first = bytes_of(folder_ / "case" / "train1.csv");
@@ -89,7 +89,7 @@ TEST_F(Asked, EntryOfAnotherCaseIsRefused) {
   options.arm = "planar2";
   options.family = "load_friction";
   options.seed = 5;
-  const auto drawn = draw_case(options, kArms);
+  const auto drawn = draw_case(options, kArmFolder);
   ASSERT_TRUE(drawn);
   nlohmann::json entry = {{"case", "c"},
                           {"kind", "single"},
@@ -104,9 +104,9 @@ TEST_F(Asked, EntryOfAnotherCaseIsRefused) {
                              {"form", drawn->truths.front().form},
                              {"joint", drawn->truths.front().joint},
                              {"size", 0.05}}}}};
-  EXPECT_NO_THROW(redraw(entry, kArms));
+  EXPECT_NO_THROW(redraw(entry, kArmFolder));
   entry["truths"][0]["family"] = "cable";
-  EXPECT_THROW(redraw(entry, kArms), std::runtime_error);
+  EXPECT_THROW(redraw(entry, kArmFolder), std::runtime_error);
 }
 
 TEST_F(Asked, MotionIsFollowedWithNoiseOfItsOwn) {
@@ -114,7 +114,7 @@ TEST_F(Asked, MotionIsFollowedWithNoiseOfItsOwn) {
   options.kind = "null";
   options.arm = "planar2";
   options.seed = 7;
-  const auto drawn = draw_case(options, kArms);
+  const auto drawn = draw_case(options, kArmFolder);
   ASSERT_TRUE(drawn);
   const Redrawn redrawn{*drawn, {}, noise_deviation(*drawn)};
   const Motion wanted = fourier_motion(drawn->arm, 4, Random(99));

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "tests/blind/score/score.h"
+
 namespace blind {
 namespace {
 
@@ -16,24 +18,18 @@ bool is_answer(const Json& answer) {
   return answer.is_object() && answer.value("schema", "") == "dynid.diagnosis/1";
 }
 
-bool names(const Json& finding, const std::string& family) {
-  if (finding["family"] == family) return true;
-  const auto& aliases = finding["aliases"];
-  return std::find(aliases.begin(), aliases.end(), family) != aliases.end();
-}
-
 int other_of(const Json& finding) {
   return finding["other_joint"].is_number() ? finding["other_joint"].get<int>() : 0;
 }
 
-bool on_joint(const Json& finding, const Json& added) {
+bool on_added_joint(const Json& finding, const Json& added) {
   const int said = finding["joint"], joint = added["joint"], other = added["other_joint"];
   if (joint == 0) return true;  // of the whole robot: findings stand where they like
   return said == joint || other_of(finding) == joint || (other != 0 && said == other);
 }
 
 bool says(const Json& finding, const Json& added) {
-  return names(finding, added["family"]) && on_joint(finding, added);
+  return names(finding, added["family"]) && on_added_joint(finding, added);
 }
 
 /// Whether two findings are of the same thing: joints, and a family among the other's names.

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kStrong = 100;  // lambda from which on errors are asked for
+constexpr double kAskedErrors = 100;  // lambda from which on errors are asked for
 
 /// A finding of the truth's family on its joint, whose parameters have the truth's names.
 bool means_the_same(const Json& finding, const Json& truth) {
@@ -85,10 +85,10 @@ std::string estimate_table(const std::vector<Judged>& judged) {
   if (all.empty()) return "";
   std::string text = "| numbers of effects that are named right | |\n|---|---|\n";
   text += error_row("relative error, the catalogue's form, lambda of 100 and more, median", all,
-                    [](const Estimate& e) { return !e.own_form && e.lambda >= kStrong; });
+                    [](const Estimate& e) { return !e.own_form && e.lambda >= kAskedErrors; });
   text += error_row("the same, all lambda", all, [](const Estimate& e) { return !e.own_form; });
   text += error_row("another form, the same to first order, lambda of 100 and more", all,
-                    [](const Estimate& e) { return e.own_form && e.lambda >= kStrong; });
+                    [](const Estimate& e) { return e.own_form && e.lambda >= kAskedErrors; });
   for (const bool own_form : {false, true}) {
     int covered = 0, of = 0;
     for (const Estimate& each : all) {

@@ -41,7 +41,7 @@ Json finding(const std::string& family, int joint, const std::vector<std::string
           {"formula", formula}};
 }
 
-Json answer(const Json& findings) {
+Json stored_answer(const Json& findings) {
   return {{"schema", "dynid.diagnosis/1"},
           {"findings", findings},
           {"unexplained", Json::array()},
@@ -50,7 +50,7 @@ Json answer(const Json& findings) {
 }
 
 Judged one(const Json& truth, const Json& found, const std::string& kind = "single") {
-  return judge(entry(kind, Json::array({truth})), answer(Json::array({found})));
+  return judge(entry(kind, Json::array({truth})), stored_answer(Json::array({found})));
 }
 
 TEST(Oracle, HasTheLevelAtNothingAndRises) {
@@ -144,10 +144,11 @@ const Json kAsked = {
     {"found", true}, {"separation", 40.0}, {"trajectory", {{"period", 10.0}, {"periods", 5}}}};
 
 Second after(const Json& truths, const Json& findings, const std::string& kind = "single") {
-  const Json open = answer(Json::array({finding("stribeck", 2, {"stribeck", "presliding"})}));
+  const Json open =
+      stored_answer(Json::array({finding("stribeck", 2, {"stribeck", "presliding"})}));
   const Judged judged = judge(entry(kind, truths), open);
   EXPECT_TRUE(leaves_names(judged.answer));
-  return judge_second(judged, findings.is_null() ? Json() : answer(findings), kAsked);
+  return judge_second(judged, findings.is_null() ? Json() : stored_answer(findings), kAsked);
 }
 
 TEST(Second, ResolvesToTheTruthOrNot) {
@@ -205,8 +206,8 @@ TEST(Second, IsTold) {
 TEST(Figures, ShowWhatWasCounted) {
   const Json truth = truth_of("stribeck", 2, 90);
   const Judged right = one(truth, finding("stribeck", 2, {"stribeck"}));
-  const Judged missed = judge(entry("single", Json::array({truth})), answer(Json::array()));
-  const Judged null = judge(entry("null", Json::array()), answer(Json::array()));
+  const Judged missed = judge(entry("single", Json::array({truth})), stored_answer(Json::array()));
+  const Judged null = judge(entry("null", Json::array()), stored_answer(Json::array()));
   const auto files = figures({right, missed, null});
   EXPECT_THAT(files.at("detection.csv"), HasSubstr("\n90,2,0.5000,0.0126,0.9874,0.5000,"));
   EXPECT_EQ(files.at("confusion.csv"),

@@ -14,12 +14,6 @@ using Json = nlohmann::json;
 constexpr double kConfident = 0.9;
 constexpr double kSeparable = 30;
 
-bool names(const Json& finding, const std::string& family) {
-  if (finding["family"] == family) return true;
-  const auto& aliases = finding["aliases"];
-  return std::find(aliases.begin(), aliases.end(), family) != aliases.end();
-}
-
 bool on_joint(const Json& finding, const Json& truth) {
   const int joint = truth["joint"], other = truth["other_joint"], said = finding["joint"];
   if (joint == 0) return said == 0 || truth["family"] == "unknown";
@@ -58,6 +52,12 @@ void judge_pair(const Json& truths, const Json& findings, Judged& judged) {
 }
 
 }  // namespace
+
+bool names(const nlohmann::json& finding, const std::string& family) {
+  if (finding["family"] == family) return true;
+  const auto& aliases = finding["aliases"];
+  return std::find(aliases.begin(), aliases.end(), family) != aliases.end();
+}
 
 Judged judge(const Json& truth, const Json& answer) {
   Judged judged;

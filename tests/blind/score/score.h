@@ -33,6 +33,9 @@ struct Judged {
 
 Judged judge(const nlohmann::json& truth, const nlohmann::json& answer);
 
+/// The family is the finding's first name or one of its aliases.
+bool names(const nlohmann::json& finding, const std::string& family);
+
 /// Family of the (first) truth; "nothing" where nothing was left out.
 std::string family_of(const Judged& judged);
 

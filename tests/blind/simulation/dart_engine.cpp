@@ -30,7 +30,7 @@ dd::BodyNode* add(dd::Skeleton& skeleton, dd::BodyNode* parent, const Link& link
   return body;
 }
 
-struct World {
+struct DartWorld {
   dd::SkeletonPtr skeleton = dd::Skeleton::create("tree");
   std::vector<dd::BodyNode*> bodies;
 
@@ -49,7 +49,7 @@ struct World {
 }  // namespace
 
 Engine dart_engine(const Tree& tree) {
-  const auto world = std::make_shared<World>();
+  const auto world = std::make_shared<DartWorld>();
   world->skeleton->setGravity(tree.gravity);
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
     const Link& link = tree.links[i];

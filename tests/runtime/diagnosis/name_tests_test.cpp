@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kNoise = 0.1;  // N m
+constexpr double kNameNoise = 0.1;  // N m
 
 /// A torque a |q| q of joint 2, which no parameter of the arm has, where a condition holds.
 EffectLaw cubic(const std::function<bool(const VectorXd&)>& where) {
@@ -33,9 +33,9 @@ std::vector<FalsifierOutcome> outcomes(const EffectLaw& truth,
   const EffectRecordings data =
       effect_recordings(test::planar_arm(), test::planar_arm_tangents(),
                         test::measured({test::sines(40, 0.01)}, test::planar_arm_values(),
-                                       {test::known(truth, 1, {0.5})}, kNoise, 0, seed),
+                                       {test::known(truth, 1, {0.5})}, kNameNoise, 0, seed),
                         {1, -1}, {true, true});
-  const TorqueNoiseModel noise{quick_noise(white_noise(VectorXd::Constant(2, kNoise)).joints),
+  const TorqueNoiseModel noise{quick_noise(white_noise(VectorXd::Constant(2, kNameNoise)).joints),
                                VectorXd::Constant(2, 4000), false, VectorXd::Ones(2)};
   const EvidenceSystem system(data, {residual(data.runs.front().rows, test::planar_arm_values())},
                               noise, {});

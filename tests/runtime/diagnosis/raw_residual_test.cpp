@@ -14,15 +14,15 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kStep = 0.004;  // s, of the recordings
-constexpr double kNoise = 0.1;   // N m
+constexpr double kStep = 0.004;    // s, of the recordings
+constexpr double kRawNoise = 0.1;  // N m
 
 /// A recording whose torque is that of a motion some time before: no delay is interpolated.
 MotionSource late(double seconds, double phase, double delay, unsigned seed) {
   const Motion motion = test::sines(seconds, kStep, phase);
   const std::vector<MotionSource> before =
       test::measured({test::sines(seconds, kStep, phase, 1, -delay)}, test::planar_arm_values(), {},
-                     kNoise, 0, seed);
+                     kRawNoise, 0, seed);
   Motion shown = motion;
   before.front().pieces([&](const StreamPiece& piece) { shown.tau = piece.motion.tau; });
   return test::source_of(shown);
@@ -41,8 +41,8 @@ TEST(RawResidual, OfADelayThatIsKnownIsTheNoise) {
   const VectorXd before = raw_rms(data, raw_residuals(data, on_time));
   const VectorXd after = raw_rms(data, raw_residuals(data, later));
   for (Index j = 0; j < 2; ++j) {
-    EXPECT_GT(before[j], 1.5 * kNoise);
-    EXPECT_NEAR(after[j], kNoise, 0.03 * kNoise);
+    EXPECT_GT(before[j], 1.5 * kRawNoise);
+    EXPECT_NEAR(after[j], kRawNoise, 0.03 * kRawNoise);
   }
 }
 
@@ -58,7 +58,7 @@ TEST(RawResidual, OfALagThatIsKnownIsTheNoise) {
     return arm.torque(at.q, at.dq, at.ddq, beta);
   };
   constexpr double kSmall = 1e-5;  // s
-  const MotionSource noise = test::measured({motion}, 0 * beta, {}, kNoise, 0, 2).front();
+  const MotionSource noise = test::measured({motion}, 0 * beta, {}, kRawNoise, 0, 2).front();
   noise.pieces([&](const StreamPiece& piece) { motion.tau = piece.motion.tau; });
   motion.tau += torque(0) + kLag * (torque(kSmall) - torque(-kSmall)) / (2 * kSmall);
   const EffectRecordings data = equations(test::source_of(motion));
@@ -66,8 +66,8 @@ TEST(RawResidual, OfALagThatIsKnownIsTheNoise) {
   const VectorXd after = raw_rms(
       data, raw_residuals(data, at_rest(data, beta, {test::known(test::lag_law(), -1, {kLag})})));
   for (Index j = 0; j < 2; ++j) {
-    EXPECT_GT(before[j], 1.5 * kNoise);
-    EXPECT_NEAR(after[j], kNoise, 0.03 * kNoise);
+    EXPECT_GT(before[j], 1.5 * kRawNoise);
+    EXPECT_NEAR(after[j], kRawNoise, 0.03 * kRawNoise);
   }
 }
 
@@ -93,10 +93,10 @@ TEST(RawResidual, ReachesTheFloorOnceADelayIsFound) {
   EXPECT_EQ(finding.effect.law.name, "time_delay");
   EXPECT_NEAR(finding.effect.parameters[0], 0.005, 3e-4);
   for (Index j = 0; j < 2; ++j) {
-    EXPECT_GT(diagnosis.heldout.before[j], 1.5 * kNoise);
+    EXPECT_GT(diagnosis.heldout.before[j], 1.5 * kRawNoise);
     // friction turns as late as the delay is wrong, some hundredths of a millisecond
-    EXPECT_NEAR(diagnosis.heldout.after[j], kNoise, 0.2 * kNoise);
-    EXPECT_NEAR(diagnosis.heldout.floor[j], kNoise, 0.2 * kNoise);
+    EXPECT_NEAR(diagnosis.heldout.after[j], kRawNoise, 0.2 * kRawNoise);
+    EXPECT_NEAR(diagnosis.heldout.floor[j], kRawNoise, 0.2 * kRawNoise);
   }
 }
 

@@ -20,8 +20,8 @@ using Eigen::VectorXd;
 constexpr double kPeriodTime = 5;  // s
 
 /// Two runs; what is left of their torque is white noise and, on joint 2, what is added.
-struct Case {
-  explicit Case(unsigned seed, double noise = test::kArmNoise)
+struct RepeatCase {
+  explicit RepeatCase(unsigned seed, double noise = test::kArmNoise)
       : data(test::arm_recordings(test::two_recordings({}, seed))) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
@@ -58,7 +58,7 @@ struct Case {
 };
 
 TEST(RepeatScan, FindsWhatComesBackOnItsJoint) {
-  Case own(1);
+  RepeatCase own(1);
   own.add(3, 0.02);
   own.add(7, 0.02);  // 1.4 Hz: within the lowest band
   EXPECT_EQ(own.scan(1).frequency, 2);
@@ -67,7 +67,7 @@ TEST(RepeatScan, FindsWhatComesBackOnItsJoint) {
 }
 
 TEST(RepeatScan, DoesNotTakeForThatWhatGoesOnByItself) {
-  Case own(2);
+  RepeatCase own(2);
   own.add(3.5, 0.04);
   EXPECT_GT(own.p_of(1), 1e-3);
 }
@@ -77,7 +77,7 @@ TEST(RepeatScan, MeasuresTheNoiseBesideTheHarmonics) {
   constexpr unsigned kSeeds = 20;
   double least = 1, mean = 0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
-    const double p = Case(seed, 2 * test::kArmNoise).p_of(1);
+    const double p = RepeatCase(seed, 2 * test::kArmNoise).p_of(1);
     least = std::min(least, p);
     mean += p / kSeeds;
   }
@@ -86,7 +86,7 @@ TEST(RepeatScan, MeasuresTheNoiseBesideTheHarmonics) {
 }
 
 TEST(RepeatScan, WhereNothingRepeatsThereIsNothing) {
-  Case own(3);
+  RepeatCase own(3);
   own.repeats.assign(own.repeats.size(), 0);
   const EvidenceSystem system(own.data, own.left, test::arm_noise(), {});
   EXPECT_EQ(scan_repeats(own.data, system, 1, own.repeats, true).score.degrees, 0);

@@ -18,7 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNoise = 0.1;  // N m
+constexpr double kDeviation = 0.1;  // N m
 constexpr int kJoint = 1;
 
 EffectRecordings recordings() {
@@ -28,8 +28,8 @@ EffectRecordings recordings() {
   rows.attenuation_db = 30;
   return effect_recordings(
       test::planar_arm(), test::planar_arm_tangents(),
-      test::measured({test::sines(30, 0.004)}, test::planar_arm_values(), {}, kNoise, 0, 1), rows,
-      {true, true});
+      test::measured({test::sines(30, 0.004)}, test::planar_arm_values(), {}, kDeviation, 0, 1),
+      rows, {true, true});
 }
 
 EffectRecordings with_rests() {
@@ -41,11 +41,11 @@ EffectRecordings with_rests() {
 
 /// AR(1), so that an impulse does not stay where it is.
 TorqueNoiseModel noise() {
-  TorqueNoiseModel model = {quick_noise(white_noise(VectorXd::Constant(2, kNoise)).joints),
+  TorqueNoiseModel model = {quick_noise(white_noise(VectorXd::Constant(2, kDeviation)).joints),
                             VectorXd::Constant(2, 2000), false, VectorXd::Ones(2)};
   for (JointNoise& joint : model.joints) {
     joint.quick.coefficients = VectorXd::Constant(1, 0.6);
-    joint.quick.innovation = 0.8 * kNoise;
+    joint.quick.innovation = 0.8 * kDeviation;
   }
   return model;
 }
@@ -57,14 +57,14 @@ RunResiduals residuals(const EffectRecordings& data) {
 /// With slow parts beside it, after which an impulse is everywhere.
 TorqueNoiseModel slow_noise() {
   TorqueNoiseModel model = noise();
-  for (JointNoise& joint : model.joints) joint.slow = {{0.99, kNoise}, {0.998, kNoise}};
+  for (JointNoise& joint : model.joints) joint.slow = {{0.99, kDeviation}, {0.998, kDeviation}};
   return model;
 }
 
 /// Torque of any size where the joint rests, behind the parallel filter.
 VectorXd at_rests(const EffectRun& run) {
   std::mt19937_64 random(7);
-  std::normal_distribution<double> normal(0, 100 * kNoise);
+  std::normal_distribution<double> normal(0, 100 * kDeviation);
   MatrixXd torque = MatrixXd::Zero(run.motion.samples(), 1);
   for (const SampleRange& range : run.unknown[kJoint]) {
     const double from = normal(random), to = normal(random);

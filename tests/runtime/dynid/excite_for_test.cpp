@@ -27,17 +27,16 @@ using Json = nlohmann::ordered_json;
 using test::content;
 using test::dynid;
 using test::Outcome;
+using test::temporary_path;
 
 const std::string kSearch = " --evaluations 250 ";
-
-std::string path(const std::string& name) { return test::temporary_path(name); }
 
 /// A robot file with further rows.
 std::string robot(const std::string& source, const std::string& name, const std::string& rows) {
   std::string text = content(std::string(DYNGEN_SOURCE_DIR) + "/" + source);
   text.insert(text.rfind("stop"), rows);
-  std::ofstream(path(name)) << text;
-  return path(name);
+  std::ofstream(temporary_path(name)) << text;
+  return temporary_path(name);
 }
 
 std::string small_arm() {
@@ -75,8 +74,8 @@ Json stribeck_findings() {
 }
 
 std::string written(const std::string& name, const Json& json) {
-  std::ofstream(path(name)) << json.dump();
-  return path(name);
+  std::ofstream(temporary_path(name)) << json.dump();
+  return temporary_path(name);
 }
 
 struct Pair {
@@ -126,8 +125,8 @@ TEST(ExciteFor, SeparatesAliasesBetterThanARandomMotion) {
 TEST(ExciteFor, WritesTheTrajectoryAndSaysWhatItIsWorth) {
   const std::string command = "excite " + small_arm() + " --for " +
                               written("f.json", stribeck_findings()) + kSearch + "--json " +
-                              path("s.json") + " -o ";
-  const Outcome run = dynid(command + path("a.csv"));
+                              temporary_path("s.json") + " -o ";
+  const Outcome run = dynid(command + temporary_path("a.csv"));
   ASSERT_EQ(run.exit_code, 0) << run.out;
   for (const char* part : {"separate stribeck from presliding (stribeck 2: Fs=3.3 vs=0.05 delta=2)",
                            "the noise floor of the findings: 0.3 0.2", "seed 1",
@@ -135,9 +134,9 @@ TEST(ExciteFor, WritesTheTrajectoryAndSaysWhatItIsWorth) {
                            "joint 2: reversals within reversals", "largest share", "written: "}) {
     EXPECT_NE(run.out.find(part), std::string::npos) << part << "\n" << run.out;
   }
-  const Trajectory trajectory = read_trajectory(path("a.csv"));
+  const Trajectory trajectory = read_trajectory(temporary_path("a.csv"));
   EXPECT_EQ(trajectory.samples(), 5 * 2000 + 1);
-  const Json json = Json::parse(content(path("s.json")));
+  const Json json = Json::parse(content(temporary_path("s.json")));
   EXPECT_EQ(json["schema"], "dynid.separation/1");
   EXPECT_TRUE(json["found"]);
   EXPECT_EQ(json["rivals"], Json({"presliding"}));
@@ -148,16 +147,16 @@ TEST(ExciteFor, WritesTheTrajectoryAndSaysWhatItIsWorth) {
     for (const auto& share : json["largest_share_of_limits"][kind]) EXPECT_LE(share, 1.0) << kind;
   }
   // the same bytes
-  const std::string first = content(path("s.json"));
-  ASSERT_EQ(dynid(command + path("b.csv")).exit_code, 0);
-  EXPECT_EQ(content(path("a.csv")), content(path("b.csv")));
+  const std::string first = content(temporary_path("s.json"));
+  ASSERT_EQ(dynid(command + temporary_path("b.csv")).exit_code, 0);
+  EXPECT_EQ(content(temporary_path("a.csv")), content(temporary_path("b.csv")));
 }
 
 TEST(ExciteFor, AsksForARunWithAnotherLoadInWords) {
   const Outcome run = dynid("excite " + small_arm() + " --for " +
                             written("f.json", findings("load_friction", 1, {{"mu", 0.05}},
                                                        {"load_friction", "torque_saturation"})) +
-                            " --evaluations 60 -o " + path("a.csv"));
+                            " --evaluations 60 -o " + temporary_path("a.csv"));
   ASSERT_EQ(run.exit_code, 0) << run.out;
   EXPECT_NE(run.out.find("Run it twice if you can, without and with a payload"), std::string::npos)
       << run.out;
@@ -167,9 +166,9 @@ class ExciteForWrong : public testing::Test {
  protected:
   /// The message about a file with this text; nothing is written.
   static std::string refused(const std::string& text, int exit_code = 1) {
-    std::ofstream(path("wrong.json")) << text;
-    const std::string out = path("wrong.csv");
-    const Outcome run = dynid("excite " + small_arm() + " --for " + path("wrong.json") +
+    std::ofstream(temporary_path("wrong.json")) << text;
+    const std::string out = temporary_path("wrong.csv");
+    const Outcome run = dynid("excite " + small_arm() + " --for " + temporary_path("wrong.json") +
                               " --evaluations 40 -o " + out);
     EXPECT_EQ(run.exit_code, exit_code) << run.out;
     EXPECT_FALSE(std::filesystem::exists(out));
@@ -185,7 +184,7 @@ class ExciteForWrong : public testing::Test {
 
 TEST_F(ExciteForWrong, FilesThatAreNoFindings) {
   const Outcome absent =
-      dynid("excite " + small_arm() + " --for absent.json -o " + path("wrong.csv"));
+      dynid("excite " + small_arm() + " --for absent.json -o " + temporary_path("wrong.csv"));
   EXPECT_EQ(absent.exit_code, 1);
   expect_part(absent.out, "absent.json: it cannot be opened");
   expect_part(refused(std::string("{\n\"schema\": \n")), "not JSON, expected what dynid diagnose");
@@ -240,12 +239,14 @@ TEST_F(ExciteForWrong, NothingIsLeftToSeparate) {
 
 TEST_F(ExciteForWrong, OptionsOfTheOtherDesignAreRefused) {
   const std::string command = "excite " + small_arm() + " --for " +
-                              written("f.json", stribeck_findings()) + " -o " + path("t.csv");
+                              written("f.json", stribeck_findings()) + " -o " +
+                              temporary_path("t.csv");
   for (const char* option : {" --criterion d", " --form spline", " --harmonics 4", " --starts 2",
                              " --unit-columns", " --parameters inertial"}) {
     EXPECT_EQ(dynid(command + option).exit_code, 2) << option;
   }
-  EXPECT_EQ(dynid("excite " + small_arm() + " --effects . -o " + path("t.csv")).exit_code, 2);
+  EXPECT_EQ(dynid("excite " + small_arm() + " --effects . -o " + temporary_path("t.csv")).exit_code,
+            2);
 }
 
 TEST(ExciteFor, TheFirstFindingWithSeveralNamesIsMeant) {
@@ -288,8 +289,8 @@ std::string record(const std::string& name, Recording motion, const DescribedRob
   for (double& value : motion.tau.reshaped()) value += noise(random);
   motion.dq.resize(0, 0);
   motion.ddq.resize(0, 0);
-  write_recording(motion, path(name));
-  return path(name);
+  write_recording(motion, temporary_path(name));
+  return temporary_path(name);
 }
 
 TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
@@ -306,22 +307,23 @@ TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
                              {.seconds = 20, .sample_time = 0.005, .period = 20, .seed = kSeed}),
              plant, kSeed);
   const auto finding = [&](const std::string& recordings) {
-    const Outcome run = dynid("diagnose " + arm + " " + recordings + " --json " + path("d.json"));
+    const Outcome run =
+        dynid("diagnose " + arm + " " + recordings + " --json " + temporary_path("d.json"));
     EXPECT_EQ(run.exit_code, 0) << run.out;
-    const Json json = Json::parse(content(path("d.json")));
+    const Json json = Json::parse(content(temporary_path("d.json")));
     EXPECT_EQ(json["findings"].size(), 1u) << run.out;
     return json["findings"].empty() ? Json::object() : json["findings"][0];
   };
   const Json before = finding(first);
   ASSERT_EQ(before["family"], "stribeck") << before;
   // the motion that would tell it from pre-sliding holds more of it
-  Json asked = Json::parse(content(path("d.json")));
+  Json asked = Json::parse(content(temporary_path("d.json")));
   asked["findings"][0]["aliases"] = {"stribeck", "presliding"};
   written("d.json", asked);
-  const Outcome design = dynid("excite " + arm + " --for " + path("d.json") +
-                               " --periods 2 --evaluations 250 -o " + path("next.csv"));
+  const Outcome design = dynid("excite " + arm + " --for " + temporary_path("d.json") +
+                               " --periods 2 --evaluations 250 -o " + temporary_path("next.csv"));
   ASSERT_EQ(design.exit_code, 0) << design.out;
-  const Trajectory trajectory = read_trajectory(path("next.csv"));
+  const Trajectory trajectory = read_trajectory(temporary_path("next.csv"));
   Recording motion;
   motion.time = trajectory.time;
   motion.q = trajectory.q;

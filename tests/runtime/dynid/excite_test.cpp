@@ -25,20 +25,20 @@ using Eigen::MatrixXd;
 using test::content;
 using test::dynid;
 using test::Outcome;
+using test::temporary_path;
 
 const std::string kRobot = DYNGEN_SOURCE_DIR "/tests/studies/robots/puma3.robot";
 const std::string kShort = " --evaluations 120 --starts 2";
 
-std::string path(const std::string& name) { return test::temporary_path(name); }
-
 TEST(Excite, WritesATrajectoryWithinTheFilesLimits) {
-  const Outcome excite = dynid("excite " + kRobot + " -o " + path("t.csv") + " --json " +
-                               path("t.json") + kShort + " --periods 3 --noise 1,1.5,0.7");
+  const Outcome excite =
+      dynid("excite " + kRobot + " -o " + temporary_path("t.csv") + " --json " +
+            temporary_path("t.json") + kShort + " --periods 3 --noise 1,1.5,0.7");
   ASSERT_EQ(excite.exit_code, 0) << excite.out;
   EXPECT_NE(excite.out.find("condition number"), std::string::npos);
   EXPECT_NE(excite.out.find("whole samples a period"), std::string::npos);
 
-  const Trajectory trajectory = read_trajectory(path("t.csv"));
+  const Trajectory trajectory = read_trajectory(temporary_path("t.csv"));
   EXPECT_EQ(trajectory.samples(), 3 * 2000 + 1);
   EXPECT_LT(trajectory.dq.row(0).norm(), 1e-9);
   EXPECT_LT(trajectory.ddq.row(0).norm(), 1e-9);
@@ -51,7 +51,7 @@ TEST(Excite, WritesATrajectoryWithinTheFilesLimits) {
   EXPECT_LE(shares.largest(), 1);
   EXPECT_GT(shares.position.maxCoeff(), 0.5);
 
-  const auto json = nlohmann::json::parse(content(path("t.json")));
+  const auto json = nlohmann::json::parse(content(temporary_path("t.json")));
   EXPECT_EQ(json["schema"], "dynid.excitation/1");
   EXPECT_TRUE(json["found"]);
   EXPECT_LT(json["condition"]["optimised"], json["condition"]["random"]);
@@ -64,17 +64,17 @@ TEST(Excite, WritesATrajectoryWithinTheFilesLimits) {
 
 TEST(Excite, GivesTheSameBytesForTheSameSeed) {
   const std::string command = "excite " + kRobot + kShort + " --periods 1 --seed 5 -o ";
-  ASSERT_EQ(dynid(command + path("a.csv")).exit_code, 0);
-  ASSERT_EQ(dynid(command + path("b.csv")).exit_code, 0);
-  EXPECT_EQ(content(path("a.csv")), content(path("b.csv")));
+  ASSERT_EQ(dynid(command + temporary_path("a.csv")).exit_code, 0);
+  ASSERT_EQ(dynid(command + temporary_path("b.csv")).exit_code, 0);
+  EXPECT_EQ(content(temporary_path("a.csv")), content(temporary_path("b.csv")));
 }
 
 TEST(Excite, PeriodsAreFoundInARecordingOfIt) {
   ASSERT_EQ(dynid("excite " + kRobot + kShort +
-                  " --base-frequency 0.13 --rate 100 --periods 4 -o " + path("t.csv"))
+                  " --base-frequency 0.13 --rate 100 --periods 4 -o " + temporary_path("t.csv"))
                 .exit_code,
             0);
-  const Trajectory trajectory = read_trajectory(path("t.csv"));
+  const Trajectory trajectory = read_trajectory(temporary_path("t.csv"));
   Recording recording;
   recording.time = trajectory.time;
   recording.q = trajectory.q;
@@ -91,17 +91,17 @@ TEST(Excite, EveryFormAndCriterionIsUnderstood) {
         "--criterion d --unit-columns", "--parameters inertial --limits 0.5",
         "--parameters ZZ3,MX2 --acceleration 3"}) {
     const Outcome excite = dynid("excite " + kRobot + " --evaluations 30 --starts 1 " + options +
-                                 " -o " + path("t.csv"));
+                                 " -o " + temporary_path("t.csv"));
     EXPECT_EQ(excite.exit_code, 0) << options << "\n" << excite.out;
-    const Trajectory trajectory = read_trajectory(path("t.csv"));
+    const Trajectory trajectory = read_trajectory(temporary_path("t.csv"));
     EXPECT_LT(trajectory.dq.bottomRows(1).norm(), 1e-9) << options;
   }
 }
 
 TEST(Excite, EarlierRecordingsAreTakenIntoAccount) {
   const std::string command = "excite " + kRobot + kShort + " --rate 50 --periods 2 -o ";
-  ASSERT_EQ(dynid(command + path("first.csv")).exit_code, 0);
-  const Trajectory first = read_trajectory(path("first.csv"));
+  ASSERT_EQ(dynid(command + temporary_path("first.csv")).exit_code, 0);
+  const Trajectory first = read_trajectory(temporary_path("first.csv"));
   const DescribedRobot robot = describe_robot(kRobot, OpenParameters::kAbsentRows);
   Recording recording;
   recording.time = first.time;
@@ -110,15 +110,15 @@ TEST(Excite, EarlierRecordingsAreTakenIntoAccount) {
   recording.tau = robot.linear.torque(first.q, first.dq, first.ddq,
                                       Eigen::VectorXd::Constant(robot.linear.size(), 0.5));
   recording.tau += 0.1 * MatrixXd::Random(first.samples(), 3);
-  write_recording(recording, path("rec.csv"));
-  ASSERT_EQ(
-      dynid("accumulate " + kRobot + " " + path("rec.csv") + " --period off -o " + path("first.qr"))
-          .exit_code,
-      0);
-  const Outcome next = dynid(command + path("next.csv") + " --criterion a --prior " +
-                             path("first.qr") + " --json " + path("next.json"));
+  write_recording(recording, temporary_path("rec.csv"));
+  ASSERT_EQ(dynid("accumulate " + kRobot + " " + temporary_path("rec.csv") + " --period off -o " +
+                  temporary_path("first.qr"))
+                .exit_code,
+            0);
+  const Outcome next = dynid(command + temporary_path("next.csv") + " --criterion a --prior " +
+                             temporary_path("first.qr") + " --json " + temporary_path("next.json"));
   ASSERT_EQ(next.exit_code, 0) << next.out;
-  const auto json = nlohmann::json::parse(content(path("next.json")));
+  const auto json = nlohmann::json::parse(content(temporary_path("next.json")));
   // the recording's noise: uniform of +-0.1, less what the filter takes
   for (const auto& noise : json["noise"]) {
     EXPECT_GT(noise, 0.001);
@@ -128,16 +128,17 @@ TEST(Excite, EarlierRecordingsAreTakenIntoAccount) {
     EXPECT_LT(parameter["std"], 0.1) << parameter;
   }
   const Outcome other = dynid("excite " DYNGEN_SOURCE_DIR "/robots/planar2r.robot --prior " +
-                              path("first.qr") + " -o " + path("x.csv"));
+                              temporary_path("first.qr") + " -o " + temporary_path("x.csv"));
   EXPECT_EQ(other.exit_code, 1) << other.out;
   EXPECT_NE(other.out.find("first.qr"), std::string::npos);
 }
 
 TEST(Excite, TheToolStaysOutOfTheBox) {
   const std::string box = " --keep-out 0.3,2,-2,2,-2,2 --tool 0.4,0,0";
-  const Outcome excite = dynid("excite " + kRobot + kShort + box + " -o " + path("t.csv"));
+  const Outcome excite =
+      dynid("excite " + kRobot + kShort + box + " -o " + temporary_path("t.csv"));
   ASSERT_EQ(excite.exit_code, 0) << excite.out;
-  const Trajectory trajectory = read_trajectory(path("t.csv"));
+  const Trajectory trajectory = read_trajectory(temporary_path("t.csv"));
   const DescribedRobot robot = describe_robot(kRobot, OpenParameters::kAbsentRows);
   LimitOptions options;
   options.keep_out = {0.3, 2, -2, 2, -2, 2};
@@ -196,7 +197,7 @@ TEST(ToolPointOfTheFile, HasTheDerivativesOfItsPosition) {
 }
 
 TEST(Excite, SaysWhatIsWrong) {
-  const std::string out = " -o " + path("t.csv");
+  const std::string out = " -o " + temporary_path("t.csv");
   EXPECT_EQ(dynid("excite " + kRobot).exit_code, 2);
   EXPECT_EQ(dynid("excite " + kRobot + out + " --form polynomial").exit_code, 2);
   EXPECT_EQ(dynid("excite " + kRobot + out + " --form multistage --criterion d").exit_code, 2);
@@ -212,7 +213,7 @@ TEST(Excite, SaysWhatIsWrong) {
 }
 
 TEST(Excite, CannotAnswerWhereNothingKeepsTheLimits) {
-  const std::string file = path("t3.csv");
+  const std::string file = temporary_path("t3.csv");
   const Outcome excite =
       dynid("excite " + kRobot + kShort + " --keep-out -9,9,-9,9,-9,9 -o " + file);
   EXPECT_EQ(excite.exit_code, 3) << excite.out;

@@ -26,7 +26,7 @@ using test::content;
 using test::dynid;
 using test::Outcome;
 
-constexpr const char* kRobot = DYNGEN_SOURCE_DIR "/tests/studies/robots/puma3.robot";
+constexpr const char* kPuma3 = DYNGEN_SOURCE_DIR "/tests/studies/robots/puma3.robot";
 constexpr const char* kLoop = " --controller pd --bandwidth 3 --rate 500 ";
 
 /// A sum of three slow sines on each joint.
@@ -56,7 +56,7 @@ std::string motion(const std::string& name, double seconds, double phase) {
 std::string recorded(const std::string& name, const std::string& plant,
                      const std::string& trajectory, const std::string& sensors) {
   const std::string path = test::temporary_path(name);
-  const Outcome run = dynid("simulate " + std::string(kRobot) + " --plant " + plant +
+  const Outcome run = dynid("simulate " + std::string(kPuma3) + " --plant " + plant +
                             " --trajectory " + trajectory + " -o " + path + kLoop + sensors);
   EXPECT_EQ(run.exit_code, 0) << run.out;
   return path;
@@ -97,7 +97,7 @@ TEST(ForwardSimulation, OfTheTruthIsTheRecording) {
   const DescribedRobot& robot = test::made_robot();
   const VectorXd beta = robot.grouping * robot.standard;
   const std::string trajectory = motion("t.csv", 3, 0.3);
-  const std::string recording = recorded("r.csv", kRobot, trajectory, "");
+  const std::string recording = recorded("r.csv", kPuma3, trajectory, "");
   const DiagnosisReport report = report_with(beta, beta);
   const ForwardComparison same =
       compare_forward(report, robot, EffectCatalogue(), task_of(recording, trajectory));
@@ -125,7 +125,7 @@ TEST(ForwardSimulation, SaysWhatNoBodyHas) {
     }
   }
   const std::string trajectory = motion("t.csv", 3, 0.3);
-  const std::string recording = recorded("r.csv", kRobot, trajectory, "");
+  const std::string recording = recorded("r.csv", kPuma3, trajectory, "");
   const ForwardComparison result = compare_forward(
       report_with(impossible, beta), robot, EffectCatalogue(), task_of(recording, trajectory));
   EXPECT_NE(result.before.why_not.find("The mass matrix of the model alone is not positive "
@@ -140,7 +140,7 @@ TEST(ForwardSimulation, SaysWhatNoBodyHas) {
 TEST(ForwardSimulation, WantsAMotionThatCoversItsRecording) {
   const DescribedRobot& robot = test::made_robot();
   const VectorXd beta = robot.grouping * robot.standard;
-  const std::string recording = recorded("r.csv", kRobot, motion("t.csv", 3, 0.3), "");
+  const std::string recording = recorded("r.csv", kPuma3, motion("t.csv", 3, 0.3), "");
   try {
     compare_forward(report_with(beta, beta), robot, EffectCatalogue(),
                     task_of(recording, motion("brief.csv", 2, 0.3)));
@@ -163,7 +163,7 @@ VectorXd values_of(const std::string& text, const std::string& row) {
 }
 
 TEST(ForwardSimulation, IsNearerToTheRecordingWithWhatWasFound) {
-  std::string text = content(kRobot);
+  std::string text = content(kPuma3);
   text.insert(text.rfind("stop"), "effect load_friction joint=2 mu=0.1\n");
   const std::string plant = test::temporary_path("plant.robot");
   std::ofstream(plant) << text;
@@ -172,7 +172,7 @@ TEST(ForwardSimulation, IsNearerToTheRecordingWithWhatWasFound) {
   const std::string a = recorded("a.csv", plant, train, sensors),
                     b = recorded("b.csv", plant, proof, sensors);
   const std::string page = test::temporary_path("d.html");
-  const std::string call = "diagnose " + std::string(kRobot) + " " + a + " --holdout " + b +
+  const std::string call = "diagnose " + std::string(kPuma3) + " " + a + " --holdout " + b +
                            " --cutoff 15 --report " + page;
   const Outcome run = dynid(call + kLoop + "--encoder 1e-5 --commanded " + proof);
   ASSERT_EQ(run.exit_code, 0) << run.out;
@@ -194,7 +194,7 @@ TEST(ForwardSimulation, IsNearerToTheRecordingWithWhatWasFound) {
 
 TEST(ForwardSimulation, IsAskedForInTheRightWords) {
   const std::string call =
-      "diagnose " + std::string(kRobot) + " a.csv --holdout b.csv --holdout c.csv ";
+      "diagnose " + std::string(kPuma3) + " a.csv --holdout b.csv --holdout c.csv ";
   const auto expect = [&](const std::string& options, int code, const std::string& words) {
     const Outcome run = dynid(call + options);
     EXPECT_EQ(run.exit_code, code) << run.out;

@@ -22,10 +22,9 @@ using Json = nlohmann::json;
 using test::content;
 using test::dynid;
 using test::Outcome;
+using test::temporary_path;
 
 const std::string kArm = DYNGEN_SOURCE_DIR "/tests/studies/robots/puma3.robot";
-
-std::string path(const std::string& name) { return test::temporary_path(name); }
 
 /// A recording of the arm with noise. @return its path
 std::string recording(const std::string& name, std::uint64_t seed) {
@@ -35,8 +34,8 @@ std::string recording(const std::string& name, std::uint64_t seed) {
                       {.seconds = 10, .torque_noise = 0.3, .encoder_step = 1e-5, .seed = seed});
   own.dq.resize(0, 0);
   own.ddq.resize(0, 0);
-  write_recording(own, path(name));
-  return path(name);
+  write_recording(own, temporary_path(name));
+  return temporary_path(name);
 }
 
 /// The document in a page.
@@ -68,11 +67,12 @@ std::vector<Json> blocks(const Json& section, const std::string& type) {
 
 TEST(Pages, OfAFitHasItsNumbersAndItsTorque) {
   const Outcome run = dynid("fit " + kArm + " " + recording("run1.csv", 1) + " --holdout " +
-                            recording("run2.csv", 2) + " --period off --json " + path("fit.json") +
-                            " --report " + path("fit.html"));
+                            recording("run2.csv", 2) + " --period off --json " +
+                            temporary_path("fit.json") + " --report " + temporary_path("fit.html"));
   ASSERT_EQ(run.exit_code, 0) << run.out;
-  EXPECT_NE(run.out.find("written: " + path("fit.html")), std::string::npos);
-  const Json json = Json::parse(content(path("fit.json"))), document = page(path("fit.html"));
+  EXPECT_NE(run.out.find("written: " + temporary_path("fit.html")), std::string::npos);
+  const Json json = Json::parse(content(temporary_path("fit.json"))),
+             document = page(temporary_path("fit.html"));
   EXPECT_EQ(document["kind"], "fit");
   EXPECT_EQ(document["state_text"], "determined");
   const Json rows = blocks(section(document, "parameters"), "table").at(0)["rows"];
@@ -108,10 +108,12 @@ TEST(Pages, OfAFitHasItsNumbersAndItsTorque) {
 }
 
 TEST(Pages, OfAnAtlasHasEveryEffectOnce) {
-  const Outcome run = dynid("atlas " + kArm + " " + recording("run.csv", 3) + " --json " +
-                            path("atlas.json") + " --report " + path("atlas.html"));
+  const Outcome run =
+      dynid("atlas " + kArm + " " + recording("run.csv", 3) + " --json " +
+            temporary_path("atlas.json") + " --report " + temporary_path("atlas.html"));
   ASSERT_EQ(run.exit_code, 0) << run.out;
-  const Json json = Json::parse(content(path("atlas.json"))), document = page(path("atlas.html"));
+  const Json json = Json::parse(content(temporary_path("atlas.json"))),
+             document = page(temporary_path("atlas.html"));
   std::size_t partly = 0, numbers = 0;
   for (const Json& entry : json["effects"]) {
     if (entry.contains("missing")) continue;
@@ -138,16 +140,16 @@ TEST(Pages, OfAnAtlasHasEveryEffectOnce) {
 std::string limited_arm() {
   std::string text = content(DYNGEN_SOURCE_DIR "/robots/planar2r.robot");
   text.insert(text.rfind("stop"), "qmin -2.5 -2.5\nqmax 2.5 2.5\nvmax 2 3\namax 8 12\n");
-  std::ofstream(path("arm.robot")) << text;
-  return path("arm.robot");
+  std::ofstream(temporary_path("arm.robot")) << text;
+  return temporary_path("arm.robot");
 }
 
 TEST(Pages, OfATrajectoryStaysWithinItsLimits) {
-  const Outcome run =
-      dynid("excite " + limited_arm() + " --evaluations 60 --json " + path("excite.json") + " -o " +
-            path("t.csv") + " --report " + path("excite.html"));
+  const Outcome run = dynid("excite " + limited_arm() + " --evaluations 60 --json " +
+                            temporary_path("excite.json") + " -o " + temporary_path("t.csv") +
+                            " --report " + temporary_path("excite.html"));
   ASSERT_EQ(run.exit_code, 0) << run.out;
-  const Json document = page(path("excite.html"));
+  const Json document = page(temporary_path("excite.html"));
   EXPECT_EQ(document["kind"], "excitation");
   const Json chart = blocks(section(document, "trajectory"), "chart").at(0);
   EXPECT_EQ(chart["choice"], "show");
@@ -166,7 +168,7 @@ TEST(Pages, OfATrajectoryStaysWithinItsLimits) {
   }
   EXPECT_EQ(names, (std::vector<std::string>{"position", "speed", "acceleration"}));
   const Json bars = blocks(section(document, "verdict"), "bars").at(0);
-  const Json json = Json::parse(content(path("excite.json")));
+  const Json json = Json::parse(content(temporary_path("excite.json")));
   EXPECT_NEAR(bars["groups"][1]["bars"][1]["value"].get<double>(),
               json["largest_share_of_limits"]["speed"][1].get<double>(), 1e-4);
 }
@@ -174,10 +176,10 @@ TEST(Pages, OfATrajectoryStaysWithinItsLimits) {
 
 TEST(Pages, AreTheSameBytesTwice) {
   const std::string call = "fit " + kArm + " " + recording("run1.csv", 1) + " --report ";
-  ASSERT_EQ(dynid(call + path("one.html")).exit_code, 0);
-  const std::string first = content(path("one.html"));
-  ASSERT_EQ(dynid(call + path("one.html")).exit_code, 0);
-  EXPECT_EQ(content(path("one.html")), first);
+  ASSERT_EQ(dynid(call + temporary_path("one.html")).exit_code, 0);
+  const std::string first = content(temporary_path("one.html"));
+  ASSERT_EQ(dynid(call + temporary_path("one.html")).exit_code, 0);
+  EXPECT_EQ(content(temporary_path("one.html")), first);
 }
 
 }  // namespace

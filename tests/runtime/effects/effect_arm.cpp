@@ -47,7 +47,7 @@ EffectSizes sizes_of(const std::vector<LawParameter>& parameters) {
   return sizes;
 }
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -205,7 +205,7 @@ EffectLaw algebraic_law(const std::string& name, const std::vector<std::string>&
 
 EffectLaw stribeck_law() {
   EffectLaw law = algebraic_law("stribeck", {"qd", "sign_qd", "Fc"},
-                                {{"Fs", EffectRole::kLinear, 0, kFar, 2, 2},
+                                {{"Fs", EffectRole::kLinear, 0, kInfinite, 2, 2},
                                  {"vs", EffectRole::kShape, 1e-3, 1, 0.05, 0.05, true}},
                                 [](const VectorXd& v, const VectorXd& p) {
                                   const double x = v[0] / p[1];
@@ -234,14 +234,15 @@ EffectLaw load_friction_law() {
 }
 
 EffectLaw spring_law() {
-  return algebraic_law("gravity_spring", {"q"}, {{"k", EffectRole::kLinear, -kFar, kFar, 1, 20}},
+  return algebraic_law("gravity_spring", {"q"},
+                       {{"k", EffectRole::kLinear, -kInfinite, kInfinite, 1, 20}},
                        [](const VectorXd& v, const VectorXd& p) { return p[0] * v[0]; });
 }
 
 EffectLaw ripple_law() {
   return algebraic_law("torque_ripple", {"q"},
-                       {{"a", EffectRole::kLinear, -kFar, kFar, 0.1, 0.3},
-                        {"b", EffectRole::kLinear, -kFar, kFar, 0.1, 0.3},
+                       {{"a", EffectRole::kLinear, -kInfinite, kInfinite, 0.1, 0.3},
+                        {"b", EffectRole::kLinear, -kInfinite, kInfinite, 0.1, 0.3},
                         {"n", EffectRole::kScanned, 5, 60, 20, 20, false, 111}},
                        [](const VectorXd& v, const VectorXd& p) {
                          return p[0] * std::cos(p[2] * v[0]) + p[1] * std::sin(p[2] * v[0]);
@@ -250,7 +251,7 @@ EffectLaw ripple_law() {
 
 EffectLaw coulomb_asymmetry_law() {
   EffectLaw law = algebraic_law(
-      "coulomb_asymmetry", {"sign_qd"}, {{"a", EffectRole::kLinear, -kFar, kFar, 0, 0.3}},
+      "coulomb_asymmetry", {"sign_qd"}, {{"a", EffectRole::kLinear, -kInfinite, kInfinite, 0, 0.3}},
       [](const VectorXd& v, const VectorXd& p) { return p[0] * (v[0] == 0 ? 0 : 1); });
   law.aliases = {"torque_offset"};
   return law;
@@ -258,8 +259,8 @@ EffectLaw coulomb_asymmetry_law() {
 
 EffectLaw tilt_law() {
   EffectLaw law = algebraic_law("base_tilt", {"d_gx", "d_gy"},
-                                {{"x", EffectRole::kLinear, -kFar, kFar, 0, 0.2},
-                                 {"y", EffectRole::kLinear, -kFar, kFar, 0, 0.01}},
+                                {{"x", EffectRole::kLinear, -kInfinite, kInfinite, 0, 0.2},
+                                 {"y", EffectRole::kLinear, -kInfinite, kInfinite, 0, 0.01}},
                                 [](const VectorXd& v, const VectorXd& p) { return p.dot(v); });
   law.kind = EffectKind::kTangent;
   law.scope = EffectScope::kRobot;
@@ -269,9 +270,9 @@ EffectLaw tilt_law() {
 
 EffectLaw payload_law() {
   EffectLaw law = algebraic_law("payload_change", {"payload_M", "t"},
-                                {{"m", EffectRole::kLinear, 0, kFar, 1, 1},
-                                 {"t1", EffectRole::kGiven, -kFar, kFar, 0, 0},
-                                 {"t2", EffectRole::kGiven, -kFar, kFar, 1e9, 1e9}},
+                                {{"m", EffectRole::kLinear, 0, kInfinite, 1, 1},
+                                 {"t1", EffectRole::kGiven, -kInfinite, kInfinite, 0, 0},
+                                 {"t2", EffectRole::kGiven, -kInfinite, kInfinite, 1e9, 1e9}},
                                 [](const VectorXd& v, const VectorXd& p) {
                                   return v[1] >= p[1] && v[1] <= p[2] ? p[0] * v[0] : 0;
                                 });
@@ -283,7 +284,7 @@ EffectLaw payload_law() {
 
 EffectLaw slip_law() {
   const std::vector<LawParameter> parameters = {
-      {"k", EffectRole::kLinear, 0, kFar, 200, 300},
+      {"k", EffectRole::kLinear, 0, kInfinite, 200, 300},
       {"reach", EffectRole::kShape, 1e-4, 0.1, 3e-3, 3e-3, true}};
   EffectLaw law;
   law.name = law.family = "presliding";

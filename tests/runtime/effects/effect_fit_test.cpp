@@ -17,13 +17,13 @@ using test::unknown;
 
 constexpr double kSampleTime = 0.005;
 
-EffectRecordings recordings(const std::vector<MotionSource>& sources) {
+EffectRecordings arm_recordings(const std::vector<MotionSource>& sources) {
   return effect_recordings(test::planar_arm(), test::planar_arm_tangents(), sources, {1, -1});
 }
 
 EffectFit fit(const std::vector<MotionSource>& sources,
               const std::vector<EffectInstance>& effects) {
-  return fit_effects(recordings(sources), effects);
+  return fit_effects(arm_recordings(sources), effects);
 }
 
 const std::vector<Motion>& two_runs() {

@@ -16,17 +16,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kParameters = 8;
+constexpr int kFactorParameters = 8;
 
 struct Equations {
-  test::RandomEquations equations{kParameters, 900, 5};
+  test::RandomEquations equations{kFactorParameters, 900, 5};
   MatrixXd tau;
   TorqueFactor factor;
 
   Equations() {
     std::mt19937_64 random(11);
     tau = equations.noisy(0.5, {1, 1}, random);
-    factor = factor_of(equations.source(tau), equations.columns, kParameters);
+    factor = factor_of(equations.source(tau), equations.columns, kFactorParameters);
   }
 };
 
@@ -47,7 +47,7 @@ TEST(TorqueFactor, SumsUpTheNormalEquations) {
     MatrixXd A(data.tau.rows(), static_cast<Index>(columns.size()) + 1);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       A.col(static_cast<Index>(i)) =
-          data.equations.Y.col(static_cast<Index>(j) * kParameters + columns[i]);
+          data.equations.Y.col(static_cast<Index>(j) * kFactorParameters + columns[i]);
     }
     A.rightCols(1) = data.tau.col(static_cast<Index>(j));
     const MatrixXd& R = data.factor.joints[j].R;
@@ -62,8 +62,8 @@ TEST(TorqueFactor, SumsUpTheNormalEquations) {
 TEST(TorqueFactor, DoesNotDependOnBlocks) {
   const Equations data;
   for (const Index block : {1, 7, 64, 900}) {
-    const TorqueFactor other =
-        factor_of(data.equations.source(data.tau, block), data.equations.columns, kParameters);
+    const TorqueFactor other = factor_of(data.equations.source(data.tau, block),
+                                         data.equations.columns, kFactorParameters);
     EXPECT_LT(difference(data.factor, other), 1e-13) << "blocks of " << block;
   }
 }
@@ -72,7 +72,7 @@ TEST(TorqueFactor, MergesInAnyOrder) {
   const Equations data;
   std::vector<TorqueFactor> parts;
   for (Index start = 0; start < 900; start += 150) {
-    TorqueFactor part = empty_factor(data.equations.columns, kParameters);
+    TorqueFactor part = empty_factor(data.equations.columns, kFactorParameters);
     absorb(part, data.equations.Y.middleRows(start, 150), data.tau.middleRows(start, 150));
     parts.push_back(std::move(part));
   }
@@ -94,7 +94,8 @@ TEST(TorqueFactor, KnowsTheResidualOfEveryEstimate) {
   const VectorXd squares = residual_squares(data.factor, beta);
   for (Index j = 0; j < 2; ++j) {
     const double wanted =
-        (data.tau.col(j) - data.equations.Y.middleCols(j * kParameters, kParameters) * beta)
+        (data.tau.col(j) -
+         data.equations.Y.middleCols(j * kFactorParameters, kFactorParameters) * beta)
             .squaredNorm();
     EXPECT_NEAR(squares[j], wanted, 1e-12 * wanted);
   }
@@ -107,7 +108,7 @@ TEST(TorqueFactor, KeepsFewerColumnsAsIfTheyHadBeenAlone) {
   MatrixXd W(1800, 4);
   VectorXd tau(1800);
   for (Index j = 0; j < 2; ++j) {
-    const MatrixXd Y = data.equations.Y.middleCols(j * kParameters, kParameters);
+    const MatrixXd Y = data.equations.Y.middleCols(j * kFactorParameters, kFactorParameters);
     W.middleRows(j * 900, 900) = Y(Eigen::all, kept);
     tau.segment(j * 900, 900) = data.tau.col(j);
   }

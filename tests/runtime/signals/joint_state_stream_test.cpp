@@ -12,7 +12,7 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kT = 1e-3;
+constexpr double kStreamStep = 1e-3;
 
 /// The runs that pieces make.
 std::vector<Motion> joined(const std::vector<StreamPiece>& pieces) {
@@ -60,13 +60,13 @@ JointStateOptions options_of(int order, double trim) {
 }
 
 TEST(JointStateStream, PiecesOfAnyChunksAreTheWholeInMemory) {
-  Recording recording = test_recording(test_motion(9001, kT, 2), 1e-5);
+  Recording recording = test_recording(test_motion(9001, kStreamStep, 2), 1e-5);
   for (const int order : {1, 4, 5}) {
     for (const double trim : {-1.0, 0.0, 0.9}) {
       const JointStateOptions options = options_of(order, trim);
       const JointStates whole = joint_states(recording, options);
       for (const Eigen::Index size : {1, 7, 501, 4000, 9000, 20000}) {
-        JointStateStream stream(options, kT);
+        JointStateStream stream(options, kStreamStep);
         std::vector<StreamPiece> pieces;
         for (Eigen::Index from = 0; from < recording.samples(); from += size) {
           const Eigen::Index count = std::min(size, recording.samples() - from);
@@ -87,10 +87,10 @@ TEST(JointStateStream, PiecesOfAnyChunksAreTheWholeInMemory) {
 
 TEST(JointStateStream, KeepsRunsApartWhereverChunksEnd) {
   // Runs that are long, as short as their reflection or shorter, and too short.
-  Recording recording = test_recording(test_motion(6000, kT, 2), 1e-5);
+  Recording recording = test_recording(test_motion(6000, kStreamStep, 2), 1e-5);
   const JointStateOptions options = options_of(4, 0.05);
   const Eigen::Index padding =
-      end_treatment(design_butterworth(options.order, options.cutoff_hz, kT)).padding;
+      end_treatment(design_butterworth(options.order, options.cutoff_hz, kStreamStep)).padding;
   recording.run_starts = {
       0, 2000, 2000 + padding, 2000 + 2 * padding + 1, 2000 + 3 * padding + 3, 4500, 4550, 4700};
   for (std::size_t r = 1; r < recording.run_starts.size(); ++r) {
@@ -101,7 +101,7 @@ TEST(JointStateStream, KeepsRunsApartWhereverChunksEnd) {
   const JointStates whole = joint_states(recording, options);
   ASSERT_EQ(whole.runs.size(), 7U);
   for (const Eigen::Index size : {13, 997, 3001, 6000}) {
-    JointStateStream stream(options, kT);
+    JointStateStream stream(options, kStreamStep);
     std::vector<StreamPiece> pieces;
     for (Eigen::Index from = 0; from < recording.samples(); from += size) {
       const Eigen::Index count = std::min(size, recording.samples() - from);
@@ -121,12 +121,12 @@ TEST(JointStateStream, KeepsRunsApartWhereverChunksEnd) {
 }
 
 TEST(JointStateStream, PiecesComeWhileTheRunGoesOnAndNoneGrows) {
-  const Recording chunk = test_recording(test_motion(500, kT, 1), 1e-5);
-  JointStateStream stream(options_of(4, -1), kT);
+  const Recording chunk = test_recording(test_motion(500, kStreamStep, 1), 1e-5);
+  JointStateStream stream(options_of(4, -1), kStreamStep);
   Eigen::Index in = 0, out = 0, largest = 0;
   for (int push = 0; push < 200; ++push) {
     Recording next = chunk;
-    next.time.array() += 500 * kT * push;
+    next.time.array() += 500 * kStreamStep * push;
     in += next.samples();
     for (const auto& piece : stream.push(next, push > 0)) {
       out += piece.motion.samples();
@@ -138,16 +138,16 @@ TEST(JointStateStream, PiecesComeWhileTheRunGoesOnAndNoneGrows) {
 }
 
 TEST(JointStateStream, IsRefusedWhatItCannotDo) {
-  EXPECT_THROW(JointStateStream({}, kT), std::invalid_argument);  // no cut-off
+  EXPECT_THROW(JointStateStream({}, kStreamStep), std::invalid_argument);  // no cut-off
   JointStateOptions kalman = options_of(4, 0);
   kalman.method = StateMethod::kKalmanSmoother;
-  EXPECT_THROW(JointStateStream(kalman, kT), std::invalid_argument);
-  JointStateStream stream(options_of(4, 0), kT);
-  const Recording recording = test_recording(test_motion(100, kT, 2), 0);
+  EXPECT_THROW(JointStateStream(kalman, kStreamStep), std::invalid_argument);
+  JointStateStream stream(options_of(4, 0), kStreamStep);
+  const Recording recording = test_recording(test_motion(100, kStreamStep, 2), 0);
   stream.push(recording, false);
   EXPECT_THROW(stream.push(recording, true), std::invalid_argument);  // time goes back
-  Recording other = test_recording(test_motion(100, kT, 3), 0);
-  other.time.array() += 100 * kT;
+  Recording other = test_recording(test_motion(100, kStreamStep, 3), 0);
+  other.time.array() += 100 * kStreamStep;
   EXPECT_THROW(stream.push(other, true), std::invalid_argument);
 }
 

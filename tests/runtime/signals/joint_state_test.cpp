@@ -14,7 +14,7 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kT = 2e-4;
+constexpr double kSampleTime = 2e-4;
 constexpr double kStep = 9.5e-5 / 45;  // of the third axis of a Staeubli TX40
 
 /// rms of the difference, where the run still has samples.
@@ -25,7 +25,7 @@ double error(const Motion& got, const Eigen::MatrixXd& value, const Eigen::Matri
 }
 
 TEST(JointState, EveryMethodFindsVelocityAndAccelerationOfAMultisine) {
-  const TestMotion motion = test_motion(50'000, kT, 2);
+  const TestMotion motion = test_motion(50'000, kSampleTime, 2);
   Recording recording = test_recording(motion, kStep);
   const double dq = std::sqrt(motion.dq.squaredNorm() / static_cast<double>(motion.dq.size()));
   const double ddq = std::sqrt(motion.ddq.squaredNorm() / static_cast<double>(motion.ddq.size()));

@@ -13,8 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t kAliases = 3, kPairs = 200;
-constexpr double kLeastLikeness = 0.1;  // what is less is no alias
+constexpr std::size_t kAliasesDrawn = 3, kPairs = 200;
 
 struct Counts {
   int partly = 0, by_motion = 0, on_any_data = 0, missing = 0;
@@ -113,7 +112,7 @@ std::vector<ReportCell> row_of(const AtlasReport& report, std::size_t place) {
                        unit == "1" || unit.empty() ? "" : " " + unit);
   }
   std::string aliases;
-  for (const std::size_t other : report.atlas.nearest(place, kAliases)) {
+  for (const std::size_t other : report.atlas.nearest(place, kAliasesDrawn)) {
     const double own = likeness(report, place, other);
     if (own < kLeastLikeness) continue;
     aliases += fmt::format("{}{} {:.2f}", aliases.empty() ? "" : ", ",

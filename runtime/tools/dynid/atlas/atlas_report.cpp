@@ -14,7 +14,6 @@ using Eigen::Index;
 
 constexpr std::size_t kAliases = 2;  // in the table
 constexpr std::size_t kAliasesInJson = 5;
-constexpr double kLeastLikeness = 0.1;  // what is less is no alias
 
 std::string absorbed_text(const AtlasEntry& entry) {
   switch (entry.kind) {

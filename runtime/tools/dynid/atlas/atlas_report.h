@@ -25,6 +25,8 @@ struct AtlasReport {
   std::vector<std::size_t> order;  ///< places of entries: by joint, then by the part absorbed
 };
 
+constexpr double kLeastLikeness = 0.1;  ///< what is less is no alias
+
 /// Joint of an entry in the robot file; 0 of the whole robot.
 int atlas_joint(const AtlasReport& report, std::size_t entry);
 
