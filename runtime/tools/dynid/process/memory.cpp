@@ -11,15 +11,16 @@ namespace dyngen::runtime {
 #ifdef __GLIBC__
 namespace {
 
-constexpr int kAlways = 1 << 30;   // bytes at the end of the heap that stay
-constexpr int kAtOnce = 64 << 20;  // bytes that the heap grows by
+constexpr int kLarge = 16 << 20;  // bytes: what is larger goes back at once
+constexpr int kKept = 256 << 20;  // at the end of the heap
+constexpr int kStep = 16 << 20;   // that the heap grows by
 
 }  // namespace
 
 void keep_memory() {
-  mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, kAlways);
-  mallopt(M_TOP_PAD, kAtOnce);
+  mallopt(M_MMAP_THRESHOLD, kLarge);
+  mallopt(M_TRIM_THRESHOLD, kKept);
+  mallopt(M_TOP_PAD, kStep);
 }
 #else
 void keep_memory() {}
