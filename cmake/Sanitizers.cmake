@@ -8,7 +8,8 @@ function(dyngen_target_sanitizers target)
       -fsanitize=${DYNGEN_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
       # Eigen takes blocks of empty matrices: an offset to a null pointer that is never read
       $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-fno-sanitize=pointer-overflow>
-      $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-fsanitize-ignorelist=${DYNGEN_SANITIZER_IGNORELIST}>)
+      # only where Eigen's own assertions are on
+      $<$<AND:$<COMPILE_LANG_AND_ID:CXX,Clang>,$<CONFIG:Debug>>:-fsanitize-ignorelist=${DYNGEN_SANITIZER_IGNORELIST}>)
     target_link_options(${target} PUBLIC -fsanitize=${DYNGEN_SANITIZE})
     get_target_property(type ${target} TYPE)
     if(type STREQUAL "EXECUTABLE" AND DYNGEN_SANITIZE MATCHES "address")
