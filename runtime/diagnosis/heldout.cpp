@@ -49,10 +49,12 @@ VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
 
 bool HeldoutProof::helps() const { return before - after >= kGain; }
 
+bool HeldoutProof::informs() const { return change >= kInformative; }
+
 bool HeldoutProof::agrees() const {
   const double ratio = fitted > 0 ? change / fitted : 0;
   const double expected = change - 2 * parameters * ratio;
-  return change >= kInformative &&
+  return informs() &&
          before - after >= expected - kDeviations * 2 * std::sqrt(change * (1 + ratio));
 }
 

@@ -32,6 +32,8 @@ struct HeldoutProof {
   double parameters = 0;  ///< that were estimated
   double fitted = 0;      ///< squares that it explains of the recordings that it was fitted to
   [[nodiscard]] bool helps() const;
+  /// What the effect changes in them is enough to tell.
+  [[nodiscard]] bool informs() const;
   /// It shows in them, and they are as an effect that is there makes them, all but one in a
   /// hundred.
   [[nodiscard]] bool agrees() const;

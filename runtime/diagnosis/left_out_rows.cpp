@@ -13,7 +13,7 @@ using Eigen::Index;
 namespace {
 
 constexpr double kLongest = 0.1;  // s below the speed at a reversal
-constexpr double kEnough = 0.3;   // of a joint's equations that have to stay
+constexpr double kEnough = 0.1;   // of a joint's equations that have to stay
 constexpr double kFaint = 0.02;   // of the parallel filter's largest tap: less is not felt
 
 void leave_out(RowBlock& rows, Index row, Index joint, Index size) {

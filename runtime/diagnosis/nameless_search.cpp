@@ -145,18 +145,22 @@ bool NamelessSearch::describe(const GenericResult& generic, const EvidenceSystem
   return add(std::move(nameless), system, needs_proof);
 }
 
+/// Whether held-out recordings have it too; where it is beyond doubt, whether they do not speak
+/// against it.
+bool NamelessSearch::is_proved(const Nameless& nameless, bool needs_proof) {
+  if (!is_provable(nameless)) return !needs_proof;
+  const HeldoutProof proof =
+      nameless_proof(data_, signals_, heldout_, hypotheses_, result_, nameless, options_);
+  return needs_proof ? proof.informs() && proof.helps() : !proof.informs() || proof.agrees();
+}
+
 /// @param needs_proof  that held-out recordings have it too
 bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system, bool needs_proof) {
   const int joint = nameless.structure.joint;
   const JointColumns plain = nameless_columns(data_, signals_, nameless);
   const JointColumns white = system.whitened(plain);
   nameless.score = score_of(system.products(white, false), false);
-  if (needs_proof &&
-      !(is_provable(nameless) &&
-        nameless_proof(data_, signals_, heldout_, hypotheses_, result_, nameless, options_)
-            .helps())) {
-    return false;
-  }
+  if (!is_proved(nameless, needs_proof)) return false;
   const auto own = std::find(plain.joints.begin(), plain.joints.end(), joint);
   const auto place = static_cast<std::size_t>(own - plain.joints.begin());
   if (result_.noise.from_periods &&

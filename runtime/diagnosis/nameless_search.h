@@ -59,6 +59,7 @@ class NamelessSearch {
   [[nodiscard]] std::vector<const GenericResult*> candidates(const Screening& screening) const;
   bool describe(const GenericResult& generic, const EvidenceSystem& system,
                 const std::string& costly, bool needs_proof);
+  bool is_proved(const Nameless& nameless, bool needs_proof);
   bool add(Nameless nameless, const EvidenceSystem& system, bool needs_proof = false);
 
   const EffectRecordings& data_;

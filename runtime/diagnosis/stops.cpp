@@ -180,8 +180,9 @@ RestingJoint Stops::found(const EvidenceSystem& system, const Screening& screeni
       resting.recordings.push_back(static_cast<int>(recording));
     }
   }
-  if (!resting.recordings.empty()) return resting;
-  // each by itself is too short to tell
+  const bool some = !resting.recordings.empty() && 2 * resting.recordings.size() <= own.size();
+  if (some) return resting;
+  // each by itself is too short to tell; or it rests in most, and in the others for too short
   resting.recordings.resize(own.size());
   std::iota(resting.recordings.begin(), resting.recordings.end(), 0);
   return resting;

@@ -22,21 +22,18 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kLags = 40;
-constexpr double kAsWell = 0.9;     // of an error of prediction that may be
 constexpr double kLeastPart = 0.6;  // of the equations that differences between periods must give
 
 /// A joint's residuals between what does not count; sums of their products at all lags, and of how
 /// many pairs of samples.
 struct LagProducts {
   std::vector<VectorXd> stretches;
-  std::size_t runs = 0;
   VectorXd sums = VectorXd::Zero(kLags + 1);
   VectorXd pairs = VectorXd::Zero(kLags + 1);
 
   /// @param e  0 where `counted` is
   void add(const VectorXd& e, const VectorXd& counted) {
     for (VectorXd& stretch : stretches_of(e, counted)) stretches.push_back(std::move(stretch));
-    ++runs;
     for (Index lag = 0; lag <= std::min(kLags, e.size() - 1); ++lag) {
       const Index rows = e.size() - lag;
       sums[lag] += e.tail(rows).dot(e.head(rows));
@@ -47,15 +44,11 @@ struct LagProducts {
   [[nodiscard]] double samples() const { return pairs[0]; }
   [[nodiscard]] VectorXd of_pairs() const { return sums.cwiseQuotient(pairs.cwiseMax(1)); }
 
-  /// Pairs about gaps may have that of no process, or of one that predicts too well: errors of
-  /// prediction between the gaps say so, and give one themselves.
+  /// Of the process that predicts best within the stretches. What pairs of samples give would be
+  /// wrong by a part of the variance at every frequency, about gaps above all: where noise of
+  /// accelerations is hundreds of times what the slow parts are, nothing would be left of those.
   [[nodiscard]] VectorXd covariance() const {
-    const VectorXd pairs_alone = of_pairs();
-    if (stretches.size() <= runs) return pairs_alone;
-    const AutoregressiveNoise between = autoregression_of(stretches, kLags);
-    const AutoregressiveNoise about = fit_autoregression(pairs_alone, std::max(samples(), 1.0));
-    if (about.innovation > kAsWell * between.innovation) return pairs_alone;
-    return autocovariance(between, kLags);
+    return autocovariance(autoregression_of(stretches, kLags), kLags);
   }
 };
 

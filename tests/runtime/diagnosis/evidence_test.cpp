@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <random>
+#include <utility>
 
 #include "runtime/diagnosis/generic_columns.h"
 #include "runtime/diagnosis/left_out_rows.h"
@@ -105,6 +107,58 @@ TEST(TorqueNoiseModel, PutsBackWhatOutlastsAPeriod) {
   EXPECT_NEAR(none.mean(), 1, 0.02);
 }
 
+/// Noise of accelerations, and 1/200 as much white noise: its density.
+double density_of_accelerations(double white, double frequency) {
+  return std::pow(2 - 2 * std::cos(2 * M_PI * frequency), 2) / 6 + white;
+}
+
+TEST(TorqueNoiseModel, OfAccelerationsKeepsWhatIsSlow) {
+  // a joint that rests twice a period: a tenth of its equations does not count
+  EffectRecordings data = arm_recordings(60, 0.1, 1);
+  const Index rows = data.equations(), period = rows / 5;
+  for (Index k = 0; k < rows; ++k) {
+    if (k % (period / 20) < period / 200) data.runs.front().rows.counted.row(k).setZero();
+  }
+  constexpr double kWhite = 0.005;
+  constexpr int kDraws = 12;
+  std::mt19937_64 random(20261125);
+  std::normal_distribution<double> normal;
+  const std::vector<double> frequencies = {0.002, 0.01, 0.05, 0.2};
+  VectorXd found = VectorXd::Zero(4);  // mean logarithms
+  double least = 1;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    MatrixXd e(rows, 2);
+    for (Index j = 0; j < 2; ++j) {
+      double before = normal(random), now = normal(random);
+      for (Index k = 0; k < rows; ++k) {
+        const double next = normal(random);
+        e(k, j) = (next - 2 * now + before) / std::sqrt(6.0) + std::sqrt(kWhite) * normal(random);
+        before = std::exchange(now, next);
+      }
+    }
+    e = e.cwiseProduct(data.runs.front().rows.counted);
+    const TorqueNoiseModel model =
+        torque_noise_model(data, {e}, {static_cast<double>(period)}, false);
+    for (const JointNoise& joint : model.joints) {
+      for (std::size_t i = 0; i < frequencies.size(); ++i) {
+        const double ratio =
+            joint.density(frequencies[i]) / density_of_accelerations(kWhite, frequencies[i]);
+        found[static_cast<Index>(i)] += std::log(ratio) / (2 * kDraws);
+        least = std::min(least, ratio);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    const double ratio = std::exp(found[static_cast<Index>(i)]);
+    std::printf("%.3f cycles for a sample: density over the true one %.2f\n", frequencies[i],
+                ratio);
+    EXPECT_GT(ratio, 0.8);
+    EXPECT_LT(ratio, 2.5);
+  }
+  // squares of slow structure are at most twice what they are taken for, in any draw
+  EXPECT_GT(least, 0.5);
+}
+
 TEST(EvidenceSystem, NoiseGivesChiSquare) {
   const EffectRecordings data = arm_recordings(20, 0.1, 2);
   EvidenceSystem::Options options;
@@ -188,6 +242,11 @@ TEST(Unvisited, IsLeftOutUnlessAJointIsNearlyAlwaysThere) {
   EXPECT_NEAR(heldout.runs.front().rows.counted.col(0).sum(), all - 400, 4);
   EXPECT_EQ(heldout.runs.front().rows.counted.col(1).sum(), all);
   EXPECT_EQ(heldout.runs.front().rows.tau(400, 0), 0);
+  heldout = train;
+  const Index most = train.runs.front().motion.samples() * 4 / 5;
+  heldout.runs.front().motion.q.col(0).head(most).setConstant(beyond);
+  leave_out_unvisited(heldout, train);
+  EXPECT_NEAR(heldout.runs.front().rows.counted.col(0).sum(), all / 5, all / 50);
   heldout = train;
   heldout.runs.front().motion.q.col(0).setConstant(beyond);
   leave_out_unvisited(heldout, train);

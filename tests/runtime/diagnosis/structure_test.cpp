@@ -153,6 +153,8 @@ TEST(HeldoutProof, WeighsAGainByWhatTheChangeIsWorth) {
   // where it hardly shows nothing is said for it
   EXPECT_FALSE((HeldoutProof{1000, 999.5, 1, 0, 0}.agrees()));
   EXPECT_FALSE((HeldoutProof{1000, 999.5, 1, 0, 0}.helps()));
+  EXPECT_FALSE((HeldoutProof{1000, 997, 3, 0, 0}.informs()));
+  EXPECT_TRUE((HeldoutProof{1000, 1030, 30, 0, 0}.informs()));
 }
 
 TEST(HeldoutProof, IsOfSquaresBeforeAndAfter) {
