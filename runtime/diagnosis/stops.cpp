@@ -180,9 +180,9 @@ RestingJoint Stops::found(const EvidenceSystem& system, const Screening& screeni
       resting.recordings.push_back(static_cast<int>(recording));
     }
   }
-  const bool some = !resting.recordings.empty() && 2 * resting.recordings.size() <= own.size();
-  if (some) return resting;
-  // each by itself is too short to tell; or it rests in most, and in the others for too short
+  const bool in_some = !resting.recordings.empty() && 2 * resting.recordings.size() <= own.size();
+  if (in_some) return resting;
+  // none by itself shows it, or most do, and in the others it rests too briefly to be seen
   resting.recordings.resize(own.size());
   std::iota(resting.recordings.begin(), resting.recordings.end(), 0);
   return resting;

@@ -107,13 +107,13 @@ TEST(TorqueNoiseModel, PutsBackWhatOutlastsAPeriod) {
   EXPECT_NEAR(none.mean(), 1, 0.02);
 }
 
-/// Noise of accelerations, and 1/200 as much white noise: its density.
+/// Density of noise of accelerations of variance 1, and of white noise beside it.
 double density_of_accelerations(double white, double frequency) {
   return std::pow(2 - 2 * std::cos(2 * M_PI * frequency), 2) / 6 + white;
 }
 
 TEST(TorqueNoiseModel, OfAccelerationsKeepsWhatIsSlow) {
-  // a joint that rests twice a period: a tenth of its equations does not count
+  // joints that rest twenty times a period: a tenth of their equations does not count
   EffectRecordings data = arm_recordings(60, 0.1, 1);
   const Index rows = data.equations(), period = rows / 5;
   for (Index k = 0; k < rows; ++k) {
