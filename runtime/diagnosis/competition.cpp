@@ -78,9 +78,10 @@ class Competition {
         if (!result_.resting.empty()) return std::move(result_);
       }
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
-      const bool named = result_.noise.from_periods ? next_winner(system, screening)
-                                                    : next_likely(system, screening);
-      if (!named && !nameless_.next(system, screening)) break;
+      const bool found = result_.noise.from_periods
+                             ? next_winner(system, screening) || nameless_.next(system, screening)
+                             : next_likely(system, screening);
+      if (!found) break;
       if (options_.until_rest && !result_.resting.empty()) return std::move(result_);
     }
     drop_superfluous();
@@ -109,6 +110,13 @@ class Competition {
   void measure_noise() {
     const RunResiduals residuals = residuals_of(fitted_, result_.fit.point);
     result_.noise = torque_noise_model(fitted_, residuals, repeats_, options_.with_regressor);
+    if (result_.noise.from_periods || result_.nameless.empty()) return;
+    // noise is what the model leaves: structure that was found is none of it
+    EffectSignals signals(fitted_);
+    const EvidenceSystem white =
+        beside_white_noise(fitted_, signals, hypotheses_, result_, system_options());
+    result_.noise = torque_noise_model(fitted_, rests_of(fitted_, white, result_.fit.rms), repeats_,
+                                       options_.with_regressor);
   }
 
   [[nodiscard]] EvidenceSystem::Options system_options() const {
@@ -118,18 +126,9 @@ class Competition {
     return options;
   }
 
-  /// Hypotheses of the winners.
-  [[nodiscard]] std::vector<Hypothesis> found() const {
-    std::vector<Hypothesis> all;
-    for (const Winner& winner : result_.winners) all.push_back(hypotheses_[winner.hypothesis]);
-    return all;
-  }
-
   EvidenceSystem model_system() {
-    EvidenceSystem system =
-        system_at(train_, signals_, result_.fit.point, found(), result_.noise, system_options());
-    add_nameless(train_, signals_, result_, system);
-    return system;
+    return system_beside(train_, signals_, hypotheses_, result_, result_.fit.point, result_.noise,
+                         system_options());
   }
 
   [[nodiscard]] double net(const NamedResult& result) const {
@@ -298,31 +297,28 @@ class Competition {
     return nameless_.describe(*nearest, system, name);
   }
 
-  /// Where no motion repeats: see LikelySearch.
+  /// Where no motion repeats: see LikelySearch and likeliest_structure().
   bool next_likely(const EvidenceSystem& system, const Screening& screening) {
     at_stops_ = false;
     tell("likelihoods", 0);
-    const EvidenceSystem white = white_system();
-    const Screening plain = screen(screening_data_, white, scales_, result_.fit.point.beta,
-                                   hypotheses_, structures_, &result_.first);
-    return likely_.next({system, screening}, {white, plain}, [&](const LikelyEffect& likely) {
+    const EvidenceSystem white =
+        beside_white_noise(train_, signals_, hypotheses_, result_, system_options());
+    const Screening beside = screen(screening_data_, white, scales_, result_.fit.point.beta,
+                                    hypotheses_, structures_, &result_.first);
+    const ModelSide plain{white, beside};
+    const auto take = [&](const LikelyEffect& likely) {
       if (screening.family_wise(likely.named.surprise) > options_.false_alarm) return false;
       if (likely.net < stops_.unseen_on(joints_of_hypothesis(likely.named.hypothesis))) {
         return false;
       }
+      const Stops::Part stops =
+          stops_.part_in(white, beside, hypotheses_[likely.named.hypothesis], likely.named);
+      if (stops == Stops::Part::kAll || is_no_event(white, likely.named)) return false;
+      at_stops_ = stops == Stops::Part::kBecause;
       return accept(likely.named, screening, likely.fit);
-    });
-  }
-
-  /// The model beside white noise.
-  EvidenceSystem white_system() {
-    TorqueNoiseModel white = result_.noise;
-    white.joints = quick_noise(white_noise(result_.fit.rms).joints);
-    EvidenceSystem::Options options = system_options();
-    options.surrogates = 0;
-    EvidenceSystem system = system_at(train_, signals_, result_.fit.point, found(), white, options);
-    add_nameless(train_, signals_, result_, system);
-    return system;
+    };
+    return likely_.next({system, screening}, plain, take) || nameless_.next(system, screening) ||
+           nameless_.next_likely(plain);
   }
 
   /// What effects read of the model (the load on a gear) is wrong as long as the model has taken up
@@ -338,8 +334,8 @@ class Competition {
     const EffectPoint beside = without(fit(all).point, all.size() - 1);
     EvidenceSystem::Options options = system_options();
     options.surrogates = 0;
-    EvidenceSystem system = system_at(train_, signals_, beside, found(), result_.noise, options);
-    add_nameless(train_, signals_, result_, system);
+    const EvidenceSystem system =
+        system_beside(train_, signals_, hypotheses_, result_, beside, result_.noise, options);
     NamedResult best = named;
     bool first = true;
     std::size_t tried = 0;

@@ -129,6 +129,18 @@ void add_nameless(const EffectRecordings& data, EffectSignals& signals,
   }
 }
 
+EvidenceSystem system_beside(const EffectRecordings& data, EffectSignals& signals,
+                             const std::vector<Hypothesis>& hypotheses,
+                             const CompetitionResult& result, const EffectPoint& point,
+                             const TorqueNoiseModel& noise,
+                             const EvidenceSystem::Options& options) {
+  std::vector<Hypothesis> beside;
+  for (const Winner& winner : result.winners) beside.push_back(hypotheses[winner.hypothesis]);
+  EvidenceSystem system = system_at(data, signals, point, beside, noise, options);
+  add_nameless(data, signals, result, system);
+  return system;
+}
+
 EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signals,
                               const std::vector<Hypothesis>& hypotheses,
                               const CompetitionResult& result, std::size_t winner,

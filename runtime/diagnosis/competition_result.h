@@ -76,6 +76,12 @@ void add_nameless(const EffectRecordings& data, EffectSignals& signals,
                   const CompetitionResult& result, EvidenceSystem& system,
                   const std::vector<int>& but_for = {});
 
+/// The model with all that was found. @param point  with the effects of all winners
+EvidenceSystem system_beside(const EffectRecordings& data, EffectSignals& signals,
+                             const std::vector<Hypothesis>& hypotheses,
+                             const CompetitionResult& result, const EffectPoint& point,
+                             const TorqueNoiseModel& noise, const EvidenceSystem::Options& options);
+
 /// The model with all that was found but one winner.
 EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signals,
                               const std::vector<Hypothesis>& hypotheses,

@@ -20,7 +20,7 @@ bool meet(const std::vector<int>& a, const std::vector<int>& b) {
 
 }  // namespace
 
-bool LikelySearch::next(const Side& side, const Side& plain,
+bool LikelySearch::next(const ModelSide& side, const ModelSide& plain,
                         const std::function<bool(const LikelyEffect&)>& take) {
   const LikelihoodRatio ratio(data_, residuals_of(data_, result_.fit.point));
   for (auto& [place, likely] : likely_) likely.fresh = false;
@@ -56,7 +56,7 @@ bool LikelySearch::next(const Side& side, const Side& plain,
 }
 
 LikelyEffect LikelySearch::compared(std::size_t place, const LikelihoodRatio& ratio,
-                                    const Side& side) {
+                                    const ModelSide& side) {
   LikelyEffect likely{side.screening.named[place], {}};
   NamedResult& named = likely.named;
   const Hypothesis& hypothesis = hypotheses_[place];

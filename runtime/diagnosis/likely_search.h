@@ -8,6 +8,7 @@
 
 #include "runtime/diagnosis/competition_result.h"
 #include "runtime/diagnosis/likelihood.h"
+#include "runtime/diagnosis/likely_structure.h"
 
 namespace dyngen::runtime {
 
@@ -36,20 +37,15 @@ class LikelySearch {
         result_(result),
         with_(std::move(with)) {}
 
-  /// A model, and everything beside it.
-  struct Side {
-    const EvidenceSystem& system;
-    const Screening& screening;
-  };
   /// Offers the likeliest of all, then the next, until one is taken.
   /// @param plain  beside white noise: noise that has slow structure in it hides that structure, so
   ///               each joint's best of it is compared too
   /// @param take   keeps what it is offered, or refuses. @return whether one was taken
-  bool next(const Side& side, const Side& plain,
+  bool next(const ModelSide& side, const ModelSide& plain,
             const std::function<bool(const LikelyEffect&)>& take);
 
  private:
-  LikelyEffect compared(std::size_t place, const LikelihoodRatio& ratio, const Side& side);
+  LikelyEffect compared(std::size_t place, const LikelihoodRatio& ratio, const ModelSide& side);
   [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
   [[nodiscard]] std::vector<std::size_t> strongest_of(const Screening& screening, int joint) const;
 

@@ -29,10 +29,8 @@ HeldoutProof nameless_proof(const EffectRecordings& train, EffectSignals& signal
   EffectPoint point = result.fit.point;
   point.initial.clear();
   EffectSignals own(heldout);
-  std::vector<Hypothesis> found;
-  for (const Winner& winner : result.winners) found.push_back(hypotheses[winner.hypothesis]);
-  EvidenceSystem system = system_at(heldout, own, point, found, result.noise, options);
-  add_nameless(heldout, own, result, system);
+  const EvidenceSystem system =
+      system_beside(heldout, own, hypotheses, result, point, result.noise, options);
   const StructureKnots knots = structure_knots(train, signals, nameless.structure);
   const Products products = system.products(
       system.whitened(generic_columns(heldout, own, nameless.structure, knots)), false);

@@ -71,6 +71,21 @@ bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screeni
   return false;
 }
 
+bool NamelessSearch::next_likely(const ModelSide& plain) {
+  const std::optional<LikelyStructure> likely =
+      likeliest_structure(data_, signals_, structures_, result_, plain);
+  if (!likely || plain.screening.family_wise(likely->generic.surprise) > false_alarm_) return false;
+  const std::vector<double> no_repeats(data_.runs.size(), 0.0);
+  TorqueNoiseModel noise =
+      torque_noise_model(data_, likely->residuals, no_repeats, options_.with_regressor);
+  std::swap(result_.noise, noise);
+  const EvidenceSystem system = system_beside(data_, signals_, hypotheses_, result_,
+                                              result_.fit.point, result_.noise, options_);
+  if (describe(likely->generic, system, "", true)) return true;
+  std::swap(result_.noise, noise);
+  return false;
+}
+
 bool NamelessSearch::sure(const Screening& screening, double surprise) const {
   // where no motion repeats, noise has much of the structure in it: the p-value is too large anyway
   const double caution = result_.noise.from_periods ? kUnheldCaution : 1;

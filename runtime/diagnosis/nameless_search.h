@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition_result.h"
+#include "runtime/diagnosis/likely_structure.h"
 #include "runtime/diagnosis/stops.h"
 #include "runtime/diagnosis/witness.h"
 
@@ -36,6 +37,10 @@ class NamelessSearch {
   /// The strongest structure of a round: a joint that rests, the form of an effect that a bound or
   /// a falsifier rules out, or any function of the motion. @return whether there is any
   bool next(const EvidenceSystem& system, const Screening& screening);
+
+  /// Where no motion repeats: the likeliest function of the motion, if held-out recordings have it
+  /// too, beside noise that is known without it. @return whether there is one
+  bool next_likely(const ModelSide& plain);
 
   /// Generic structure that `costly` would explain, for more parameters than the data pay for.
   /// @return false if the witness contradicts it

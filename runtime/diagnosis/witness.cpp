@@ -35,14 +35,10 @@ Witness::Witness(const EffectRecordings& data)
 EvidenceSystem Witness::system(const std::vector<Hypothesis>& hypotheses,
                                const CompetitionResult& result, const EffectPoint& point,
                                EvidenceSystem::Options options) {
-  std::vector<Hypothesis> beside;
-  for (const Winner& winner : result.winners) beside.push_back(hypotheses[winner.hypothesis]);
   const TorqueNoiseModel noise =
       torque_noise_model(data_, residuals_of(data_, point), repeats_, options.with_regressor);
   options.surrogates = 0;
-  EvidenceSystem system = system_at(data_, signals_, point, beside, noise, options);
-  add_nameless(data_, signals_, result, system);
-  return system;
+  return system_beside(data_, signals_, hypotheses, result, point, noise, options);
 }
 
 bool Witness::contradicts(const std::vector<Hypothesis>& hypotheses,

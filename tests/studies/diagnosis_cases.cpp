@@ -101,6 +101,10 @@ CaseSettings drawn_settings(const CaseRequest& request, CaseNoise noise, std::mt
     settings.period = std::min(settings.period, 6.0);
     settings.periods = 4;
   }
+  if (request.once) {
+    settings.period *= settings.periods;
+    settings.periods = 1;
+  }
   return settings;
 }
 

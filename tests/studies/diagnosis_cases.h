@@ -40,6 +40,7 @@ struct CaseRequest {
   double lambda = 80;              ///< noncentrality of each effect
   std::optional<CaseNoise> noise;  ///< none: by the seed
   std::string family;              ///< of the first effect; empty: any
+  bool once = false;               ///< no motion repeats
 };
 
 /// Recordings of a machine, and the truth of them.

@@ -26,7 +26,8 @@ constexpr const char* kUsage =
     "    [--lambda L (10 20 40 60 80 150 300 in turn)] [--robot puma3|ur10e|planar2 (puma3)]\n"
     "    [--noise white|mixed|slow|closed_loop (in turn)|rounded_loop|pink] [--only FAMILY] "
     "[--first-seed S (1)]\n"
-    "    [--jobs J (2)] [--each] [--baselines]\n";
+    "    [--jobs J (2)] [--once] [--each] [--baselines]\n"
+    "  --once  motions that do not repeat\n";
 
 struct StudyPlan {
   int cases = 20;
@@ -62,7 +63,9 @@ StudyPlan plan_of(const std::vector<std::string>& words) {
        [&](const std::string& text) { plan.request.seed = number<unsigned>(text); }},
       {"--jobs", [&](const std::string& text) { plan.jobs = number<int>(text); }}};
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--each") {
+    if (words[i] == "--once") {
+      plan.request.once = true;
+    } else if (words[i] == "--each") {
       plan.each = true;
     } else if (words[i] == "--baselines") {
       plan.baselines = true;
