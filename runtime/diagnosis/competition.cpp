@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "runtime/diagnosis/beside_white_noise.h"
 #include "runtime/diagnosis/heldout.h"
 #include "runtime/diagnosis/likely_search.h"
 #include "runtime/diagnosis/nameless_search.h"
@@ -14,7 +15,6 @@
 #include "runtime/diagnosis/second_scan.h"
 #include "runtime/diagnosis/stops.h"
 #include "runtime/diagnosis/time_windows.h"
-#include "runtime/effects/absorption.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -288,7 +288,7 @@ class Competition {
       for (const GenericResult& generic : screening.generic) {
         const GenericStructure& structure = structures_[generic.structure];
         if (structure.joint != joint || !structure.is_specific() ||
-            structure.form == GenericStructure::Form::kImpulses || nameless_.is_said(joint))
+            structure.form == GenericStructure::Form::kImpulses || has_nameless(result_, joint))
           continue;
         if (!nearest || generic.surprise > nearest->surprise) nearest = &generic;
       }

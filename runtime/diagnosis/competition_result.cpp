@@ -92,6 +92,11 @@ bool is_winner(const CompetitionResult& result, std::size_t hypothesis) {
                      [&](const Winner& winner) { return winner.hypothesis == hypothesis; });
 }
 
+bool has_nameless(const CompetitionResult& result, int joint) {
+  return std::any_of(result.nameless.begin(), result.nameless.end(),
+                     [&](const Nameless& nameless) { return nameless.structure.joint == joint; });
+}
+
 EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
                          const EffectPoint& point, const std::vector<Hypothesis>& beside,
                          const TorqueNoiseModel& noise, const EvidenceSystem::Options& options) {

@@ -60,6 +60,9 @@ struct CompetitionResult {
 /// Whether a hypothesis has won already.
 bool is_winner(const CompetitionResult& result, std::size_t hypothesis);
 
+/// Whether a joint has structure without a name already.
+bool has_nameless(const CompetitionResult& result, int joint);
+
 /// The model with what is given beside it: regressor, and effects at their estimates with the
 /// columns of all their unknown parameters.
 EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,

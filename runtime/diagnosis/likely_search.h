@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/diagnosis/beside_white_noise.h"
 #include "runtime/diagnosis/competition_result.h"
 #include "runtime/diagnosis/likelihood.h"
-#include "runtime/diagnosis/likely_structure.h"
 
 namespace dyngen::runtime {
 

@@ -7,20 +7,11 @@
 #include "runtime/diagnosis/generic_columns.h"
 #include "runtime/diagnosis/likelihood.h"
 #include "runtime/diagnosis/nameless_proof.h"
-#include "runtime/effects/absorption.h"
 
 namespace dyngen::runtime {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr std::size_t kStrongest = 3;  // of a joint whose likelihoods are compared
-
-bool has_nameless(const CompetitionResult& result, int joint) {
-  return std::any_of(result.nameless.begin(), result.nameless.end(),
-                     [&](const Nameless& nameless) { return nameless.structure.joint == joint; });
-}
 
 /// Functions of the motion on a joint with the largest net squares beside white noise, a few, that
 /// held-out recordings can speak for.
@@ -47,35 +38,6 @@ std::vector<const GenericResult*> strongest_of(const Screening& plain,
 }
 
 }  // namespace
-
-EvidenceSystem beside_white_noise(const EffectRecordings& data, EffectSignals& signals,
-                                  const std::vector<Hypothesis>& hypotheses,
-                                  const CompetitionResult& result,
-                                  EvidenceSystem::Options options) {
-  TorqueNoiseModel white = result.noise;
-  white.joints = quick_noise(white_noise(result.fit.rms).joints);
-  options.surrogates = 0;
-  return system_beside(data, signals, hypotheses, result, result.fit.point, white, options);
-}
-
-RunResiduals rests_of(const EffectRecordings& data, const EvidenceSystem& white,
-                      const VectorXd& deviation) {
-  RunResiduals residuals;
-  for (const EffectRun& run : data.runs) {
-    residuals.emplace_back(run.rows.Y.rows(), data.joints());
-  }
-  for (int j = 0; j < data.joints(); ++j) {
-    const VectorXd rest = deviation[j] * white.rest(j);
-    Index start = 0;
-    for (std::size_t run = 0; run < residuals.size(); ++run) {
-      const Index rows = residuals[run].rows();
-      residuals[run].col(j) =
-          rest.segment(start, rows).cwiseProduct(data.runs[run].rows.counted.col(j));
-      start += rows;
-    }
-  }
-  return residuals;
-}
 
 std::optional<LikelyStructure> likeliest_structure(const EffectRecordings& data,
                                                    EffectSignals& signals,

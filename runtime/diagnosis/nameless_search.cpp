@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "runtime/diagnosis/likely_structure.h"
 #include "runtime/diagnosis/nameless_proof.h"
 #include "runtime/diagnosis/own_scatter.h"
 
@@ -62,7 +63,7 @@ bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screeni
   for (const GenericResult* generic : strongest) {
     const GenericStructure& structure = structures_[generic->structure];
     if (structure.is_specific() && !specific) continue;
-    if (is_said(structure.joint)) {
+    if (has_nameless(result_, structure.joint)) {
       specific = false;
       continue;
     }
@@ -90,11 +91,6 @@ bool NamelessSearch::sure(const Screening& screening, double surprise) const {
   // where no motion repeats, noise has much of the structure in it: the p-value is too large anyway
   const double caution = result_.noise.from_periods ? kUnheldCaution : 1;
   return screening.family_wise(surprise) <= caution * false_alarm_;
-}
-
-bool NamelessSearch::is_said(int joint) const {
-  return std::any_of(result_.nameless.begin(), result_.nameless.end(),
-                     [&](const Nameless& nameless) { return nameless.structure.joint == joint; });
 }
 
 bool NamelessSearch::is_costly(const std::string& effect) const {
@@ -131,8 +127,9 @@ bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screenin
     if (net <= most || !sure(screening, named.surprise)) continue;
     const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
     // beside a joint that rests, what friction left of the stops looks like friction that cannot be
-    if (std::any_of(joints.begin(), joints.end(),
-                    [&](int joint) { return is_said(joint) || stops_.rests(joint); })) {
+    if (std::any_of(joints.begin(), joints.end(), [&](int joint) {
+          return has_nameless(result_, joint) || stops_.rests(joint);
+        })) {
       continue;
     }
     if (stops_.hide(system, screening, hypotheses_[named.hypothesis], named)) continue;

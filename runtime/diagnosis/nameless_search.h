@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/diagnosis/beside_white_noise.h"
 #include "runtime/diagnosis/competition_result.h"
-#include "runtime/diagnosis/likely_structure.h"
 #include "runtime/diagnosis/stops.h"
 #include "runtime/diagnosis/witness.h"
 
@@ -51,8 +51,6 @@ class NamelessSearch {
 
   /// Whether structure may be said to be there although nothing that is held out speaks for it.
   [[nodiscard]] bool sure(const Screening& screening, double surprise) const;
-  /// Whether a joint has nameless structure already.
-  [[nodiscard]] bool is_said(int joint) const;
   /// Whether some of it was said to be what a costly effect would explain.
   [[nodiscard]] bool is_costly(const std::string& effect) const;
 

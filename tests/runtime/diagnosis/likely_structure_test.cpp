@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-using Kind = StructureVariable::Kind;
 
 /// What the model leaves of recordings that do not repeat, and the likeliest structure in it.
 struct Left {
