@@ -5,26 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "runtime/diagnosis/findings.h"
-#include "runtime/effects/effect_recordings.h"
-#include "runtime/identification/motion_source.h"
+#include "runtime/diagnosis/names/findings.h"
+#include "runtime/diagnosis/views/diagnosis_input.h"
 
 namespace dyngen::runtime {
-
-/// What a diagnosis looks at.
-struct DiagnosisInput {
-  LinearModel model;
-  EffectRobot robot;
-  std::vector<MotionSource> train;
-  std::vector<MotionSource> heldout;    ///< may be empty: then a fifth of every recording of train
-  std::vector<MotionSource> reference;  ///< of the same robot before a change; may be empty
-  /// Effects that compete, each on one joint, pair or the whole robot, with `link` set. Parameters
-  /// that have numbers are taken as given; others are NaN.
-  std::vector<EffectInstance> hypotheses;
-};
 
 struct DiagnosisOptions {
   double false_alarm = 0.01;  ///< of the whole diagnosis, 0 .. 0.5
@@ -37,13 +23,6 @@ struct DiagnosisOptions {
   /// @throws std::invalid_argument  naming the option and its range
   void validate() const;
 };
-
-/// Which equations a diagnosis makes of recordings: up to a part of the cut-off, above which the
-/// joint state that they are computed from is damped. Noise has one model for all: recordings that
-/// would have more equations a second than the median of those that the model is fitted to have as
-/// many as that one.
-/// @param train  recordings that the model is fitted to  @param decimation  as in DiagnosisOptions
-RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Eigen::Index decimation);
 
 /// Told the stage's name and how far it is, 0 .. 1.
 using DiagnosisProgress = std::function<void(const std::string& stage, double done)>;

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "runtime/diagnosis/archetypes.h"
+#include "runtime/diagnosis/names/archetypes.h"
 #include "runtime/discrimination/planned_recording.h"
 #include "runtime/excitation/motion_limits.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/diagnosis/archetypes.h"
+#include "runtime/diagnosis/names/archetypes.h"
 #include "runtime/discrimination/separation.h"
 #include "runtime/excitation/motion_limits.h"
 

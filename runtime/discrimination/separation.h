@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/diagnosis/hypothesis.h"
+#include "runtime/diagnosis/scans/hypothesis.h"
 #include "runtime/discrimination/planned_recording.h"
 #include "runtime/effects/effect_recordings.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/diagnosis/findings.h"
+#include "runtime/diagnosis/names/findings.h"
 #include "runtime/report/document.h"
 #include "runtime/report/residual_views.h"
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "runtime/diagnosis/generic_structure.h"
-#include "runtime/diagnosis/raw_residual.h"
+#include "runtime/diagnosis/scans/generic_structure.h"
+#include "runtime/diagnosis/views/raw_residual.h"
 #include "runtime/report/thinning.h"
 
 namespace dyngen::runtime {

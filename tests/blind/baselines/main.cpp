@@ -9,7 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "runtime/diagnosis/views.h"
+#include "runtime/diagnosis/views/views.h"
 #include "runtime/tools/dynid/effects/effect_hypotheses.h"
 #include "runtime/tools/dynid/effects/effect_laws.h"
 #include "runtime/tools/dynid/effects/robot_tangents.h"

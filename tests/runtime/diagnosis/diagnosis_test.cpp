@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "runtime/diagnosis/sufficiency.h"
+#include "runtime/diagnosis/views/sufficiency.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {

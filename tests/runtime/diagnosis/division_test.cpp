@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/division.h"
+#include "runtime/diagnosis/views/division.h"
 
 #include <gtest/gtest.h>
 

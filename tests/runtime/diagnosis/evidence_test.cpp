@@ -6,9 +6,9 @@
 #include <random>
 #include <utility>
 
-#include "runtime/diagnosis/generic_columns.h"
-#include "runtime/diagnosis/left_out_rows.h"
-#include "runtime/diagnosis/screening.h"
+#include "runtime/diagnosis/scans/generic_columns.h"
+#include "runtime/diagnosis/scans/screening.h"
+#include "runtime/diagnosis/views/left_out_rows.h"
 #include "runtime/effects/absorption.h"
 #include "runtime/evidence/evidence_system.h"
 #include "tests/runtime/effects/effect_arm.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/likelihood.h"
+#include "runtime/diagnosis/competition/likelihood.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/likely_structure.h"
+#include "runtime/diagnosis/competition/likely_structure.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/name_tests.h"
+#include "runtime/diagnosis/names/name_tests.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// What held-out recordings say of functions of the motion without a name.
-#include "runtime/diagnosis/nameless_proof.h"
+#include "runtime/diagnosis/competition/nameless_proof.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "runtime/diagnosis/generic_columns.h"
+#include "runtime/diagnosis/scans/generic_columns.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/own_scatter.h"
+#include "runtime/diagnosis/competition/own_scatter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/repeat_scan.h"
+#include "runtime/diagnosis/scans/repeat_scan.h"
 
 #include <gtest/gtest.h>
 

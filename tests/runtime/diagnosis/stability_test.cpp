@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/stability.h"
+#include "runtime/diagnosis/names/stability.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "runtime/diagnosis/heldout.h"
-#include "runtime/diagnosis/line_scan.h"
-#include "runtime/diagnosis/naming.h"
-#include "runtime/diagnosis/time_windows.h"
+#include "runtime/diagnosis/competition/heldout.h"
+#include "runtime/diagnosis/names/naming.h"
+#include "runtime/diagnosis/scans/line_scan.h"
+#include "runtime/diagnosis/scans/time_windows.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "runtime/diagnosis/left_out_rows.h"
+#include "runtime/diagnosis/views/left_out_rows.h"
 #include "runtime/effects/absorption.h"
 #include "runtime/evidence/evidence_system.h"
 #include "tests/runtime/effects/effect_arm.h"

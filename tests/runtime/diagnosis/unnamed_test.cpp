@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/diagnosis/generic_columns.h"
-#include "runtime/diagnosis/naming.h"
-#include "runtime/diagnosis/stops.h"
-#include "runtime/diagnosis/wave_scan.h"
+#include "runtime/diagnosis/competition/stops.h"
+#include "runtime/diagnosis/names/naming.h"
+#include "runtime/diagnosis/scans/generic_columns.h"
+#include "runtime/diagnosis/scans/wave_scan.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/views.h"
+#include "runtime/diagnosis/views/views.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,10 @@
 #include <numbers>
 #include <random>
 
-#include "runtime/diagnosis/left_out_rows.h"
-#include "runtime/diagnosis/repeated_motion.h"
-#include "runtime/diagnosis/repeated_rounding.h"
+#include "runtime/diagnosis/competition/within_rounding.h"
+#include "runtime/diagnosis/views/left_out_rows.h"
+#include "runtime/diagnosis/views/repeated_motion.h"
+#include "runtime/diagnosis/views/repeated_rounding.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {

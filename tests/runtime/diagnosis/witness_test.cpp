@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/witness.h"
+#include "runtime/diagnosis/competition/witness.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "runtime/diagnosis/generic_columns.h"
-#include "runtime/diagnosis/repeated_motion.h"
+#include "runtime/diagnosis/scans/generic_columns.h"
+#include "runtime/diagnosis/views/repeated_motion.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "runtime/diagnosis/generic_structure.h"
+#include "runtime/diagnosis/scans/generic_structure.h"
 #include "runtime/report/residual_charts.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "gen/tool/output_files.h"
-#include "runtime/diagnosis/division.h"
+#include "runtime/diagnosis/views/division.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_document.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_recordings.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_report.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gen/effects/effect_catalogue.h"
-#include "runtime/diagnosis/findings.h"
+#include "runtime/diagnosis/names/findings.h"
 #include "runtime/report/document.h"
 #include "runtime/report/residual_views.h"
 #include "runtime/tools/dynid/diagnose/forward_comparison.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "runtime/diagnosis/hypothesis.h"
+#include "runtime/diagnosis/scans/hypothesis.h"
 #include "runtime/tools/dynid/excite/motion_charts.h"
 #include "runtime/tools/dynid/excite/separation_report.h"
 #include "runtime/tools/dynid/page/page_parts.h"

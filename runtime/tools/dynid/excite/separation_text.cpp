@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "runtime/diagnosis/hypothesis.h"
+#include "runtime/diagnosis/scans/hypothesis.h"
 #include "runtime/tools/dynid/excite/excite_report.h"
 #include "runtime/tools/dynid/excite/excite_values.h"
 #include "runtime/tools/dynid/excite/separation_report.h"

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/answer/found_effects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/diagnosis/names/name_tests.h"
+#include "runtime/diagnosis/names/naming.h"
+#include "runtime/diagnosis/names/whereabouts.h"
+
+namespace dyngen::runtime {
+namespace {
+
+constexpr double kObjection =
+    0.5;                         // the most of a name against which a bound or a falsifier speaks
+constexpr double kStable = 0.8;  // of halves of the recordings: Meinshausen and Buehlmann 2010
+
+std::string where_it_acts(const EffectInstance& effect) {
+  if (effect.joint < 0) return "the whole robot";
+  if (effect.other >= 0) {
+    return fmt::format("joints {} and {}", effect.joint + 1, effect.other + 1);
+  }
+  return fmt::format("joint {}", effect.joint + 1);
+}
+
+std::string when_it_acts(const Whereabouts& where) {
+  return where.recording.empty() ? "" : " in " + where.recording;
+}
+
+/// Whether the name holds on halves of the recordings.
+FalsifierOutcome stability_test(const Naming& naming) {
+  const double share = naming.stability();
+  return {"stability", share >= kStable,
+          fmt::format("{} explains most of {:.0f} of 100 halves of the recordings",
+                      naming.families.size() > 1 ? "it, or a name that is not told apart," : "it",
+                      100 * share),
+          true};
+}
+
+std::string why(const Finding& finding, const Naming& naming) {
+  std::string text = fmt::format(
+      "{} on {} explains {:.0f} squares of noise that the model cannot", finding.effect.law.family,
+      where_it_acts(finding.effect) + when_it_acts(finding.where), finding.evidence.lambda);
+  if (naming.unnamed_distance < kApart) {
+    text += fmt::format("; {}, which is no effect of the catalogue, is {:.0f} squares {}",
+                        naming.unnamed, std::abs(naming.unnamed_distance),
+                        naming.unnamed_distance < 0 ? "better" : "worse");
+  } else if (naming.rivals.empty()) {
+    text += "; nothing else comes near";
+  }
+  if (naming.rivals.empty()) return text;
+  const Rival& next = naming.rivals.front();
+  if (finding.aliases.size() > 1) {
+    return text + fmt::format("; these data do not tell it from {}", next.name);
+  }
+  return text +
+         fmt::format("; the next name, {}, is {:.0f} squares worse", next.name, next.distance);
+}
+
+Finding finding(const Search& search, std::size_t place, const Naming& naming,
+                EffectSignals& signals, const EvidenceSystem::Options& options) {
+  const EffectRecordings& evidence = search.views().evidence();
+  const CompetitionResult& result = search.result();
+  const EffectFit& fit = result.fit;
+  const Winner& winner = result.winners[place];
+  const Hypothesis& hypothesis = search.hypotheses()[winner.hypothesis];
+  Finding finding;
+  finding.effect = fit.point.effects[place];
+  finding.parameters = fit.parameters[place];
+  finding.aliases = naming.families;
+  finding.probability = naming.probability;
+  finding.absorbed = 1 - naming.part_left;
+  finding.evidence = {naming.lambda, naming.delta_bic, 0};
+  const EvidenceSystem system =
+      system_without(evidence, signals, search.hypotheses(), result, place, options);
+  finding.tests = name_tests(evidence, signals, system, finding.effect);
+  if (!hypothesis.windowed) finding.tests.push_back(stability_test(naming));
+  finding.where = whereabouts_of(evidence, signals, system, hypothesis, finding.effect);
+  if (finding.effect.recording >= 0) {
+    finding.where.recording =
+        search.parts().train[static_cast<std::size_t>(finding.effect.recording)].name;
+  }
+  finding.evidence.heldout_gain =
+      1 - std::sqrt(winner.heldout_after / std::max(winner.heldout_before, 1e-300));
+  for (const EffectRemark& remark : fit.remarks) {
+    if (!fit.objects(remark, static_cast<int>(place))) continue;
+    finding.probability = std::min(finding.probability, kObjection);
+    finding.doubted = true;
+    finding.tests.push_back({remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound",
+                             false, remark.text, true});
+  }
+  finding.why = why(finding, naming);
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> found_effects(Search& search, std::uint64_t seed, bool with_regressor,
+                                   const CompetitionProgress& progress) {
+  CompetitionResult& result = search.result();
+  if (result.winners.empty()) return {};
+  if (progress) progress("the final fit", 0);
+  const std::vector<EffectInstance> effects = result.fit.point.effects;
+  result.fit = fit_effects(search.views().train, effects);
+  EffectSignals signals(search.views().evidence());
+  EvidenceSystem::Options system;
+  system.seed = seed;
+  system.surrogates = 0;
+  system.with_regressor = with_regressor;
+  const std::vector<Naming> namings =
+      settle_names(search.views().evidence(), search.views().train, search.views().proof, signals,
+                   search.hypotheses(), result, system, progress);
+  std::vector<Finding> findings;
+  for (std::size_t i = 0; i < namings.size(); ++i) {
+    findings.push_back(finding(search, i, namings[i], signals, system));
+  }
+  return findings;
+}
+
+}  // namespace dyngen::runtime

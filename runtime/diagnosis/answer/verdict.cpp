@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/answer/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dyngen::runtime {
+namespace {
+
+constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise's correlation
+constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
+
+/// Part of a joint's structure that has no name.
+double nameless_part(const Search& search, const std::vector<Finding>& findings,
+                     const Nameless& nameless) {
+  const CompetitionResult& result = search.result();
+  double named = 0;
+  for (std::size_t i = 0; i < result.winners.size(); ++i) {
+    const std::vector<int> joints = joints_of(
+        search.hypotheses()[result.winners[i].hypothesis].effect, search.views().train.joints());
+    if (std::find(joints.begin(), joints.end(), nameless.structure.joint) == joints.end()) {
+      continue;
+    }
+    named += findings[i].evidence.lambda;
+  }
+  const double left = std::max(0.0, nameless.score.squares - nameless.score.degrees);
+  return left / std::max(left + named, 1e-300);
+}
+
+}  // namespace
+
+std::string why_too_slow(const CompetitionResult& result) {
+  if (!result.winners.empty() || !result.nameless.empty()) return {};
+  Eigen::Index joint = 0;
+  const double least = result.noise.worth.minCoeff(&joint);
+  if (least >= kLeastIndependent) return {};
+  return fmt::format(
+      "What the model leaves of joint {} is so slow that the recordings are worth {:.0f} "
+      "independent samples: too few to tell structure from noise.",
+      joint + 1, least);
+}
+
+Conclusion concluded(const Search& search, const std::vector<Finding>& findings) {
+  const std::vector<Nameless>& all = search.result().nameless;
+  const bool open = std::any_of(all.begin(), all.end(), [&](const Nameless& nameless) {
+    return nameless_part(search, findings, nameless) > kUnexplainedPart;
+  });
+  const bool doubted = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+    return !finding.since_reference && finding.doubted;
+  });
+  if (open) {
+    return {Verdict::kUnexplainedStructure,
+            findings.empty() ? "There is structure that no effect of the catalogue explains."
+                             : "Effects were found, and there is structure beside them that none "
+                               "explains."};
+  }
+  if (doubted) {
+    return {Verdict::kUnexplainedStructure,
+            "There is structure beside the model; the effect that is nearest to it has a condition "
+            "against it."};
+  }
+  if (!findings.empty()) {
+    const bool one = findings.size() == 1;
+    return {Verdict::kExplained,
+            fmt::format("{} left-out effect{} explain{} what the model leaves.", findings.size(),
+                        one ? "" : "s", one ? "s" : "")};
+  }
+  return {Verdict::kClean, "Nothing above the noise: the model explains these recordings."};
+}
+
+}  // namespace dyngen::runtime

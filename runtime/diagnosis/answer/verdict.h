@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/diagnosis/competition/search.h"
+#include "runtime/diagnosis/names/findings.h"
+
+namespace dyngen::runtime {
+
+struct Conclusion {
+  Verdict verdict = Verdict::kInsufficientData;
+  std::string sentence;
+};
+
+/// Why what the model leaves is too slow to call recordings clean: they are worth too few
+/// independent samples. Empty: they are worth enough, or something was found.
+std::string why_too_slow(const CompetitionResult& result);
+
+/// @param findings  of the winners, in their order, then those since the reference
+Conclusion concluded(const Search& search, const std::vector<Finding>& findings);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,490 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/competition/competition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "runtime/diagnosis/competition/beside_white_noise.h"
+#include "runtime/diagnosis/competition/heldout.h"
+#include "runtime/diagnosis/competition/likely_search.h"
+#include "runtime/diagnosis/competition/nameless_search.h"
+#include "runtime/diagnosis/competition/own_scatter.h"
+#include "runtime/diagnosis/competition/second_scan.h"
+#include "runtime/diagnosis/competition/stops.h"
+#include "runtime/diagnosis/competition/within_rounding.h"
+#include "runtime/diagnosis/scans/time_windows.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t kRefined = 12;     // candidates whose shapes are refined in a round
+constexpr double kLeastExplained = 0.7;  // part of a joint's structure that a name must explain
+constexpr double kLeastAsGood = 0.5;     // of the winner's squares: rivals that are tried with it
+constexpr double kOutdone = 9;           // squares, net, by which what has no name is better
+constexpr double kOutdonePart = 0.1;     // and of the effect's, of a function of the motion
+constexpr std::size_t kAttempts = 4;     // effects that are fitted in a round before it gives up
+constexpr double kTie = 0.5;             // squares that decide nothing
+constexpr std::size_t kRivals = 5;       // that are compared again once the winner is fitted
+constexpr double kEventNet = 10;         // squares, net, of an event
+constexpr double kShortest = 3;          // equations that an event lasts
+
+/// One competition's data and what was found so far.
+class Competition {
+ public:
+  Competition(const EffectRecordings& train, const EffectRecordings& fitted, Witness& witness,
+              const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
+              const CompetitionOptions& options, const CompetitionProgress& progress)
+      : train_(train),
+        fitted_(fitted),
+        heldout_(heldout),
+        hypotheses_(hypotheses),
+        structures_(generic_structures(train.joints())),
+        options_(options),
+        progress_(progress),
+        scales_(train),
+        signals_(train),
+        screening_data_(train),
+        repeats_(repeats_of(fitted)),
+        witness_(witness),
+        stops_(train_, signals_, structures_, result_.resting, options_.false_alarm),
+        nameless_(train_, signals_, heldout_, hypotheses_, structures_, stops_, witness_,
+                  system_options(), options_.false_alarm, result_),
+        likely_(train_, signals_, hypotheses_, scales_, result_,
+                [this](const EffectInstance& effect) { return with(effect); }) {}
+
+  CompetitionResult run() {
+    tell("the model alone", 0);
+    result_.base = result_.fit = fit({});
+    for (int round = 0;; ++round) {
+      measure_noise();
+      const EvidenceSystem system = model_system();
+      const std::string stage = round == 0 ? "structure beside the model"
+                                           : "structure beside the model and what was found";
+      Screening screening =
+          screen(screening_data_, system, scales_, result_.fit.point.beta, hypotheses_, structures_,
+                 round == 0 ? nullptr : &result_.first, [&](double done) { tell(stage, done); });
+      if (round == 0) result_.first = screening;
+      result_.last = screening;
+      // where nothing repeats, what rests leave is taken for noise, in which nothing is seen
+      const bool ask = options_.rests || !result_.noise.from_periods;
+      if (round == 0 && ask && options_.until_rest) {
+        result_.resting = stops_.strongest(system, screening);
+        if (!result_.resting.empty()) return std::move(result_);
+      }
+      if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
+      const bool found = result_.noise.from_periods
+                             ? next_winner(system, screening) || nameless_.next(system, screening)
+                             : next_likely(system, screening);
+      if (!found) break;
+      if (options_.until_rest && !result_.resting.empty()) return std::move(result_);
+    }
+    drop_superfluous();
+    if (scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {
+      result_.fit = fit(effects());
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void tell(const std::string& stage, double done) const {
+    if (progress_) progress_(stage, done);
+  }
+
+  EffectFit fit(const std::vector<EffectInstance>& effects) {
+    EffectFitOptions settings;
+    settings.most_rounds = 2;
+    settings.most_steps = 15;
+    settings.tolerance = 1e-6;
+    return fit_effects(fitted_, effects, settings);
+  }
+
+  /// Effects of all winners, with their latest estimates.
+  [[nodiscard]] std::vector<EffectInstance> effects() const { return result_.fit.point.effects; }
+
+  void measure_noise() {
+    const RunResiduals residuals = residuals_of(fitted_, result_.fit.point);
+    result_.noise = torque_noise_model(fitted_, residuals, repeats_, options_.with_regressor);
+    if (result_.noise.from_periods || result_.nameless.empty()) return;
+    // noise is what the model leaves: structure that was found is none of it
+    EffectSignals signals(fitted_);
+    const EvidenceSystem white =
+        beside_white_noise(fitted_, signals, hypotheses_, result_, system_options());
+    result_.noise = torque_noise_model(fitted_, rests_of(fitted_, white, result_.fit.rms), repeats_,
+                                       options_.with_regressor);
+  }
+
+  [[nodiscard]] EvidenceSystem::Options system_options() const {
+    EvidenceSystem::Options options;
+    options.seed = options_.seed;
+    options.with_regressor = options_.with_regressor;
+    return options;
+  }
+
+  EvidenceSystem model_system() {
+    return system_beside(train_, signals_, hypotheses_, result_, result_.fit.point, result_.noise,
+                         system_options());
+  }
+
+  [[nodiscard]] double net(const NamedResult& result) const {
+    return net_of(hypotheses_[result.hypothesis], result.best, result_.noise);
+  }
+
+  [[nodiscard]] std::size_t size_of(std::size_t hypothesis) const {
+    return hypotheses_[hypothesis].linear.size() + hypotheses_[hypothesis].shapes.size();
+  }
+
+  /// Joints on which the columns of a hypothesis act.
+  [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const {
+    return joints_of(hypotheses_[place].effect, train_.joints());
+  }
+
+  /// What generic structure there is on a joint: squares less their expectation under noise.
+  /// Impulses at reversals count where they are far more than noise: then nothing else is to be
+  /// believed of that joint before it is said to rest.
+  [[nodiscard]] double structure_of(const Screening& screening, int joint) const {
+    double most = 0;
+    for (const GenericResult& generic : screening.generic) {
+      const GenericStructure& structure = structures_[generic.structure];
+      if (structure.joint != joint) continue;
+      if (!structure.is_specific()) continue;
+      if (structure.form == GenericStructure::Form::kImpulses &&
+          (stops_.rests(joint) ||
+           generic.score.squares < kHardlyMoreThanNoise * generic.score.degrees)) {
+        continue;
+      }
+      most = std::max(most, generic.score.squares - generic.score.degrees);
+    }
+    return most;
+  }
+
+  bool next_winner(const EvidenceSystem& system, Screening& screening) {
+    doubt_.reset();
+    at_stops_ = false;
+    std::vector<std::size_t> order;
+    for (const NamedResult& named : screening.named) {
+      if (named.seen && named.best.admissible && !is_winner(result_, named.hypothesis)) {
+        order.push_back(named.hypothesis);
+      }
+    }
+    // of effects that are as good as one another the one with fewer parameters, then the first
+    const auto best_first = [&](std::size_t a, std::size_t b) {
+      const double first = std::floor(net(screening.named[a]) / kTie);
+      const double second = std::floor(net(screening.named[b]) / kTie);
+      if (first != second) return first > second;
+      return size_of(a) < size_of(b);
+    };
+    std::stable_sort(order.begin(), order.end(), best_first);
+    std::set<std::size_t> attempted;  // fitted and turned down
+    std::set<std::size_t> stopped;    // explained by stops, or by rounding
+    if (order.size() > kRefined) order.resize(kRefined);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      tell("shapes of the strongest effects", static_cast<double>(i) / kRefined);
+      NamedResult& named = screening.named[order[i]];
+      if (screening.family_wise(named.surprise) > 0.5) continue;
+      const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
+      named.best = refined(train_, signals_, system, hypothesis, named.best,
+                           scales_.of(result_.fit.point.beta, hypothesis.effect));
+      named.surprise = surprise_of(named);
+      if (within_rounding(train_, hypothesis, named.best.effect)) stopped.insert(order[i]);
+    }
+    std::stable_sort(order.begin(), order.end(), best_first);
+    std::optional<std::size_t> costly;
+    for (const std::size_t place : order) {
+      const NamedResult& named = screening.named[place];
+      if (attempted.size() == kAttempts) break;
+      if (stopped.contains(place)) continue;
+      if (screening.family_wise(named.surprise) > options_.false_alarm) continue;
+      if (net(named) <= 0) {
+        if (!costly) costly = place;
+        continue;
+      }
+      double structure = 0;
+      for (const int joint : joints_of_hypothesis(place)) {
+        structure = std::max(structure, structure_of(screening, joint));
+      }
+      const double least =
+          std::max(kLeastExplained * structure, stops_.unseen_on(joints_of_hypothesis(place)));
+      if (named.best.score.squares < least) continue;
+      if (outdone(named, system, screening)) continue;
+      if (attempted.contains(place)) continue;
+      const Stops::Part stops = stops_.part_in(system, screening, hypotheses_[place], named);
+      if (stops == Stops::Part::kAll || is_no_event(system, named)) {
+        stopped.insert(place);
+        continue;
+      }
+      at_stops_ = stops == Stops::Part::kBecause;
+      stopped.insert(attempted.begin(), attempted.end());
+      const NamedResult best = settled(named, order, stopped, screening);
+      attempted.insert(best.hypothesis);
+      if (accept(best, screening)) return true;
+    }
+    if (doubt_) {
+      at_stops_ = doubt_->at_stops;
+      if (keep(doubt_->named, screening, std::move(doubt_->fit))) return true;
+    }
+    return costly && keep_without_name(*costly, system, screening);
+  }
+
+  /// Whether what would be an event is a wild value, or too little: nothing held out speaks for it.
+  [[nodiscard]] bool is_no_event(const EvidenceSystem& system, const NamedResult& named) {
+    const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
+    if (!hypothesis.windowed) return false;
+    const double slow = named.best.score.squares * (1 - 1 / named.slow_noise);
+    if (net(named) - slow < kEventNet) return true;
+    if (hypothesis.shapes.size() > 1) {  // it begins, and ends
+      const Eigen::VectorXd& p = named.best.effect.parameters;
+      const double duration = p[hypothesis.shapes[1]] - p[hypothesis.shapes[0]];
+      if (duration < kShortest * train_.row_time) return true;
+    }
+    return is_jolt(system,
+                   system.whitened(effect_columns(train_, signals_, named.best.effect, {0})));
+  }
+
+  /// Whether what has no name explains more on the same joint: an effect that its file rules out,
+  /// since the structure is something else then, of that form; or a function of the motion.
+  [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,
+                             const Screening& screening) const {
+    const std::vector<int> own = joints_of_hypothesis(named.hypothesis);
+    const auto is_own = [&](int joint) {
+      return std::find(own.begin(), own.end(), joint) != own.end();
+    };
+    const bool by_form =
+        std::any_of(screening.named.begin(), screening.named.end(), [&](const NamedResult& each) {
+          if (!each.seen || each.freest.admissible) return false;
+          const NamedResult other = without_conditions(each);
+          if (net(named) >= net(other) - kOutdone) return false;
+          const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
+          return std::any_of(joints.begin(), joints.end(), is_own) &&
+                 !stops_.hide(system, screening, hypotheses_[other.hypothesis], other);
+        });
+    if (by_form) return true;
+    // shapes of a strong effect are not quite found yet
+    const double much = (1 + kOutdonePart) * net(named) + kOutdone;
+    return std::any_of(
+        screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
+          const GenericStructure& structure = structures_[generic.structure];
+          return structure.is_specific() && structure.form != GenericStructure::Form::kImpulses &&
+                 is_own(structure.joint) && !stops_.rests(structure.joint) &&
+                 net_of(structure, generic.score, result_.noise) > much;
+        });
+  }
+
+  /// An effect that is far more than noise and helps on held-out recordings, but has more
+  /// parameters than its squares pay for, is structure without a name; once.
+  bool keep_without_name(std::size_t place, const EvidenceSystem& system,
+                         const Screening& screening) {
+    const NamedResult& named = screening.named[place];
+    const std::string name = short_name(named.best.effect);
+    if (!nameless_.sure(screening, named.surprise) || nameless_.is_costly(name)) return false;
+    if (stops_.explain(system, screening, hypotheses_[place], named)) return false;
+    const GenericResult* nearest = nullptr;
+    for (const int joint : joints_of_hypothesis(place)) {
+      for (const GenericResult& generic : screening.generic) {
+        const GenericStructure& structure = structures_[generic.structure];
+        if (structure.joint != joint || !structure.is_specific() ||
+            structure.form == GenericStructure::Form::kImpulses || has_nameless(result_, joint))
+          continue;
+        if (!nearest || generic.surprise > nearest->surprise) nearest = &generic;
+      }
+    }
+    if (!nearest || !proof_of(with(named.best.effect)).helps()) return false;
+    return nameless_.describe(*nearest, system, name);
+  }
+
+  /// Where no motion repeats: see LikelySearch and likeliest_structure().
+  bool next_likely(const EvidenceSystem& system, const Screening& screening) {
+    at_stops_ = false;
+    tell("likelihoods", 0);
+    const EvidenceSystem white =
+        beside_white_noise(train_, signals_, hypotheses_, result_, system_options());
+    const Screening beside = screen(screening_data_, white, scales_, result_.fit.point.beta,
+                                    hypotheses_, structures_, &result_.first);
+    const ModelSide plain{white, beside};
+    const auto take = [&](const LikelyEffect& likely) {
+      if (screening.family_wise(likely.named.surprise) > options_.false_alarm) return false;
+      if (likely.net < stops_.unseen_on(joints_of_hypothesis(likely.named.hypothesis))) {
+        return false;
+      }
+      const Stops::Part stops =
+          stops_.part_in(white, beside, hypotheses_[likely.named.hypothesis], likely.named);
+      if (stops == Stops::Part::kAll || is_no_event(white, likely.named)) return false;
+      at_stops_ = stops == Stops::Part::kBecause;
+      return accept(likely.named, screening, likely.fit);
+    };
+    return likely_.next({system, screening}, plain, take) || nameless_.next(system, screening) ||
+           nameless_.next_likely(plain);
+  }
+
+  /// What effects read of the model (the load on a gear) is wrong as long as the model has taken up
+  /// a part of the effect: the winner and its rivals are compared again beside the model as it is
+  /// together with the winner.
+  /// @param refused  those that were turned down in this round
+  [[nodiscard]] NamedResult settled(const NamedResult& named, const std::vector<std::size_t>& order,
+                                    const std::set<std::size_t>& refused,
+                                    const Screening& screening) {
+    tell("rivals of " + short_name(named.best.effect), 0);
+    std::vector<EffectInstance> all = effects();
+    all.push_back(named.best.effect);
+    const EffectPoint beside = without(fit(all).point, all.size() - 1);
+    EvidenceSystem::Options options = system_options();
+    options.surrogates = 0;
+    const EvidenceSystem system =
+        system_beside(train_, signals_, hypotheses_, result_, beside, result_.noise, options);
+    NamedResult best = named;
+    bool first = true;
+    std::size_t tried = 0;
+    for (const std::size_t place : order) {
+      if (tried++ == kRivals) break;
+      const NamedResult& rival = screening.named[place];
+      if (refused.contains(place)) continue;
+      if (rival.best.score.squares < kLeastAsGood * named.best.score.squares) continue;
+      const Hypothesis& hypothesis = hypotheses_[place];
+      const EffectScales scales = scales_.of(beside.beta, hypothesis.effect);
+      EffectInstance start = rival.best.effect;
+      for (const int p : hypothesis.linear) start.parameters[p] = hypothesis.effect.parameters[p];
+      NamedResult again = rival;
+      again.best = refined(
+          train_, signals_, system, hypothesis,
+          try_hypothesis(train_, signals_, system, hypothesis, start, scales, false), scales);
+      if (!again.best.admissible) continue;
+      again.surprise = surprise_of(again);
+      const double gain = net(again) - net(best);
+      const bool better =
+          gain > kTie || (gain > -kTie && size_of(place) < size_of(best.hypothesis));
+      if (first || better) best = std::move(again);
+      first = false;
+    }
+    return best;
+  }
+
+  /// Fits the model with one more effect, and keeps it if held-out recordings agree.
+  bool accept(const NamedResult& named, const Screening& screening) {
+    if (screening.family_wise(named.surprise) > options_.false_alarm) return false;
+    return accept(named, screening, with(named.best.effect));
+  }
+
+  EffectFit with(const EffectInstance& effect) {
+    tell("the model with " + short_name(effect), 0);
+    std::vector<EffectInstance> all = effects();
+    all.push_back(effect);
+    return fit(all);
+  }
+
+  /// An effect that won but for a bound that holds its estimate.
+  struct Doubt {
+    NamedResult named;
+    EffectFit fit;
+    bool at_stops;
+  };
+
+  [[nodiscard]] HeldoutProof proof_of(const EffectFit& next) const {
+    return heldout_proof(heldout_, result_.fit.point, next.point, result_.noise);
+  }
+
+  bool accept(const NamedResult& named, const Screening& screening, EffectFit next) {
+    // a bound that holds the estimate, a falsifier, or a parameter that the data do not determine
+    // speak against the name
+    const int own = static_cast<int>(next.point.effects.size()) - 1;
+    bool doubtful = false, only_bounds = true;
+    for (const EffectRemark& remark : next.remarks) {
+      if (!next.objects(remark, own)) continue;
+      doubtful = true;
+      only_bounds = only_bounds && remark.kind == EffectRemark::Kind::kAtBound;
+    }
+    if (doubtful && only_bounds && !doubt_) doubt_ = Doubt{named, std::move(next), at_stops_};
+    return !doubtful && keep(named, screening, std::move(next));
+  }
+
+  /// @param point  a fit with the winners and, as its last, the effect
+  bool contradicted(const Hypothesis& hypothesis, const EffectPoint& point) {
+    return witness_.contradicts(hypotheses_, result_, hypothesis, point, system_options());
+  }
+
+  /// Keeps an effect that neither what is left nor the witness refutes and held-out recordings
+  /// speak for, or, of one beyond doubt, agree with; an event is not in them and must only not harm
+  /// them.
+  bool keep(const NamedResult& named, const Screening& screening, EffectFit next) {
+    const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
+    if (result_.noise.from_periods &&
+        (scatter_refutes(train_, signals_, model_system(), hypothesis, named.best.effect) ||
+         contradicted(hypothesis, next.point))) {
+      return false;
+    }
+    HeldoutProof proof = proof_of(next);
+    proof.parameters = static_cast<double>(size_of(named.hypothesis));
+    proof.fitted = named.best.score.squares;
+    const bool event = hypothesis.windowed;  // is not in what is held out
+    const bool beyond_doubt = nameless_.sure(screening, named.surprise);
+    const bool proved = event ? !proof.harms() : proof.helps() || (beyond_doubt && proof.agrees());
+    if (!proved) return false;
+    Winner winner;
+    winner.hypothesis = named.hypothesis;
+    winner.trial = named.best;
+    winner.surprise = named.surprise;
+    winner.at_stops = at_stops_;
+    winner.heldout_before = proof.before;
+    winner.heldout_after = proof.after;
+    winner.others = screening.named;
+    winner.generic = screening.generic;
+    result_.winners.push_back(std::move(winner));
+    result_.fit = std::move(next);
+    return true;
+  }
+
+  /// A winner that the others made superfluous leaves.
+  void drop_superfluous() {
+    for (std::size_t i = 0; i < result_.winners.size();) {
+      const EvidenceSystem system =
+          system_without(train_, signals_, hypotheses_, result_, i, system_options());
+      const Hypothesis& hypothesis = hypotheses_[result_.winners[i].hypothesis];
+      const TrialScore again =
+          try_hypothesis(train_, signals_, system, hypothesis, result_.fit.point.effects[i],
+                         scales_.of(result_.fit.point.beta, hypothesis.effect), false);
+      const double surprise = surprise_of(again.score.squares, again.score.degrees);
+      if (result_.last.family_wise(surprise) <= options_.false_alarm) {
+        ++i;
+        continue;
+      }
+      const EffectPoint rest = without(result_.fit.point, i);
+      result_.winners.erase(result_.winners.begin() + static_cast<std::ptrdiff_t>(i));
+      result_.fit = fit(rest.effects);
+      i = 0;
+    }
+  }
+
+  const EffectRecordings& train_;
+  const EffectRecordings& fitted_;
+  const EffectRecordings& heldout_;
+  const std::vector<Hypothesis>& hypotheses_;
+  std::vector<GenericStructure> structures_;
+  CompetitionOptions options_;
+  const CompetitionProgress& progress_;
+  ScaleTable scales_;
+  EffectSignals signals_;
+  ScreeningData screening_data_;
+  std::vector<double> repeats_;
+  Witness& witness_;
+  std::optional<Doubt> doubt_;  // of this round
+  bool at_stops_ = false;       // of the effect that is fitted
+  CompetitionResult result_;
+  Stops stops_;
+  NamelessSearch nameless_;
+  LikelySearch likely_;
+};
+
+}  // namespace
+
+CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
+                          Witness& witness, const EffectRecordings& heldout,
+                          const std::vector<Hypothesis>& hypotheses,
+                          const CompetitionOptions& options, const CompetitionProgress& progress) {
+  return Competition(train, fitted, witness, heldout, hypotheses, options, progress).run();
+}
+
+}  // namespace dyngen::runtime

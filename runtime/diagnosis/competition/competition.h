@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/diagnosis/competition/competition_result.h"
+#include "runtime/diagnosis/competition/witness.h"
+
+namespace dyngen::runtime {
+
+struct CompetitionOptions {
+  double false_alarm = 0.01;
+  int most_winners = 4;
+  std::uint64_t seed = 1;
+  bool with_regressor = true;
+  /// Whether it ends as soon as a joint is found to rest.
+  bool until_rest = false;
+  /// Whether joints of this robot are known to rest: then another one does wherever impulses at its
+  /// reversals are its strongest structure, and that is looked for first, as where nothing repeats.
+  bool rests = false;
+};
+
+using CompetitionProgress = std::function<void(const std::string& stage, double done)>;
+
+/// Round by round: everything is tested beside the model with what was found before; the best
+/// effect is fitted together with all of it and stays if noise alone would hardly have given it and
+/// it is proved on held-out recordings and, where motions repeat, the witness does not contradict
+/// it. At the end each winner is tested again beside all others.
+/// @param train    what evidence is of
+/// @param fitted   the same equations, without those near rests: what fits are of, and noise
+/// @param witness  of the same recordings
+CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
+                          Witness& witness, const EffectRecordings& heldout,
+                          const std::vector<Hypothesis>& hypotheses,
+                          const CompetitionOptions& options,
+                          const CompetitionProgress& progress = {});
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/competition/competition_result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "runtime/diagnosis/competition/heldout.h"
+#include "runtime/diagnosis/scans/generic_columns.h"
+
+namespace dyngen::runtime {
+
+std::vector<std::string> Nameless::names() const {
+  if (!ruled_out) return structure.names();
+  constexpr std::array<std::pair<const char*, const char*>, 5> kShown = {
+      {{"q", "q"}, {"qd", "qd"}, {"qdd", "qdd"}, {"tau_load", "tau_load"}, {"sign_qd", "qd"}}};
+  std::vector<std::string> names;
+  for (const std::string& variable : ruled_out->law.variables) {
+    for (const auto& [read, shown] : kShown) {
+      if (variable != read) continue;
+      const std::string name = fmt::format("{}{}", shown, structure.joint + 1);
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    if (variable == "t") names.emplace_back("t");
+  }
+  if (names.empty()) names.push_back(fmt::format("q{}", structure.joint + 1));
+  return names;
+}
+
+JointColumns nameless_columns(const EffectRecordings& data, EffectSignals& signals,
+                              const Nameless& nameless) {
+  if (!nameless.ruled_out) return generic_columns(data, signals, nameless.structure);
+  std::vector<int> wanted;
+  const EffectLaw& law = nameless.ruled_out->law;
+  for (int p = 0; p < law.size(); ++p) {
+    if (law.parameters[static_cast<std::size_t>(p)].role == EffectRole::kLinear) {
+      wanted.push_back(1 + p);
+    }
+  }
+  if (wanted.empty()) wanted.push_back(0);
+  return effect_columns(data, signals, *nameless.ruled_out, wanted);
+}
+
+namespace {
+
+/// @param part  of the equations
+double price_of_one(const TorqueNoiseModel& noise, double part = 1) {
+  return std::log(std::max(noise.worth.sum() * part, 2.0));
+}
+
+/// Of some sizes.
+double price_of(const Hypothesis& hypothesis, double sizes, double part,
+                const TorqueNoiseModel& noise) {
+  return sizes * price_of_one(noise, part) +
+         static_cast<double>(hypothesis.shapes.size()) * price_of_one(noise);
+}
+
+}  // namespace
+
+double price_of(const Hypothesis& hypothesis, const TrialScore& trial,
+                const TorqueNoiseModel& noise) {
+  return price_of(hypothesis, trial.score.degrees, trial.part, noise);
+}
+
+double net_of(const GenericStructure& structure, const Score& score,
+              const TorqueNoiseModel& noise) {
+  const int frequencies = structure.form == GenericStructure::Form::kLine   ? 1
+                          : structure.form == GenericStructure::Form::kWave ? 2
+                                                                            : 0;
+  return score.squares - (score.degrees + frequencies) * price_of_one(noise);
+}
+
+double net_of(const Hypothesis& hypothesis, const TrialScore& trial,
+              const TorqueNoiseModel& noise) {
+  double best = trial.score.squares - price_of(hypothesis, trial, noise);
+  double choices = 1;  // ways to take m of all linear parameters
+  const auto all = static_cast<double>(trial.few.size());
+  for (std::size_t m = 1; m < trial.few.size(); ++m) {
+    const auto taken = static_cast<double>(m);
+    choices *= (all - taken + 1) / taken;
+    const double price = price_of(hypothesis, taken, trial.part, noise) + 2 * std::log(choices);
+    best = std::max(best, trial.few[m - 1] - price);
+  }
+  return best;
+}
+
+bool is_winner(const CompetitionResult& result, std::size_t hypothesis) {
+  return std::any_of(result.winners.begin(), result.winners.end(),
+                     [&](const Winner& winner) { return winner.hypothesis == hypothesis; });
+}
+
+bool has_nameless(const CompetitionResult& result, int joint) {
+  return std::any_of(result.nameless.begin(), result.nameless.end(),
+                     [&](const Nameless& nameless) { return nameless.structure.joint == joint; });
+}
+
+EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
+                         const EffectPoint& point, const std::vector<Hypothesis>& beside,
+                         const TorqueNoiseModel& noise, const EvidenceSystem::Options& options) {
+  signals.set_beta(point.beta);
+  signals.set_tangent_beta(point.beta);
+  EvidenceSystem system(data, residuals_of(data, point), noise, options);
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    std::vector<int> wanted;
+    for (const int p : beside[i].linear) wanted.push_back(1 + p);
+    for (const int p : beside[i].shapes) {
+      if (!beside[i].windowed) wanted.push_back(1 + p);
+    }
+    system.add(system.whitened(effect_columns(data, signals, point.effects[i], wanted)));
+  }
+  return system;
+}
+
+EffectPoint without(EffectPoint point, std::size_t place) {
+  const auto at = static_cast<std::ptrdiff_t>(place);
+  point.effects.erase(point.effects.begin() + at);
+  for (auto& run : point.initial) run.erase(run.begin() + at);
+  return point;
+}
+
+void add_nameless(const EffectRecordings& data, EffectSignals& signals,
+                  const CompetitionResult& result, EvidenceSystem& system,
+                  const std::vector<int>& but_for) {
+  for (const RestingJoint& resting : result.resting) {
+    if (std::find(but_for.begin(), but_for.end(), resting.joint) != but_for.end()) continue;
+    system.leave_out(
+        system.whitened(generic_columns(data, signals, impulses_at_reversals(resting.joint))));
+  }
+  for (const Nameless& nameless : result.nameless) {
+    system.add(system.whitened(nameless_columns(data, signals, nameless)));
+  }
+}
+
+EvidenceSystem system_beside(const EffectRecordings& data, EffectSignals& signals,
+                             const std::vector<Hypothesis>& hypotheses,
+                             const CompetitionResult& result, const EffectPoint& point,
+                             const TorqueNoiseModel& noise,
+                             const EvidenceSystem::Options& options) {
+  std::vector<Hypothesis> beside;
+  for (const Winner& winner : result.winners) beside.push_back(hypotheses[winner.hypothesis]);
+  EvidenceSystem system = system_at(data, signals, point, beside, noise, options);
+  add_nameless(data, signals, result, system);
+  return system;
+}
+
+EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signals,
+                              const std::vector<Hypothesis>& hypotheses,
+                              const CompetitionResult& result, std::size_t winner,
+                              const EvidenceSystem::Options& options) {
+  std::vector<Hypothesis> beside;
+  for (std::size_t k = 0; k < result.winners.size(); ++k) {
+    if (k != winner) beside.push_back(hypotheses[result.winners[k].hypothesis]);
+  }
+  EvidenceSystem system =
+      system_at(data, signals, without(result.fit.point, winner), beside, result.noise, options);
+  const Winner& own = result.winners[winner];
+  const std::vector<int> joints = joints_of(hypotheses[own.hypothesis].effect, data.joints());
+  add_nameless(data, signals, result, system, own.at_stops ? joints : std::vector<int>{});
+  return system;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/diagnosis/competition/stops.h"
+#include "runtime/diagnosis/scans/screening.h"
+#include "runtime/effects/effect_fit.h"
+
+namespace dyngen::runtime {
+
+/// An effect that won a round.
+struct Winner {
+  std::size_t hypothesis = 0;  ///< its place
+  TrialScore trial;            ///< beside the model of its round
+  double surprise = 0;         ///< in its round
+  /// It makes the impulses at the stops of its joints (Stops::Part::kBecause): judged beside what
+  /// is left of those it would not be seen.
+  bool at_stops = false;
+  double heldout_before = 0;  ///< whitened squares of held-out residuals of its joints
+  double heldout_after = 0;
+  std::vector<NamedResult> others;     ///< its round's results, its own among them
+  std::vector<GenericResult> generic;  ///< and those of structures without a name
+};
+
+/// Structure that no effect explains.
+struct Nameless {
+  GenericStructure structure;
+  Score score;
+  double surprise = 0;
+  double rms = 0;  ///< N m or N, of what the columns explain of the joint's equations
+  /// An effect that explains it, for more parameters than the data pay for; or empty.
+  std::string costly;
+  /// An effect whose columns these are, but which a bound or a falsifier rules out as their name.
+  std::optional<EffectInstance> ruled_out;
+  std::string objection;  ///< "f >= 3 does not hold"
+
+  /// Variables that it goes with, joints from 1.
+  [[nodiscard]] std::vector<std::string> names() const;
+};
+
+/// Columns of nameless structure, behind the parallel filter.
+JointColumns nameless_columns(const EffectRecordings& data, EffectSignals& signals,
+                              const Nameless& nameless);
+
+/// How a competition ended.
+struct CompetitionResult {
+  std::vector<Winner> winners;
+  std::vector<Nameless> nameless;
+  std::vector<RestingJoint> resting;
+  EffectFit base;          ///< of the model alone
+  EffectFit fit;           ///< of the model with the winners
+  TorqueNoiseModel noise;  ///< of the last round
+  Screening first, last;   ///< of the model alone, and with everything that was found
+};
+
+/// Whether a hypothesis has won already.
+bool is_winner(const CompetitionResult& result, std::size_t hypothesis);
+
+/// Whether a joint has structure without a name already.
+bool has_nameless(const CompetitionResult& result, int joint);
+
+/// The model with what is given beside it: regressor, and effects at their estimates with the
+/// columns of all their unknown parameters.
+EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
+                         const EffectPoint& point, const std::vector<Hypothesis>& beside,
+                         const TorqueNoiseModel& noise, const EvidenceSystem::Options& options);
+
+/// A point without one of its effects.
+EffectPoint without(EffectPoint point, std::size_t place);
+
+/// What was found and has no name becomes part of a model: structures, and impulses of joints that
+/// rest.
+/// @param but_for  joints whose impulses stay
+void add_nameless(const EffectRecordings& data, EffectSignals& signals,
+                  const CompetitionResult& result, EvidenceSystem& system,
+                  const std::vector<int>& but_for = {});
+
+/// The model with all that was found. @param point  with the effects of all winners
+EvidenceSystem system_beside(const EffectRecordings& data, EffectSignals& signals,
+                             const std::vector<Hypothesis>& hypotheses,
+                             const CompetitionResult& result, const EffectPoint& point,
+                             const TorqueNoiseModel& noise, const EvidenceSystem::Options& options);
+
+/// The model with all that was found but one winner.
+EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signals,
+                              const std::vector<Hypothesis>& hypotheses,
+                              const CompetitionResult& result, std::size_t winner,
+                              const EvidenceSystem::Options& options);
+
+/// What a score costs in the currency of squares: its parameters, at the information that the
+/// equations hold (Schwarz 1978 with the number of independent samples): all of them on its shapes,
+/// and on its sizes those in which it acts.
+double price_of(const Hypothesis& hypothesis, const TrialScore& trial,
+                const TorqueNoiseModel& noise);
+
+/// Squares less their price. Of the linear parameters those are paid that are worth it, and for
+/// which of them they are (Chen and Chen 2008): a load needs no tensor of inertia to be seen.
+double net_of(const Hypothesis& hypothesis, const TrialScore& trial, const TorqueNoiseModel& noise);
+
+/// The same of structure without a name: its columns, and the frequencies that were looked for.
+double net_of(const GenericStructure& structure, const Score& score, const TorqueNoiseModel& noise);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "runtime/diagnosis/competition/beside_white_noise.h"
+#include "runtime/diagnosis/competition/competition_result.h"
+#include "runtime/diagnosis/competition/likelihood.h"
+
+namespace dyngen::runtime {
+
+/// An effect that was fitted with all that was found before.
+struct LikelyEffect {
+  NamedResult named;  ///< surprise: of the likelihoods' ratio
+  EffectFit fit;
+  double net = 0;     ///< the ratio less its price; 0: there is no such fit
+  bool fresh = true;  ///< fitted in this round
+};
+
+/// Where no motion repeats, noise is known from what the model leaves alone, and an effect that is
+/// most of that has made it seem slow and large. So the strongest effects of each joint are fitted,
+/// and compared by their likelihoods, each with a noise of its own.
+class LikelySearch {
+ public:
+  /// All must outlive it. @param with  fits the model and what was found with one effect more
+  LikelySearch(const EffectRecordings& data, EffectSignals& signals,
+               const std::vector<Hypothesis>& hypotheses, const ScaleTable& scales,
+               const CompetitionResult& result,
+               std::function<EffectFit(const EffectInstance&)> with)
+      : data_(data),
+        signals_(signals),
+        hypotheses_(hypotheses),
+        scales_(scales),
+        result_(result),
+        with_(std::move(with)) {}
+
+  /// Offers the likeliest of all, then the next, until one is taken.
+  /// @param plain  beside white noise: noise that has slow structure in it hides that structure, so
+  ///               each joint's best of it is compared too
+  /// @param take   keeps what it is offered, or refuses. @return whether one was taken
+  bool next(const ModelSide& side, const ModelSide& plain,
+            const std::function<bool(const LikelyEffect&)>& take);
+
+ private:
+  LikelyEffect compared(std::size_t place, const LikelihoodRatio& ratio, const ModelSide& side);
+  [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
+  [[nodiscard]] std::vector<std::size_t> strongest_of(const Screening& screening, int joint) const;
+
+  const EffectRecordings& data_;
+  EffectSignals& signals_;
+  const std::vector<Hypothesis>& hypotheses_;
+  const ScaleTable& scales_;
+  const CompetitionResult& result_;
+  std::function<EffectFit(const EffectInstance&)> with_;
+  std::map<std::size_t, LikelyEffect> likely_;  // by hypothesis; of this round or an earlier one
+};
+
+}  // namespace dyngen::runtime

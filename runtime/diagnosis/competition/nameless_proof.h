@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "runtime/diagnosis/competition/competition_result.h"
+#include "runtime/diagnosis/competition/heldout.h"
+
+namespace dyngen::runtime {
+
+/// Whether held-out recordings can speak of structure without a name: of a function of the motion,
+/// and of a wave; not of what depends on time or comes back in a period of its own.
+bool is_provable(const Nameless& nameless);
+
+/// What they say of it, with the functions and the size that it has in the fitted ones: squares of
+/// what a refit of the model, and of all else that was found, leaves of them.
+/// @param signals  of the fitted recordings
+HeldoutProof nameless_proof(const EffectRecordings& train, EffectSignals& signals,
+                            const EffectRecordings& heldout,
+                            const std::vector<Hypothesis>& hypotheses,
+                            const CompetitionResult& result, const Nameless& nameless,
+                            EvidenceSystem::Options options);
+
+}  // namespace dyngen::runtime

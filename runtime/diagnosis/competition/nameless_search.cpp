@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/competition/nameless_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "runtime/diagnosis/competition/likely_structure.h"
+#include "runtime/diagnosis/competition/nameless_proof.h"
+#include "runtime/diagnosis/competition/own_scatter.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kUnheldCaution = 0.01;  // of the false alarms: nothing held out speaks for it
+constexpr std::ptrdiff_t kCandidates = 4;
+constexpr double kRuledOutNet = 15;  // squares, net: a form that cannot be is no small thing
+
+}  // namespace
+
+/// Structures that are more than noise, the strongest first, a few. Impulses of a joint that rests
+/// are known, and what is little beside them is nothing.
+std::vector<const GenericResult*> NamelessSearch::candidates(const Screening& screening) const {
+  std::vector<const GenericResult*> strongest;
+  for (const GenericResult& generic : screening.generic) {
+    const GenericStructure& structure = structures_[generic.structure];
+    const bool known =
+        structure.form == GenericStructure::Form::kImpulses && stops_.rests(structure.joint);
+    const double squares = generic.score.squares - generic.score.degrees;
+    if (known || squares < stops_.unseen_on({structure.joint})) continue;
+    if (screening.family_wise(generic.surprise) <= false_alarm_) strongest.push_back(&generic);
+  }
+  std::stable_sort(strongest.begin(), strongest.end(),
+                   [&](const GenericResult* a, const GenericResult* b) {
+                     const bool first = structures_[a->structure].is_specific();
+                     const bool second = structures_[b->structure].is_specific();
+                     return first != second ? first : a->surprise > b->surprise;
+                   });
+  const auto repeating = std::find_if(
+      strongest.begin(), strongest.end(),
+      [&](const GenericResult* generic) { return !structures_[generic->structure].is_specific(); });
+  if (repeating - strongest.begin() > kCandidates) {
+    strongest.erase(strongest.begin() + kCandidates, repeating);
+  }
+  return strongest;
+}
+
+bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screening) {
+  const std::vector<const GenericResult*> strongest = candidates(screening);
+  if (!strongest.empty()) {
+    const std::vector<RestingJoint> resting =
+        stops_.resting(system, screening, structures_[strongest.front()->structure]);
+    if (!resting.empty()) {
+      result_.resting.insert(result_.resting.end(), resting.begin(), resting.end());
+      return true;
+    }
+  }
+  if (next_ruled_out(system, screening)) return true;
+  bool specific = true;  // the strongest of them may still be said
+  for (const GenericResult* generic : strongest) {
+    const GenericStructure& structure = structures_[generic->structure];
+    if (structure.is_specific() && !specific) continue;
+    if (has_nameless(result_, structure.joint)) {
+      specific = false;
+      continue;
+    }
+    if (describe(*generic, system, "", !sure(screening, generic->surprise))) return true;
+  }
+  return false;
+}
+
+bool NamelessSearch::next_likely(const ModelSide& plain) {
+  const std::optional<LikelyStructure> likely =
+      likeliest_structure(data_, signals_, structures_, result_, plain);
+  if (!likely || plain.screening.family_wise(likely->generic.surprise) > false_alarm_) return false;
+  const std::vector<double> no_repeats(data_.runs.size(), 0.0);
+  TorqueNoiseModel noise =
+      torque_noise_model(data_, likely->residuals, no_repeats, options_.with_regressor);
+  std::swap(result_.noise, noise);
+  const EvidenceSystem system = system_beside(data_, signals_, hypotheses_, result_,
+                                              result_.fit.point, result_.noise, options_);
+  if (describe(likely->generic, system, "", true)) return true;
+  std::swap(result_.noise, noise);
+  return false;
+}
+
+bool NamelessSearch::sure(const Screening& screening, double surprise) const {
+  // where no motion repeats, noise has much of the structure in it: the p-value is too large anyway
+  const double caution = result_.noise.from_periods ? kUnheldCaution : 1;
+  return screening.family_wise(surprise) <= caution * false_alarm_;
+}
+
+bool NamelessSearch::is_costly(const std::string& effect) const {
+  return std::any_of(result_.nameless.begin(), result_.nameless.end(),
+                     [&](const Nameless& nameless) { return nameless.costly == effect; });
+}
+
+std::vector<int> NamelessSearch::joints_of_hypothesis(std::size_t place) const {
+  return joints_of(hypotheses_[place].effect, data_.joints());
+}
+
+/// The largest surprise of generic structure on some joints.
+double NamelessSearch::structure_surprise(const Screening& screening,
+                                          const std::vector<int>& joints) const {
+  double most = 0;
+  for (const GenericResult& generic : screening.generic) {
+    const int joint = structures_[generic.structure].joint;
+    if (!structures_[generic.structure].is_specific()) continue;
+    if (std::find(joints.begin(), joints.end(), joint) == joints.end()) continue;
+    most = std::max(most, generic.surprise);
+  }
+  return most;
+}
+
+/// The strongest effect that a bound or a falsifier rules out, if it is more than any other
+/// structure there: it is of that form.
+bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screening& screening) {
+  std::optional<NamedResult> strongest;
+  double most = kRuledOutNet;
+  for (const NamedResult& each : screening.named) {
+    if (!each.seen || each.freest.admissible) continue;
+    NamedResult named = without_conditions(each);
+    const double net = net_of(hypotheses_[named.hypothesis], named.best, result_.noise);
+    if (net <= most || !sure(screening, named.surprise)) continue;
+    const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
+    // beside a joint that rests, what friction left of the stops looks like friction that cannot be
+    if (std::any_of(joints.begin(), joints.end(), [&](int joint) {
+          return has_nameless(result_, joint) || stops_.rests(joint);
+        })) {
+      continue;
+    }
+    if (stops_.hide(system, screening, hypotheses_[named.hypothesis], named)) continue;
+    strongest = std::move(named);
+    most = net;
+  }
+  if (!strongest) return false;
+  const std::vector<int> joints = joints_of_hypothesis(strongest->hypothesis);
+  if (strongest->surprise < structure_surprise(screening, joints)) return false;
+  Nameless nameless;
+  nameless.structure.joint = joints.front();
+  nameless.surprise = strongest->surprise;
+  nameless.ruled_out = strongest->best.effect;
+  nameless.objection = strongest->best.objection;
+  return add(std::move(nameless), system);
+}
+
+bool NamelessSearch::describe(const GenericResult& generic, const EvidenceSystem& system,
+                              const std::string& costly, bool needs_proof) {
+  Nameless nameless;
+  nameless.structure = structures_[generic.structure];
+  nameless.structure.frequency = generic.frequency;
+  nameless.surprise = generic.surprise;
+  nameless.costly = costly;
+  return add(std::move(nameless), system, needs_proof);
+}
+
+/// Whether held-out recordings have it too; where it is beyond doubt, whether they do not speak
+/// against it.
+bool NamelessSearch::is_proved(const Nameless& nameless, bool needs_proof) {
+  if (!is_provable(nameless)) return !needs_proof;
+  const HeldoutProof proof =
+      nameless_proof(data_, signals_, heldout_, hypotheses_, result_, nameless, options_);
+  return needs_proof ? proof.informs() && proof.helps() : !proof.informs() || proof.agrees();
+}
+
+/// @param needs_proof  that held-out recordings have it too
+bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system, bool needs_proof) {
+  const int joint = nameless.structure.joint;
+  const JointColumns plain = nameless_columns(data_, signals_, nameless);
+  const JointColumns white = system.whitened(plain);
+  nameless.score = score_of(system.products(white, false), false);
+  if (!is_proved(nameless, needs_proof)) return false;
+  const auto own = std::find(plain.joints.begin(), plain.joints.end(), joint);
+  const auto place = static_cast<std::size_t>(own - plain.joints.begin());
+  if (result_.noise.from_periods &&
+      witness_.contradicts(hypotheses_, result_, nameless, options_)) {
+    return false;
+  }
+  if (result_.noise.from_periods &&
+      own_scatter(system, white, nameless.score.coefficients).refutes()) {
+    return false;
+  }
+  const VectorXd& size = nameless.score.coefficients;
+  // of the torque as much as the model does not absorb of its whitened squares
+  const double left = (system.left_of(white, joint) * size).squaredNorm();
+  const double whole = (white.parts[place] * size).squaredNorm();
+  const double mean =
+      (plain.parts[place] * size).squaredNorm() / static_cast<double>(plain.parts[place].rows());
+  nameless.rms = std::sqrt(whole > 0 ? mean * left / whole : 0);
+  result_.nameless.push_back(std::move(nameless));
+  return true;
+}
+
+}  // namespace dyngen::runtime

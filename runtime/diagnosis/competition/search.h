@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/diagnosis/competition/competition.h"
+#include "runtime/diagnosis/views/diagnosis_input.h"
+#include "runtime/diagnosis/views/division.h"
+#include "runtime/diagnosis/views/views.h"
+
+namespace dyngen::runtime {
+
+/// What a diagnosis looks at and what its competition found there: all that an answer is told from.
+/// Where joints are found to rest, it looks again beside their rests.
+class Search {
+ public:
+  /// @param input  has to outlive it  @param decimation  as RowOptions
+  /// @throws std::invalid_argument  if recordings do not fit the model
+  Search(const DiagnosisInput& input, Eigen::Index decimation);
+
+  /// Why recordings cannot carry a test, a sentence; empty: they can.
+  [[nodiscard]] std::string why_insufficient(bool with_regressor) const;
+
+  void compete(CompetitionOptions options, const CompetitionProgress& progress);
+
+  [[nodiscard]] const DiagnosisInput& input() const { return input_; }
+  [[nodiscard]] const Division& parts() const { return parts_; }
+  [[nodiscard]] const ViewOptions& seen() const { return seen_; }
+  [[nodiscard]] const Views& views() const { return views_; }
+  [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
+  [[nodiscard]] const CompetitionResult& result() const { return result_; }
+  [[nodiscard]] CompetitionResult& result() { return result_; }
+  /// Recordings that an rms is of: all of their equations, rests or not.
+  [[nodiscard]] const EffectRecordings& shown_train() const;
+  [[nodiscard]] const EffectRecordings& shown_heldout() const;
+
+ private:
+  bool look_beside(const std::vector<RestingJoint>& found);
+
+  const DiagnosisInput& input_;
+  Eigen::Index decimation_;
+  Division parts_;
+  ViewOptions seen_;
+  Views views_;
+  /// Recordings with the joint state that was chosen and where joints rest, if the views are
+  /// others.
+  struct Whole {
+    EffectRecordings train, heldout;
+  };
+  std::optional<Whole> whole_;
+  std::vector<Hypothesis> hypotheses_;
+  CompetitionResult result_;
+};
+
+}  // namespace dyngen::runtime

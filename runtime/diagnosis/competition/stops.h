@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "runtime/diagnosis/scans/screening.h"
+#include "runtime/diagnosis/views/resting_joint.h"
+
+namespace dyngen::runtime {
+
+/// Squares of impulses over their degrees: below it they are hardly more than noise.
+inline constexpr double kHardlyMoreThanNoise = 2;
+
+/// What dry friction does where a joint turns or stops: it holds the joint for an instant, with any
+/// torque up to its own, and the equations have an impulse there. That is neither a name nor
+/// structure: a joint of which it is seen `rests`, and has its impulses beside the model.
+class Stops {
+ public:
+  /// All must outlive it. @param resting  as they are found
+  Stops(const EffectRecordings& data, EffectSignals& signals,
+        const std::vector<GenericStructure>& structures, const std::vector<RestingJoint>& resting,
+        double false_alarm)
+      : data_(data),
+        signals_(signals),
+        structures_(structures),
+        resting_(resting),
+        false_alarm_(false_alarm) {}
+
+  /// Whether a joint was found to rest.
+  [[nodiscard]] bool rests(int joint) const;
+
+  /// Squares that are nothing on some joints where one of the robot rests: the rest lasts, an
+  /// impulse has not quite its shape, and what lets go jolts the others. 0 where none rests.
+  [[nodiscard]] double unseen_on(const std::vector<int>& joints) const;
+
+  /// What the stops of its joints have to do with an effect.
+  enum class Part {
+    kNone,    ///< beside their impulses it is seen with the same size, or beside it there are none
+    kAll,     ///< beside their impulses nothing is left of it, or far too little: they explain it
+    kBecause  ///< little is to be expected of it beside them, but it explains a good part of them
+              ///< and leaves hardly more than noise: it makes them
+  };
+  [[nodiscard]] Part part_in(const EvidenceSystem& system, const Screening& screening,
+                             const Hypothesis& hypothesis, const NamedResult& named) const;
+  /// Whether it is Part::kAll.
+  [[nodiscard]] bool explain(const EvidenceSystem& system, const Screening& screening,
+                             const Hypothesis& hypothesis, const NamedResult& named) const {
+    return part_in(system, screening, hypothesis, named) == Part::kAll;
+  }
+
+  /// Whether beside impulses at the reversals of its joints, seen or not, nothing is left of an
+  /// effect.
+  [[nodiscard]] bool hide(const EvidenceSystem& system, const Screening& screening,
+                          const Hypothesis& hypothesis, const NamedResult& named) const;
+
+  /// Joints that begin to rest: the structure's, if impulses at its reversals are more than noise
+  /// and beside them the structure is not; with it all others where impulses are the strongest
+  /// structure. None if it is not so.
+  [[nodiscard]] std::vector<RestingJoint> resting(const EvidenceSystem& system,
+                                                  const Screening& screening,
+                                                  const GenericStructure& structure) const;
+  /// Joints, besides those that rest already, where impulses are the strongest structure.
+  [[nodiscard]] std::vector<RestingJoint> strongest(const EvidenceSystem& system,
+                                                    const Screening& screening) const;
+
+ private:
+  [[nodiscard]] const GenericResult* impulses_at(const Screening& screening, int joint) const;
+  [[nodiscard]] double impulses_of(const Screening& screening, int joint) const;
+  [[nodiscard]] RestingJoint found(const EvidenceSystem& system, const Screening& screening,
+                                   int joint) const;
+  [[nodiscard]] bool significant(double surprise) const;
+
+  const EffectRecordings& data_;
+  EffectSignals& signals_;
+  const std::vector<GenericStructure>& structures_;
+  const std::vector<RestingJoint>& resting_;
+  double false_alarm_;
+};
+
+}  // namespace dyngen::runtime

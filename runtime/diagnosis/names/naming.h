@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "runtime/diagnosis/competition/competition.h"
+
+namespace dyngen::runtime {
+
+/// The best effect of another family in a winner's place.
+struct Rival {
+  std::string family, name;
+  double distance = 0;  ///< by which it is worse, in squares net of prices
+  double apart = 0;     ///< squares of the winner that it cannot imitate: what is to be expected
+  std::size_t hypothesis = 0;
+  TrialScore trial;
+  double selected = 0;  ///< share of the halves of the recordings in which it explains most
+};
+
+/// Which names a finding may have.
+struct Naming {
+  std::vector<std::string> families;  ///< that these data cannot tell apart; the winner's first
+  std::vector<Rival> rivals;          ///< one of each other family, nearest first
+  std::string unnamed;                ///< what has no name and comes nearest; or empty
+  double unnamed_distance = std::numeric_limits<double>::infinity();  ///< by which it is worse
+  double probability = 0;  ///< of the winner's family, 0 .. 1
+  double lambda = 0;       ///< squares of the winner beside all else, less its degrees
+  double delta_bic = 0;
+  double part_left = 0;  ///< of the winner's squares, after the refit of the model
+  double selected = 0;   ///< share of the halves of the recordings in which it explains most
+
+  /// The share of halves in which the winner or one of the families beside it explains most.
+  [[nodiscard]] double stability() const;
+};
+
+/// Winners are compared with all that was strong in their round, each beside the model with all
+/// other winners. For two effects of noncentrality lambda and likeness c the difference of squares
+/// has the mean lambda (1 - c^2) and four times that for its variance. A family joins the set if
+/// its best effect is worse by fewer than kApart squares, or if that mean is below kSeparable. What
+/// has no name takes its part of the probability too.
+inline constexpr double kApart = 9;
+inline constexpr double kSeparable = 20;
+
+/// Families and probability are those of the distances: to be called again once those change.
+void conclude(Naming& naming);
+
+/// @param winner  its place
+Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
+                   const std::vector<Hypothesis>& hypotheses, const CompetitionResult& result,
+                   std::size_t winner, const EvidenceSystem::Options& options);
+
+/// Names of all winners. Where the nearest rival is no more than kApart squares worse, the model is
+/// fitted with it in the winner's place, and what held-out recordings say of the two is added to
+/// their distance; a rival that is better then takes the place.
+/// @param train   what evidence is of   @param fitted  what fits are of
+/// @param result  its winners and its fit, in place
+std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& fitted,
+                                 const EffectRecordings& heldout, EffectSignals& signals,
+                                 const std::vector<Hypothesis>& hypotheses,
+                                 CompetitionResult& result, const EvidenceSystem::Options& options,
+                                 const CompetitionProgress& progress);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/diagnosis/views/resting_joint.h"
+#include "runtime/evidence/torque_noise_model.h"
+#include "runtime/identification/motion_source.h"
+
+namespace dyngen::runtime {
+
+/// How the noise is known, and what of joints that rest is not judged.
+/// @param train     what RestingJoint::recordings counts
+/// @param left_out  joints whose equations at their reversals do not count
+/// @param impulses  joints that have an impulse at each reversal instead
+std::string noise_sentence(const TorqueNoiseModel& noise, const std::vector<MotionSource>& train,
+                           const std::vector<RestingJoint>& left_out,
+                           const std::vector<RestingJoint>& impulses);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/names/unnamed_rival.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "runtime/diagnosis/scans/generic_columns.h"
+
+namespace dyngen::runtime {
+namespace {
+
+constexpr std::size_t kTried = 4;  // of each kind
+
+/// The first few places of those with the largest squares, net.
+std::vector<std::size_t> largest(std::vector<std::pair<double, std::size_t>> nets) {
+  std::stable_sort(nets.begin(), nets.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::size_t> places;
+  for (const auto& [net, place] : nets) {
+    if (places.size() < kTried && net > 0) places.push_back(place);
+  }
+  return places;
+}
+
+}  // namespace
+
+UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
+                           const std::vector<Hypothesis>& hypotheses,
+                           const CompetitionResult& result, const Winner& winner,
+                           const EvidenceSystem& system) {
+  std::vector<int> joints = joints_of(hypotheses[winner.hypothesis].effect, data.joints());
+  std::erase_if(joints, [&](int joint) {
+    return std::any_of(result.resting.begin(), result.resting.end(),
+                       [&](const RestingJoint& resting) { return resting.joint == joint; });
+  });
+  const auto meets = [&](int joint) {
+    return std::find(joints.begin(), joints.end(), joint) != joints.end();
+  };
+  UnnamedRival best;
+  const auto consider = [&](double net, std::string what) {
+    if (net > best.net) best = {std::move(what), net};
+  };
+
+  std::vector<GenericStructure> structures = generic_structures(data.joints());
+  std::vector<std::pair<double, std::size_t>> nets;
+  for (const GenericResult& generic : winner.generic) {
+    GenericStructure& structure = structures[generic.structure];
+    structure.frequency = generic.frequency;
+    if (!meets(structure.joint) || !structure.is_specific() ||
+        structure.form == GenericStructure::Form::kImpulses) {
+      continue;
+    }
+    nets.emplace_back(net_of(structure, generic.score, result.noise), generic.structure);
+  }
+  for (const std::size_t place : largest(std::move(nets))) {
+    const GenericStructure& structure = structures[place];
+    const JointColumns white = system.whitened(generic_columns(data, signals, structure));
+    consider(net_of(structure, score_of(system.products(white, false), false), result.noise),
+             fmt::format("a function of {}", fmt::join(structure.names(), " and ")));
+  }
+
+  nets.clear();
+  for (const NamedResult& other : winner.others) {
+    if (!other.seen || other.freest.admissible) continue;
+    const Hypothesis& hypothesis = hypotheses[other.hypothesis];
+    const std::vector<int> own = joints_of(hypothesis.effect, data.joints());
+    if (!std::any_of(own.begin(), own.end(), meets)) continue;
+    nets.emplace_back(net_of(hypothesis, other.freest, result.noise), other.hypothesis);
+  }
+  const ScaleTable scales(data);
+  for (const std::size_t place : largest(std::move(nets))) {
+    const Hypothesis& hypothesis = hypotheses[place];
+    try {
+      const TrialScore trial =
+          try_hypothesis(data, signals, system, hypothesis, winner.others[place].freest.effect,
+                         scales.of(result.fit.point.beta, hypothesis.effect), false);
+      if (trial.admissible) continue;
+      consider(net_of(hypothesis, trial, result.noise), "the form of " + short_name(trial.effect));
+    } catch (const std::invalid_argument&) {
+      continue;  // no finite torque there
+    }
+  }
+  return best;
+}
+
+}  // namespace dyngen::runtime

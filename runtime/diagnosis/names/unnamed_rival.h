@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "runtime/diagnosis/competition/competition_result.h"
+
+namespace dyngen::runtime {
+
+/// What has no name and comes nearest to a winner: a function of the motion, or the form of an
+/// effect that a bound or a falsifier rules out.
+struct UnnamedRival {
+  std::string what;  ///< "a function of qd1 and qd2", "the form of link_flexibility 2"
+  double net = -std::numeric_limits<double>::infinity();  ///< squares less their price
+};
+
+/// Of what was strong in the winner's round, on one of its joints, what is best in its place.
+/// Joints that rest have none: what friction left there looks like much.
+/// @param system  the model with all other winners
+UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
+                           const std::vector<Hypothesis>& hypotheses,
+                           const CompetitionResult& result, const Winner& winner,
+                           const EvidenceSystem& system);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "runtime/diagnosis/scans/generic_structure.h"
+
+namespace dyngen::runtime {
+
+/// Whether it is a function of the motion, of any kind.
+bool is_function(const GenericStructure& structure);
+
+/// Values between which functions are straight lines: of each variable, or of a product of two
+/// velocities; none of what is no function.
+using StructureKnots = std::vector<std::vector<double>>;
+StructureKnots structure_knots(const EffectRecordings& data, EffectSignals& signals,
+                               const GenericStructure& structure);
+
+/// Columns of a structure, behind the parallel filter. Impulses need the motion at all samples;
+/// lines and waves their frequency.
+JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
+                             const GenericStructure& structure);
+/// The same functions as on other recordings. @param knots  of those
+JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
+                             const GenericStructure& structure, const StructureKnots& knots);
+
+/// Cosines and sines of a sum of two positions, two columns for each pair of frequencies.
+/// @param frequencies  (2 x m) 1/rad or 1/m
+JointColumns wave_columns(const EffectRecordings& data, const GenericStructure& structure,
+                          const Eigen::Matrix2Xd& frequencies);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/scans/line_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <unsupported/Eigen/FFT>
+#include <vector>
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kFinest = 2;  // frequencies for each that the longest run resolves
+constexpr double kLeastPeriods = 1.5;
+constexpr double kLeastOfRun = 20;  // of a run
+constexpr double kReached = 0.9;    // of half the rate of the equations
+
+/// Squares of the sinusoids of all frequencies k / duration.
+class Periodogram {
+ public:
+  Periodogram(double duration, Index lines) : duration_(duration), lines_(lines) {}
+
+  /// @param rows  of one run, dt s apart
+  VectorXd of(const VectorXd& rows, double dt, double counted) {
+    const auto length = static_cast<std::size_t>(std::llround(duration_ / dt));
+    std::vector<double> padded(length, 0.0);
+    std::copy(rows.data(), rows.data() + rows.size(), padded.begin());
+    std::vector<std::complex<double>> spectrum;
+    fft_.fwd(spectrum, padded);
+    VectorXd squares = VectorXd::Zero(lines_);
+    const auto present = std::min(lines_, static_cast<Index>(spectrum.size() / 2));
+    for (Index k = 0; k < present; ++k) {
+      squares[k] = 2 * std::norm(spectrum[static_cast<std::size_t>(k)]) / counted;
+    }
+    return squares;
+  }
+
+ private:
+  double duration_;
+  Index lines_;
+  Eigen::FFT<double> fft_;
+};
+
+}  // namespace
+
+LineScan scan_lines(const EffectRecordings& data, const EvidenceSystem& system, int joint,
+                    bool surrogates) {
+  LineScan scan;
+  if (surrogates) scan.score.surrogates = VectorXd::Zero(system.surrogates());
+  double longest = 0, slowest = 0;  // s
+  for (const EffectRun& run : data.runs) {
+    const double dt = run.motion.sample_time * static_cast<double>(run.decimator.factor);
+    longest = std::max(longest, dt * static_cast<double>(run.rows.Y.rows()));
+    slowest = std::max(slowest, dt);
+  }
+  const double duration = kFinest * longest;
+  const auto first = static_cast<Index>(std::ceil(kFinest * kLeastPeriods));
+  const auto lines = static_cast<Index>(kReached * 0.5 / slowest * duration);
+  if (lines <= first) return scan;
+  Periodogram periodogram(duration, lines);
+  const VectorXd rest = system.rest(joint);
+  const MatrixXd noise = surrogates ? system.noise(joint) : MatrixXd();
+  VectorXd squares = VectorXd::Zero(lines);
+  MatrixXd of_noise = MatrixXd::Zero(lines, noise.cols());
+  Index start = 0;
+  for (const EffectRun& run : data.runs) {
+    const Index rows = run.rows.Y.rows();
+    const double dt = run.motion.sample_time * static_cast<double>(run.decimator.factor);
+    const double counted = run.rows.counted.col(joint).sum();
+    if (counted >= kLeastOfRun) {
+      squares += periodogram.of(rest.segment(start, rows), dt, counted);
+      for (Index m = 0; m < noise.cols(); ++m) {
+        of_noise.col(m) += periodogram.of(noise.col(m).segment(start, rows), dt, counted);
+      }
+      scan.score.degrees += 2;
+    }
+    start += rows;
+  }
+  if (scan.score.degrees == 0) return scan;
+  Index best = 0;
+  scan.score.squares = squares.tail(lines - first).maxCoeff(&best);
+  scan.frequency = static_cast<double>(first + best) / duration;
+  scan.score.part_left = 1;
+  if (surrogates) {
+    scan.score.surrogates = of_noise.bottomRows(lines - first).colwise().maxCoeff().transpose();
+  }
+  return scan;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/scans/screening.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "runtime/diagnosis/scans/generic_columns.h"
+#include "runtime/diagnosis/scans/line_scan.h"
+#include "runtime/diagnosis/scans/order_scan.h"
+#include "runtime/diagnosis/scans/repeat_scan.h"
+#include "runtime/diagnosis/scans/time_windows.h"
+#include "runtime/diagnosis/scans/wave_scan.h"
+#include "runtime/estimation/distributions.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int kGrid = 5;  // values of a shape
+
+/// Surprises of noise surrogates: the largest over all tests.
+struct NoiseSurprises {
+  VectorXd largest;
+
+  void add(const VectorXd& squares, int degrees) {
+    if (largest.size() == 0) largest = VectorXd::Zero(squares.size());
+    for (Index m = 0; m < squares.size(); ++m) {
+      largest[m] = std::max(largest[m], surprise_of(squares[m], degrees));
+    }
+  }
+
+  void add(const NoiseSurprises& other) {
+    if (other.largest.size() == 0) return;
+    largest = largest.size() == 0 ? other.largest : largest.cwiseMax(other.largest).eval();
+  }
+
+  /// The smallest of N independent p-values: -ln(1 - p) has the mean 1 / N.
+  [[nodiscard]] double tests() const {
+    if (largest.size() == 0) return 1;
+    double sum = 0;
+    for (const double surprise : largest) sum += -std::log1p(-std::min(std::exp(-surprise), 0.999));
+    return std::max(1.0, static_cast<double>(largest.size()) / sum);
+  }
+};
+
+bool better(const TrialScore& a, const TrialScore& b) {
+  if (a.admissible != b.admissible) return a.admissible;
+  return a.score.squares > b.score.squares;
+}
+
+/// Trial shapes of an effect that repeats with position: its order is a peak, or a peak is one of
+/// its first harmonics.
+std::vector<VectorXd> ordered_grid(const Hypothesis& hypothesis, const EffectScales& scales,
+                                   const OrderScan& orders) {
+  const EffectSizes sizes = hypothesis.effect.law.sizes(scales);
+  std::vector<VectorXd> grid;
+  const bool harmonics = hypothesis.linear.size() > 2;
+  for (const double peak : is_position_error(hypothesis) ? orders.error_peaks : orders.peaks) {
+    for (const double harmonic : {1.0, 2.0, 4.0}) {
+      if (harmonic > 1 && !harmonics) continue;
+      const double value = peak / harmonic;
+      const int p = hypothesis.shapes.front();
+      if (value < sizes.min[p] || value > sizes.max[p]) continue;
+      grid.push_back(VectorXd::Constant(1, value));
+    }
+  }
+  return grid;
+}
+
+/// What the typical size of an effect would be worth, at its typical shapes.
+void remember_typical(const TrialScore& trial, NamedResult& result) {
+  result.typical_lambda = trial.typical_lambda;
+  result.part_left = trial.score.part_left;
+  result.typical = trial.typical;
+}
+
+/// One screening: its parts are independent of one another.
+class Screener {
+ public:
+  Screener(ScreeningData& data, const EvidenceSystem& system, const ScaleTable& scales,
+           const VectorXd& beta, const std::vector<Hypothesis>& hypotheses,
+           const std::vector<GenericStructure>& structures, const Screening* before)
+      : data_(data),
+        system_(system),
+        scales_(scales),
+        beta_(beta),
+        hypotheses_(hypotheses),
+        structures_(structures),
+        before_(before) {}
+
+  Screening run(const ScreeningProgress& progress) {
+    Screening screening;
+    screening.named.resize(hypotheses_.size());
+    screening.generic.resize(structures_.size());
+    orders_.resize(static_cast<std::size_t>(data_.whole().joints()));
+    std::vector<NoiseSurprises> noise(data_.readers().size());
+    // orders first: hypotheses read their peaks
+    in_parallel(orders_.size(), {}, [&](std::size_t joint, std::size_t thread) {
+      orders_[joint] = scan_orders(data_.whole(), system_, static_cast<int>(joint), !before_);
+      if (!before_) noise[thread].add(orders_[joint].surrogates, 2);
+    });
+    const std::size_t count = hypotheses_.size() + structures_.size();
+    in_parallel(count, progress, [&](std::size_t place, std::size_t thread) {
+      if (place < hypotheses_.size()) {
+        screening.named[place] = named(place, data_.readers()[thread], noise[thread]);
+      } else {
+        const std::size_t structure = place - hypotheses_.size();
+        screening.generic[structure] = generic(structure, data_.readers()[thread], noise[thread]);
+      }
+    });
+    if (before_) {
+      screening.tests = before_->tests;
+    } else {
+      NoiseSurprises all;
+      for (const NoiseSurprises& part : noise) all.add(part);
+      screening.tests = all.tests();
+    }
+    return screening;
+  }
+
+ private:
+  /// Work for all threads, one piece after the other.
+  template <typename Work>
+  void in_parallel(std::size_t count, const ScreeningProgress& progress, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    std::mutex guard;
+    std::exception_ptr failure;
+    const auto loop = [&](std::size_t thread) {
+      for (std::size_t i = next++; i < count; i = next++) {
+        try {
+          work(i, thread);
+        } catch (...) {
+          const std::lock_guard lock(guard);
+          if (!failure) failure = std::current_exception();
+          next = count;
+        }
+        if (thread == 0 && progress) {
+          progress(static_cast<double>(i) / static_cast<double>(count));
+        }
+      }
+    };
+    std::vector<std::thread> others;
+    for (std::size_t t = 1; t < data_.readers().size(); ++t) others.emplace_back(loop, t);
+    loop(0);
+    for (std::thread& thread : others) thread.join();
+    if (failure) std::rethrow_exception(failure);
+  }
+
+  /// Trial shapes that are worth a look.
+  [[nodiscard]] std::vector<EffectInstance> trials(std::size_t place,
+                                                   const EffectScales& scales) const {
+    const Hypothesis& hypothesis = hypotheses_[place];
+    std::vector<VectorXd> grid;
+    if (hypothesis.ordered && hypothesis.shapes.size() == 1) {
+      grid = ordered_grid(hypothesis, scales,
+                          orders_[static_cast<std::size_t>(hypothesis.effect.joint)]);
+    } else if (before_ && before_->named[place].seen) {
+      const NamedResult& earlier = before_->named[place];
+      for (const TrialScore* trial : {&earlier.best, &earlier.freest}) {
+        VectorXd shapes(static_cast<Index>(hypothesis.shapes.size()));
+        for (Index i = 0; i < shapes.size(); ++i) {
+          shapes[i] = trial->effect.parameters[hypothesis.shapes[static_cast<std::size_t>(i)]];
+        }
+        if (grid.empty() || shapes != grid.front()) grid.push_back(std::move(shapes));
+      }
+    } else {
+      grid = shape_grid(hypothesis, scales, kGrid);
+    }
+    std::vector<EffectInstance> trials;
+    for (const VectorXd& shapes : grid) trials.push_back(with_shapes(hypothesis, shapes));
+    return trials;
+  }
+
+  NamedResult named(std::size_t place, ScreeningData::Reader& reader, NoiseSurprises& noise) const {
+    const Hypothesis& hypothesis = hypotheses_[place];
+    NamedResult result;
+    result.hypothesis = place;
+    const EffectScales scales = scales_.of(beta_, hypothesis.effect);
+    const EffectRecordings& data = hypothesis.fast ? data_.whole() : data_.coarse();
+    EffectSignals& signals = hypothesis.fast ? reader.whole : reader.coarse;
+    try {
+      if (before_) {
+        const NamedResult& earlier = before_->named[place];
+        result.typical_lambda = earlier.typical_lambda;
+        result.part_left = earlier.part_left;
+        result.typical = earlier.typical;
+      } else {
+        remember_typical(
+            try_hypothesis(data, signals, system_, hypothesis, hypothesis.effect, scales, false),
+            result);
+      }
+      if (hypothesis.windowed) {
+        const WindowScan scan = scan_windows(data, signals, system_, hypothesis, !before_);
+        VectorXd window(static_cast<Index>(hypothesis.shapes.size()));
+        window[0] = scan.begin;
+        if (window.size() > 1) window[1] = scan.end;
+        EffectInstance event = with_shapes(hypothesis, window);
+        event.recording = scan.recording;
+        result.slow_noise = scan.elsewhere;
+        result.best = try_hypothesis(data, signals, system_, hypothesis, event, scales, false);
+        result.freest = result.best;
+        if (!before_) noise.add(scan.score.surrogates, scan.score.degrees);
+      } else {
+        bool first = true;
+        for (TrialScore& trial : try_shapes(data, signals, system_, hypothesis,
+                                            trials(place, scales), scales, !before_)) {
+          if (!before_) noise.add(trial.score.surrogates, trial.score.degrees);
+          if (first || trial.score.squares > result.freest.score.squares) result.freest = trial;
+          if (first || better(trial, result.best)) result.best = std::move(trial);
+          first = false;
+        }
+      }
+      result.seen = std::isfinite(result.best.score.squares) && result.best.score.degrees > 0;
+    } catch (const std::invalid_argument&) {
+      result.seen = false;  // a signal is missing
+    }
+    for (const int joint : joints_of(hypothesis.effect, data_.whole().joints())) {
+      result.worth = std::min(result.worth, system_.worth(joint));
+    }
+    if (result.seen) result.surprise = surprise_of(result);
+    return result;
+  }
+
+  GenericResult generic(std::size_t place, ScreeningData::Reader& reader,
+                        NoiseSurprises& noise) const {
+    GenericResult result;
+    result.structure = place;
+    const GenericStructure& structure = structures_[place];
+    if (structure.form == GenericStructure::Form::kLine) {
+      LineScan scan = scan_lines(data_.whole(), system_, structure.joint, !before_);
+      result.frequency[0] = scan.frequency;
+      result.score = std::move(scan.score);
+    } else if (structure.form == GenericStructure::Form::kRepeats) {
+      RepeatScan scan =
+          scan_repeats(data_.coarse(), system_, structure.joint, data_.repeats(), !before_);
+      result.frequency[0] = scan.frequency;
+      result.score = std::move(scan.score);
+    } else if (structure.form == GenericStructure::Form::kWave) {
+      WaveScan scan = scan_waves(data_.coarse(), system_, structure, !before_);
+      result.frequency = scan.frequency;
+      result.score = std::move(scan.score);
+    } else {
+      const bool whole = structure.form == GenericStructure::Form::kImpulses;
+      const JointColumns columns = generic_columns(whole ? data_.whole() : data_.coarse(),
+                                                   whole ? reader.whole : reader.coarse, structure);
+      result.score = score_of(system_.products(system_.whitened(columns), !before_), !before_);
+    }
+    if (!before_) noise.add(result.score.surrogates, result.score.degrees);
+    result.surprise =
+        surprise_of(result.score.squares, result.score.degrees, system_.worth(structure.joint));
+    return result;
+  }
+
+  ScreeningData& data_;
+  const EvidenceSystem& system_;
+  const ScaleTable& scales_;
+  const VectorXd& beta_;
+  const std::vector<Hypothesis>& hypotheses_;
+  const std::vector<GenericStructure>& structures_;
+  const Screening* before_;
+  std::vector<OrderScan> orders_;
+};
+
+}  // namespace
+
+double surprise_of(double squares, int degrees) {
+  if (degrees == 0 || squares <= 0) return 0;
+  const double tail = chi_square_tail(squares, degrees);
+  if (tail > 1e-290) return -std::log(tail);
+  // leading term for large arguments (Abramowitz and Stegun 1964, 26.4.12)
+  const double half = 0.5 * degrees;
+  return squares / 2 - (half - 1) * std::log(squares / 2) + std::lgamma(half);
+}
+
+double surprise_of(double squares, int degrees, double worth) {
+  if (degrees == 0 || squares <= 0) return 0;
+  const double tail = variance_ratio_tail(squares / degrees, degrees, worth);
+  if (tail > 1e-290) return -std::log(tail);
+  // leading term of the incomplete beta function (Abramowitz and Stegun 1964, 26.5.4)
+  const double a = worth / 2, b = 0.5 * degrees, x = worth / (worth + squares);
+  return -a * std::log(x) - (b - 1) * std::log1p(-x) + std::log(a) + std::lgamma(a) +
+         std::lgamma(b) - std::lgamma(a + b);
+}
+
+double surprise_of(const NamedResult& named) {
+  return surprise_of(named.best.score.squares / named.slow_noise, named.best.score.degrees,
+                     named.worth);
+}
+
+NamedResult without_conditions(const NamedResult& named) {
+  NamedResult free = named;
+  free.best = named.freest;
+  free.surprise = surprise_of(free);
+  return free;
+}
+
+double Screening::family_wise(double surprise) const {
+  return -std::expm1(tests * std::log1p(-std::exp(-surprise)));
+}
+
+ScreeningData::ScreeningData(const EffectRecordings& data)
+    : whole_(data), coarse_(thinned(data)), repeats_(repeats_of(data)) {
+  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
+  for (unsigned i = 0; i < threads; ++i) {
+    readers_.push_back({EffectSignals(whole_), EffectSignals(coarse_)});
+  }
+}
+
+void ScreeningData::set_beta(const VectorXd& beta) {
+  for (Reader& reader : readers_) {
+    for (EffectSignals* signals : {&reader.whole, &reader.coarse}) {
+      signals->set_beta(beta);
+      signals->set_tangent_beta(beta);
+    }
+  }
+}
+
+Screening screen(ScreeningData& data, const EvidenceSystem& system, const ScaleTable& scales,
+                 const VectorXd& beta, const std::vector<Hypothesis>& hypotheses,
+                 const std::vector<GenericStructure>& structures, const Screening* before,
+                 const ScreeningProgress& progress) {
+  data.set_beta(beta);
+  return Screener(data, system, scales, beta, hypotheses, structures, before).run(progress);
+}
+
+TrialScore refined(const EffectRecordings& data, EffectSignals& signals,
+                   const EvidenceSystem& system, const Hypothesis& hypothesis, TrialScore best,
+                   const EffectScales& scales) {
+  constexpr int kHalvings = 6, kHalvingsOfScans = 9;
+  const EffectSizes sizes = hypothesis.effect.law.sizes(scales);
+  const auto count = static_cast<Index>(hypothesis.shapes.size());
+  VectorXd steps(count);
+  std::vector<bool> logarithmic;
+  int most_halvings = kHalvings;
+  for (Index i = 0; i < count; ++i) {
+    const int p = hypothesis.shapes[static_cast<std::size_t>(i)];
+    const EffectParameter& parameter =
+        hypothesis.effect.law.parameters[static_cast<std::size_t>(p)];
+    logarithmic.push_back(parameter.logarithmic && best.effect.parameters[p] > 0);
+    const double reach = sizes.max[p] - sizes.min[p];
+    const bool scanned = parameter.role == EffectRole::kScanned && std::isfinite(reach);
+    steps[i] = hypothesis.ordered   ? 0.5 / std::max(scales.q_range, 0.1)
+               : scanned            ? reach / 80
+               : logarithmic.back() ? std::log(2.0)
+                                    : 0.25 * std::max(std::abs(best.effect.parameters[p]), 1e-6);
+    if (!scanned) continue;
+    logarithmic.back() = false;
+    most_halvings = kHalvingsOfScans;
+  }
+  const int halvings = hypothesis.ordered ? kHalvings : most_halvings;
+  for (int halving = 0; halving < halvings && count > 0; ++halving) {
+    for (Index i = 0; i < count; ++i) {
+      const int p = hypothesis.shapes[static_cast<std::size_t>(i)];
+      for (const int direction : {-1, 1}) {
+        EffectInstance trial = best.effect;
+        for (const int linear : hypothesis.linear) {
+          trial.parameters[linear] = hypothesis.effect.parameters[linear];
+        }
+        double& value = trial.parameters[p];
+        value = logarithmic[static_cast<std::size_t>(i)] ? value * std::exp(direction * steps[i])
+                                                         : value + direction * steps[i];
+        value = std::clamp(value, sizes.min[p], sizes.max[p]);
+        TrialScore next = try_hypothesis(data, signals, system, hypothesis, trial, scales, false);
+        if (better(next, best)) {
+          best = std::move(next);
+          break;
+        }
+      }
+    }
+    steps *= 0.5;
+  }
+  return best;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/views/repeated_motion.h"
+
+#include <cmath>
+#include <utility>
+
+#include "runtime/effects/effect_fit.h"
+#include "runtime/recordings/periods.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double kWhole = 0.1;  // samples by which the last period may be off
+constexpr int kFewest = 3;      // periods: the mean of one other is as noisy as the own
+constexpr int kRounds = 4;      // of the model's own parameters
+
+/// The mean over all rows of the same phase but the own.
+MatrixXd of_the_others(const MatrixXd& rows, Index period) {
+  MatrixXd sum = MatrixXd::Zero(period, rows.cols());
+  for (Index k = 0; k < rows.rows(); ++k) sum.row(k % period) += rows.row(k);
+  MatrixXd mean(rows.rows(), rows.cols());
+  for (Index k = 0; k < rows.rows(); ++k) {
+    const Index phase = k % period;
+    const Index count = (rows.rows() - phase + period - 1) / period;
+    mean.row(k) = (sum.row(phase) - rows.row(k)) / static_cast<double>(count - 1);
+  }
+  return mean;
+}
+
+Motion repeated(Motion run) {
+  Recording positions;
+  positions.time = run.time;
+  positions.q = run.q;
+  positions.run_starts = {0};
+  const Periods periods = find_periods(positions);
+  const double off =
+      std::abs(periods.period / run.sample_time - static_cast<double>(periods.samples));
+  if (periods.count < kFewest || off * periods.count > kWhole) return run;
+  for (MatrixXd* rows : {&run.q, &run.dq, &run.ddq}) *rows = of_the_others(*rows, periods.samples);
+  return run;
+}
+
+/// @param repeated  as it was made  @param left  gets its torque
+void leave_as_at(const RowBlock& repeated, const RowBlock& own, const Eigen::VectorXd& beta,
+                 RowBlock& left) {
+  for (Index j = 0; j < own.tau.cols(); ++j) {
+    const auto Y = [&](const RowBlock& rows) {
+      return rows.Y.middleCols(j * beta.size(), beta.size());
+    };
+    const Eigen::VectorXd both = repeated.counted.col(j).cwiseProduct(own.counted.col(j));
+    left.counted.col(j) = both;
+    left.tau.col(j) = both.cwiseProduct(own.tau.col(j) + (Y(repeated) - Y(own)) * beta);
+    left.Y.middleCols(j * beta.size(), beta.size()) = both.asDiagonal() * Y(repeated);
+  }
+}
+
+void append(Motion& run, const Motion& piece) {
+  const Index before = run.samples(), more = piece.samples();
+  const auto grow = [&](auto& to, const auto& from) {
+    if (from.rows() == 0) return;
+    to.conservativeResize(before + more, from.cols());
+    to.bottomRows(more) = from;
+  };
+  grow(run.time, piece.time);
+  grow(run.q, piece.q);
+  grow(run.dq, piece.dq);
+  grow(run.ddq, piece.ddq);
+  grow(run.tau, piece.tau);
+  grow(run.temperature, piece.temperature);
+}
+
+}  // namespace
+
+MotionSource with_repeated_motion(const MotionSource& source) {
+  MotionSource result = source;
+  result.with_low_pass = nullptr;
+  result.pieces = [all = source.pieces](const std::function<void(const StreamPiece&)>& visit) {
+    std::vector<Motion> runs;
+    all([&](const StreamPiece& piece) {
+      if (piece.continues_run && !runs.empty()) {
+        append(runs.back(), piece.motion);
+      } else {
+        runs.push_back(piece.motion);
+      }
+    });
+    for (Motion& run : runs) visit({repeated(std::move(run)), false});
+  };
+  return result;
+}
+
+Eigen::VectorXd leave_as_at(EffectRecordings& repeated, const EffectRecordings& own) {
+  Eigen::VectorXd beta = fit_effects(own, {}).point.beta;
+  const EffectRecordings recorded = repeated;
+  for (int round = 0; round < kRounds; ++round) {
+    if (round > 0) beta = fit_effects(repeated, {}).point.beta;
+    repeated = recorded;
+    leave_as_at(repeated, own, beta);
+  }
+  return beta;
+}
+
+void leave_as_at(EffectRecordings& repeated, const EffectRecordings& own,
+                 const Eigen::VectorXd& beta) {
+  for (std::size_t run = 0; run < own.runs.size(); ++run) {
+    const RowBlock recorded = repeated.runs[run].rows;
+    leave_as_at(recorded, own.runs[run].rows, beta, repeated.runs[run].rows);
+  }
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/views/views.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "runtime/diagnosis/views/left_out_rows.h"
+#include "runtime/diagnosis/views/repeated_motion.h"
+#include "runtime/diagnosis/views/repeated_rounding.h"
+#include "runtime/evidence/joint_columns.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kBand = 0.9;  // of the cut-off: what is faster is damped in the joint state
+constexpr double kPass =
+    0.5;  // of the parallel filter: a short one, that standstill cuts less from
+constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
+constexpr double kJolts = 80;  // Hz, of jolts: a joint state of at least this cut-off has them
+constexpr double kHighest = 1.0 / 3;     // of the sampling frequency: a cut-off
+constexpr int kSteep = 8;                // order of that low-pass
+constexpr double kBesideJolts = 0.5;     // of its cut-off: what is slower is not damped at all
+constexpr double kBesideRests = 0.4;     // of that of the joint state as it is
+constexpr double kWidened = 0.5;         // over the cut-off: what the low-pass makes of a rest
+constexpr double kBesideJoltsStop = 30;  // dB, of a parallel filter that is shorter still
+constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
+
+RowOptions slower(RowOptions rows) {
+  rows.band *= kSlow;
+  rows.row_time /= kSlow;
+  return rows;
+}
+
+VectorXd still_speed(const std::vector<MotionSource>& sources, const RowOptions& rows, int joints) {
+  VectorXd still = VectorXd::Zero(joints);
+  for (const MotionSource& source : sources) {
+    still = still.cwiseMax(plan_rows(source, rows).still_speed);
+  }
+  return still;
+}
+
+double quick_cutoff(const MotionSource& source) {
+  return std::max(source.cutoff.hz, std::min(kJolts, kHighest / source.sample_time));
+}
+
+/// Recordings with the joint state of a view.
+std::vector<MotionSource> seen(const std::vector<MotionSource>& sources,
+                               const ViewOptions& options) {
+  std::vector<MotionSource> result;
+  for (const MotionSource& source : sources) {
+    const bool quick = options.quick && source.with_low_pass;
+    result.push_back(quick ? source.with_low_pass(kSteep, quick_cutoff(source)) : source);
+  }
+  return result;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0 : values[values.size() / 2];
+}
+
+/// Joints that rest in one of the fitted recordings, or in any.
+constexpr int kAny = -1;
+std::vector<int> resting_in(const ViewOptions& options, int recording) {
+  std::vector<int> joints;
+  for (const RestingJoint& resting : options.resting) {
+    if (recording == kAny || resting.rests_in(recording)) joints.push_back(resting.joint);
+  }
+  return joints;
+}
+
+/// @param fitted  whether they are the recordings that the options speak of
+EffectRecordings equations(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
+                           const ViewOptions& options, bool fitted) {
+  const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
+  EffectRecordings data = effect_recordings(input.model, input.robot, sources, options.rows, all);
+  const VectorXd still = still_speed(sources, options.rows, data.joints());
+  for (EffectRun& run : data.runs) {
+    leave_out_standstill(run, still);
+    if (!fitted) leave_out_rests(run, still, resting_in(options, kAny));
+  }
+  return data;
+}
+
+/// Fitted recordings at the mean motion of the other periods, and at their own.
+struct Fitted {
+  Fitted(const DiagnosisInput& input, const std::vector<MotionSource>& train,
+         const std::vector<MotionSource>& others, const ViewOptions& options)
+      : repeated(thinned(equations(input, others, options, true), kLongestSample)),
+        own(thinned(equations(input, train, options, true), kLongestSample)),
+        still(still_speed(train, options.rows, own.joints())) {}
+  EffectRecordings repeated, own;
+  VectorXd still;  // (n) rad/s or m/s
+};
+
+/// Without what is near rests.
+EffectRecordings without_rests(EffectRecordings data, const VectorXd& still,
+                               const ViewOptions& options) {
+  for (EffectRun& run : data.runs) {
+    leave_out_rests(run, still, resting_in(options, run.recording));
+  }
+  return data;
+}
+
+/// Whether equations are made of more than a sample each: else none is both at a rest and beside
+/// it.
+bool is_filtered(const EffectRecordings& data) {
+  return std::any_of(data.runs.begin(), data.runs.end(),
+                     [](const EffectRun& run) { return run.decimator.factor > 1; });
+}
+
+/// With what is near rests, at which friction is not known. @param beta  that the others gave
+EffectRecordings with_rests(Fitted whole, const std::vector<MotionSource>& train,
+                            const VectorXd& beta, const ViewOptions& options) {
+  leave_as_at(whole.repeated, whole.own, beta);
+  double cutoff = std::numeric_limits<double>::infinity();
+  for (const MotionSource& source : train) {
+    const double nyquist = 0.5 / source.sample_time;
+    cutoff = std::min(cutoff, source.cutoff.hz > 0 ? source.cutoff.hz : nyquist);
+  }
+  for (std::size_t r = 0; r < whole.own.runs.size(); ++r) {
+    EffectRun& run = whole.repeated.runs[r];
+    const std::vector<int> joints = resting_in(options, run.recording);
+    mark_rests(run, run.motion, whole.still, joints, kWidened / cutoff);
+    mark_rests(run, whole.own.runs[r].motion, whole.still, joints, kWidened / cutoff);
+  }
+  return std::move(whole.repeated);
+}
+
+std::vector<MotionSource> with_repeated_motion(const std::vector<MotionSource>& sources) {
+  std::vector<MotionSource> result;
+  for (const MotionSource& source : sources) result.push_back(with_repeated_motion(source));
+  return result;
+}
+
+}  // namespace
+
+RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Index decimation) {
+  RowOptions rows;
+  rows.decimation = decimation;
+  rows.band = kBand;
+  rows.multiple = kThinnedSamples;
+  rows.pass = kPass;
+  std::vector<double> times;
+  for (const MotionSource& source : train) times.push_back(plan_rows(source, rows).row_time);
+  rows.row_time = median(std::move(times));
+  return rows;
+}
+
+ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
+                         std::vector<RestingJoint> resting) {
+  ViewOptions beside = options;
+  beside.resting = std::move(resting);
+  beside.quick = std::all_of(train.begin(), train.end(), [](const MotionSource& source) {
+    return source.with_low_pass && !repeats_rounding(source);
+  });
+  beside.rows.band = beside.quick ? kBesideJolts : kBesideRests;
+  beside.rows.multiple = 1;
+  beside.rows.attenuation_db = kBesideJoltsStop;
+  std::vector<double> times;
+  for (const MotionSource& source : train) {
+    const double cutoff = beside.quick ? quick_cutoff(source) : source.cutoff.hz;
+    times.push_back(0.5 / (beside.rows.band * cutoff));
+  }
+  beside.rows.row_time = median(std::move(times));
+  return beside;
+}
+
+double least_counted(const EffectRecordings& data) {
+  VectorXd counted = VectorXd::Zero(data.joints());
+  for (const EffectRun& run : data.runs) counted += run.rows.counted.colwise().sum().transpose();
+  return counted.minCoeff() / static_cast<double>(data.equations());
+}
+
+EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
+                              const ViewOptions& options) {
+  return equations(input, seen(sources, options), options, false);
+}
+
+Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options) {
+  const std::vector<MotionSource> train = seen(parts.train, options);
+  const std::vector<MotionSource> others = with_repeated_motion(train);
+  Views views;
+  Fitted whole(input, train, others, options);
+  views.train = without_rests(whole.repeated, whole.still, options);
+  const VectorXd beta = leave_as_at(views.train, without_rests(whole.own, whole.still, options));
+  if (!options.resting.empty() && is_filtered(whole.own)) {
+    views.beside = with_rests(std::move(whole), train, beta, options);
+  }
+  const ViewOptions half{slower(options.rows), options.resting, options.quick};
+  Fitted slow(input, train, others, half);
+  views.slow = without_rests(std::move(slow.repeated), slow.still, half);
+  leave_as_at(views.slow, without_rests(std::move(slow.own), slow.still, half));
+  views.heldout = equations_of(input, parts.heldout, options);
+  for (EffectRun& run : views.heldout.runs) run.recording = -1 - run.recording;
+  views.proof = views.heldout;
+  leave_out_unvisited(views.proof, views.train);
+  return views;
+}
+
+}  // namespace dyngen::runtime

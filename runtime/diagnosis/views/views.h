@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "runtime/diagnosis/views/diagnosis_input.h"
+#include "runtime/diagnosis/views/division.h"
+#include "runtime/diagnosis/views/resting_joint.h"
+
+namespace dyngen::runtime {
+
+/// Which equations a diagnosis makes of recordings: up to a part of the cut-off, above which the
+/// joint state that they are computed from is damped. Noise has one model for all: recordings that
+/// would have more equations a second than the median of those that the model is fitted to have as
+/// many as that one.
+/// @param train  recordings that the model is fitted to  @param decimation  as in RowOptions
+RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Eigen::Index decimation);
+
+/// What of recordings is looked at.
+struct ViewOptions {
+  RowOptions rows;
+  /// Joints that rest for an instant where they turn, and have no equations there.
+  std::vector<RestingJoint> resting;
+  /// Whether the joint state passes as quick a filter as can be.
+  bool quick = false;
+};
+
+/// The view of recordings whose joints, as was found, rest. Where friction holds a joint it has any
+/// torque up to its own: nothing is said of it there. What lets go jolts the arm, and of jolts a
+/// slow joint state is not the state: it passes a filter that is as quick as can be, and the
+/// equations one half as quick, up to which the first one damps nothing. Where periods show
+/// the same digits again the state stays slow: no other motion tells such rounding from physics.
+/// @param train  recordings that the model is fitted to
+ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
+                         std::vector<RestingJoint> resting);
+
+/// The smallest part of a joint's equations that count.
+double least_counted(const EffectRecordings& data);
+
+/// Equations of recordings that are not fitted, without those of joints that stand still, or rest
+/// in any of the fitted ones.
+EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
+                              const ViewOptions& options);
+
+/// The recordings of a diagnosis as its competition reads them. Where the motion of fitted ones
+/// repeats, columns are made of the mean motion of the other periods, and held against what the
+/// model leaves at the own: noise of positions is in what is left as well as in columns of the same
+/// motion, where it looks like physics (instrumental variables; Janot, Vandanjon and Gautier 2014).
+///
+/// Where joints rest, `train` has no equations of them near their rests, as far as filters reach.
+/// `beside` has them, and EffectRun::unknown says where friction is not known: most of what is seen
+/// near a rest is not friction's at rest.
+struct Views {
+  EffectRecordings train;                  ///< what fits are of, and noise
+  std::optional<EffectRecordings> beside;  ///< where joints rest and equations are filtered
+  [[nodiscard]] const EffectRecordings& evidence() const { return beside ? *beside : train; }
+  EffectRecordings heldout;  ///< EffectRun::recording is -1 less the place of the recording
+  EffectRecordings proof;    ///< what is held out, where the fitted recordings have been
+  EffectRecordings slow;     ///< the fitted ones again, in half the band: the witness
+};
+Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options);
+
+}  // namespace dyngen::runtime
