@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -36,6 +37,21 @@ std::vector<ConditionLine> conditions_of(const DiagnosisInput& input) {
 EffectPoint from_rest(EffectPoint point) {
   point.initial.clear();
   return point;
+}
+
+/// Where no motion repeats the residual is noise and structure that was found without a name: less
+/// that, as far as the equations' own noise goes. @param floor (n) N m or N
+VectorXd without_nameless(const VectorXd& floor, const CompetitionResult& result) {
+  if (result.noise.from_periods) return floor;
+  VectorXd squares = floor.cwiseAbs2();
+  for (const Nameless& nameless : result.nameless) {
+    squares[nameless.structure.joint] -= nameless.rms * nameless.rms;
+  }
+  for (Index j = 0; j < squares.size(); ++j) {
+    const double least = result.noise.joints[static_cast<std::size_t>(j)].deviation();
+    squares[j] = std::max(squares[j], std::min(least * least, floor[j] * floor[j]));
+  }
+  return squares.cwiseSqrt();
 }
 
 /// One diagnosis while it is made.
@@ -140,7 +156,8 @@ class Diagnostician {
     const EffectPoint before = from_rest(result().base.point), after = from_rest(answer_.fit.point);
     answer_.heldout.before = raw_rms(heldout, raw_residuals(heldout, before));
     answer_.heldout.after = raw_rms(heldout, raw_residuals(heldout, after));
-    answer_.noise.deviation = raw_floor(train, raw_residuals(train, after), repeats_of(train));
+    answer_.noise.deviation = without_nameless(
+        raw_floor(train, raw_residuals(train, after), repeats_of(train)), result());
     answer_.heldout.floor = answer_.noise.deviation;
   }
 

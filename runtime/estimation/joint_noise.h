@@ -10,7 +10,7 @@ namespace dyngen::runtime {
 
 /// A slow part of a joint's noise: s_t = pole s_(t-1) + white noise.
 struct SlowNoise {
-  double pole = 0;       ///< in (0, 1); exp(-1/T), T the memory in samples
+  double pole = 0;       ///< in [0, 1); exp(-1/T), T the memory in samples; 0: white
   double deviation = 0;  ///< standard deviation of s, N m or N
 };
 

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
+#include <functional>
 #include <unsupported/Eigen/FFT>
+
+#include "runtime/estimation/whitener.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -20,14 +22,20 @@ constexpr double kShortestMemory = 8;  // samples
 constexpr double kApart = 4;           // from one memory to the next
 constexpr double kPrice = 2;           // twice log likelihood that slow parts pay (Akaike): with
                                        // them in vain power is lost, without them there are alarms
-constexpr double kAlike = 3;           // parts of the variance, of two joints
+constexpr double kAlike = 3;           // of densities at the motion's period, of joints
+constexpr double kAlwaysKept = 0.1;    // of the rest's density, there
 constexpr double kNegligible = 1e-3;   // of a joint's deviation: such a part is left out
 constexpr std::array<double, 5> kRatios = {0.25, 0.5, 1, 2, 4};  // 1: 1/f noise
-constexpr std::array<double, 12> kShares = {0.01, 0.02, 0.04, 0.08, 0.13, 0.2,
-                                            0.3,  0.4,  0.5,  0.6,  0.75, 0.9};
-constexpr Index kGrain = 32;  // samples: lengths are multiples, for the transform's sake
+/// Of the variance. Noise of accelerations may be thousands of times what is slow beside it.
+constexpr std::array<double, 19> kShares = {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 2.5e-3, 5e-3,
+                                            0.01, 0.02, 0.04, 0.08, 0.13, 0.2,    0.3,
+                                            0.4,  0.5,  0.6,  0.75, 0.9};
+constexpr double kBriefMemory = 2;  // samples: between none and the shortest
+constexpr double kLittle = 0.03;    // of a deviation
+constexpr int kSteps = 200;         // of variances, one by one
+constexpr Index kGrain = 32;        // samples: lengths are multiples, for the transform's sake
 
-double memory_of(const SlowNoise& part) { return -1 / std::log(part.pole); }
+double memory_of(const SlowNoise& part) { return part.pole > 0 ? -1 / std::log(part.pole) : 0; }
 
 /// Slow parts whose variances grow by a ratio from one memory to the next; they sum to 1.
 std::vector<SlowNoise> slow_parts(double longest, double ratio) {
@@ -74,16 +82,18 @@ double likelihood(const std::vector<DifferenceLine>& lines, const JointNoise& no
 }  // namespace
 
 std::vector<DifferenceLine> difference_lines(const VectorXd& difference, const VectorXd& counted,
-                                             double period) {
+                                             double period, const AutoregressiveNoise& process) {
   std::vector<DifferenceLine> lines;
   const Index samples = difference.size() - difference.size() % kGrain;
   const double weight = counted.head(samples).sum();
   if (!(weight > 0)) return lines;
+  MatrixXd white = difference;
+  Whitener({process, {}}, counted).apply(white);
   // lines halfway between those of the transform: of two periods those would be harmonics, all
   std::vector<std::complex<double>> turned(static_cast<std::size_t>(samples)), spectrum;
   for (Index t = 0; t < samples; ++t) {
     turned[static_cast<std::size_t>(t)] =
-        difference[t] *
+        white(t, 0) *
         std::polar(1.0, -M_PI * static_cast<double>(t) / static_cast<double>(samples));
   }
   Eigen::FFT<double> transform;
@@ -92,7 +102,8 @@ std::vector<DifferenceLine> difference_lines(const VectorXd& difference, const V
     const double frequency = (static_cast<double>(k) + 0.5) / static_cast<double>(samples);
     const double passed = 1 - std::cos(2 * M_PI * frequency * period);
     if (passed < kLeastPassed) continue;
-    lines.push_back({frequency, passed, std::norm(spectrum[static_cast<std::size_t>(k)]) / weight});
+    const double left = std::norm(spectrum[static_cast<std::size_t>(k)]) / weight;
+    lines.push_back({frequency, passed, left * density(process, frequency)});
   }
   return lines;
 }
@@ -116,8 +127,50 @@ JointNoise beside_process(const JointDifferences& joint, const DifferenceLengths
   return noise;
 }
 
+/// Slow parts whose variances are each those of the greatest likelihood (multiplicative updates:
+/// Fevotte, Bertin and Durrieu 2009, with the exponent 1/2 that never lowers the likelihood).
+JointNoise refined(const JointDifferences& joint, JointNoise noise) {
+  const auto lines = static_cast<Index>(joint.lines.size());
+  const auto parts = static_cast<Index>(noise.slow.size());
+  MatrixXd densities(lines, parts);       // of each part
+  VectorXd process(lines), power(lines);  // of the process, and what all are to give
+  for (Index i = 0; i < lines; ++i) {
+    const DifferenceLine& line = joint.lines[static_cast<std::size_t>(i)];
+    power[i] = line.power / line.passed;
+    process[i] = density(noise.quick, line.frequency);
+    for (Index k = 0; k < parts; ++k) {
+      densities(i, k) = density(noise.slow[static_cast<std::size_t>(k)], line.frequency);
+    }
+  }
+  VectorXd factors = VectorXd::Ones(parts);  // of the variances
+  for (int step = 0; step < kSteps; ++step) {
+    const VectorXd expected = process + densities * factors;
+    const VectorXd up = densities.transpose() * power.cwiseQuotient(expected.cwiseAbs2());
+    const VectorXd down = densities.transpose() * expected.cwiseInverse();
+    factors.array() *= (up.array() / down.array()).sqrt();
+  }
+  for (Index k = 0; k < parts; ++k) {
+    noise.slow[static_cast<std::size_t>(k)].deviation *= std::sqrt(factors[k]);
+  }
+  const double least = kNegligible * noise.deviation();
+  std::erase_if(noise.slow, [&](const SlowNoise& part) { return part.deviation <= least; });
+  return noise;
+}
+
+/// The process alone with a little beside it of every memory, from none: of noise of accelerations
+/// it has the quick part right, and hardly anything of what is a thousandth of it at low lines.
+JointNoise beside_alone(const JointNoise& alone, const DifferenceLengths& lengths) {
+  JointNoise noise = alone;
+  const double little = kLittle * alone.deviation();
+  noise.slow = {{0, little}, {std::exp(-1 / kBriefMemory), little}};
+  for (const SlowNoise& part : slow_parts(lengths.longest, 1)) {
+    noise.slow.push_back({part.pole, little});
+  }
+  return noise;
+}
+
 Choice choice_of(const JointDifferences& joint, const DifferenceLengths& lengths) {
-  Choice choice{{fit_autoregression(joint.covariance, joint.samples), {}}, {}, 0};
+  Choice choice{{joint.process, {}}, {}, 0};
   choice.with_slow = choice.alone;
   if (lengths.longest < kShortestMemory || joint.lines.empty() ||
       !(choice.alone.quick.innovation > 0)) {
@@ -128,7 +181,7 @@ Choice choice_of(const JointDifferences& joint, const DifferenceLengths& lengths
     return likelihood(joint.lines, noise) -
            price * static_cast<double>(noise.quick.coefficients.size());
   };
-  choice.gain = -std::numeric_limits<double>::infinity();
+  choice.gain = -kPrice;  // of slow parts that are nothing
   const double alone = worth(choice.alone) + kPrice;
   for (const double ratio : kRatios) {
     const std::vector<SlowNoise> parts = slow_parts(lengths.longest, ratio);
@@ -141,32 +194,48 @@ Choice choice_of(const JointDifferences& joint, const DifferenceLengths& lengths
       choice.with_slow = std::move(noise);
     }
   }
+  std::vector<JointNoise> starts = {beside_alone(choice.alone, lengths)};
+  if (!choice.with_slow.slow.empty()) starts.push_back(choice.with_slow);
+  for (JointNoise& start : starts) {
+    JointNoise each = refined(joint, std::move(start));
+    const double gain = worth(each) - alone - kPrice * static_cast<double>(each.slow.size());
+    if (gain <= choice.gain) continue;
+    choice.gain = gain;
+    choice.with_slow = std::move(each);
+  }
   return choice;
 }
 
-/// Slow parts that outlast half of a period may be physics that drifts, if one joint alone has
-/// them: noise is of all. No joint keeps far more of them, of its variance, than any other; its
-/// process has what the differences show of the rest.
+/// What two of several values reach, or both of two, or the only one.
+double reached_by_two(std::vector<double> values) {
+  const auto second = values.begin() + (values.size() > 1 ? 1 : 0);
+  std::nth_element(values.begin(), second, values.end(), std::greater<>());
+  return *second;
+}
+
+/// Slow parts that outlast half of a period may be physics that drifts, if one joint or two have
+/// them alone: noise is of all. No joint keeps far more of them, beside the rest of its noise at
+/// the motion's frequency, than two others have; its process has what the differences show of the
+/// rest.
 void keep_what_all_joints_have(std::vector<JointNoise>& noise,
                                const std::vector<JointDifferences>& joints, double period) {
+  if (noise.size() < 2) return;
   const auto lasts = [&](const SlowNoise& part) { return memory_of(part) > period / 2; };
-  const auto lasting_part = [&](const JointNoise& joint) {
-    double variance = 0;
+  std::vector<double> lasting;
+  for (const JointNoise& joint : noise) {
+    double all = 0;
     for (const SlowNoise& part : joint.slow) {
-      if (lasts(part)) variance += part.deviation * part.deviation;
+      if (lasts(part)) all += density(part, 1 / period);
     }
-    return variance / std::pow(joint.deviation(), 2);
-  };
-  double least = 1;
-  for (const JointNoise& joint : noise) least = std::min(least, lasting_part(joint));
-  const double most = kAlike * least;
+    lasting.push_back(all / (joint.density(1 / period) - all));
+  }
   for (std::size_t j = 0; j < noise.size(); ++j) {
-    const double own = lasting_part(noise[j]);
-    if (own <= most) continue;
-    // w' / (rest + w') is to be that much
-    const double factor = most * (1 - own) / (own * (1 - most));
+    std::vector<double> others = lasting;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
+    const double most = std::max(kAlwaysKept, kAlike * reached_by_two(others));
+    if (lasting[j] <= most) continue;
     for (SlowNoise& part : noise[j].slow) {
-      if (lasts(part)) part.deviation *= std::sqrt(factor);
+      if (lasts(part)) part.deviation *= std::sqrt(most / lasting[j]);
     }
     const VectorXd& covariance = joints[j].covariance;
     noise[j].quick = fit_autoregression(

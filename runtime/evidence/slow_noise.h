@@ -16,16 +16,21 @@ struct DifferenceLine {
 };
 
 /// Low lines, beside the harmonics of the period, where the difference has half of the density or
-/// more.
+/// more: of what a process leaves of the difference, times the process's density. About equations
+/// that do not count, noise of high lines would be in low ones; white noise there is as much at
+/// all.
 /// @param difference  0 where it does not count   @param counted  1 or 0   @param period  samples
+/// @param process     about that of the difference, with an innovation
 std::vector<DifferenceLine> difference_lines(const Eigen::VectorXd& difference,
-                                             const Eigen::VectorXd& counted, double period);
+                                             const Eigen::VectorXd& counted, double period,
+                                             const AutoregressiveNoise& process);
 
 /// What the differences of one joint over neighbouring periods are, of all runs.
 struct JointDifferences {
   std::vector<DifferenceLine> lines;
-  Eigen::VectorXd covariance;  ///< (lags), from lag 0
-  double samples = 1;          ///< that they come from
+  Eigen::VectorXd covariance;   ///< (lags), from lag 0
+  AutoregressiveNoise process;  ///< of that covariance
+  double samples = 1;           ///< that they come from
 };
 
 /// Lengths in samples.
@@ -34,12 +39,12 @@ struct DifferenceLengths {
   double longest = 0;  ///< of the runs
 };
 
-/// Noise of each joint: an autoregressive process, and slow parts beside it where noise is slower
-/// than a process of 40 lags tells, as 1/f noise is. Their memories are a factor of 4 apart, their
-/// variances those of the greatest likelihood of the lines (Whittle 1953), found by multiplication
-/// (Fevotte, Bertin, Durrieu 2009), in turn with the process, which is fitted to what the
-/// covariance has beside them.
-/// @return processes alone unless the likelihood of all joints pays for slow parts
+/// Noise of each joint: an autoregressive process, and parts of first order beside it where noise
+/// is slower than a process of 40 lags tells, as 1/f noise is, or thousands of times smaller at low
+/// frequencies than noise of accelerations is at high ones: white, of 2 samples' memory, and from 8
+/// on a factor of 4 apart. Their variances are those of the greatest likelihood of the lines
+/// (Whittle 1953).
+/// @return processes alone unless the likelihood of all joints pays for such parts
 std::vector<JointNoise> noise_of_differences(const std::vector<JointDifferences>& joints,
                                              const DifferenceLengths& lengths);
 

@@ -54,8 +54,12 @@ struct LagProducts {
 
 /// Differences between neighbouring periods of one joint, of all runs.
 struct DifferencesOfJoint {
+  struct Run {
+    VectorXd difference, counted;
+    double period;
+  };
   LagProducts products;
-  std::vector<DifferenceLine> lines;
+  std::vector<Run> runs;
 
   void add(const VectorXd& e, const VectorXd& counted, double period) {
     const auto whole = static_cast<Index>(std::llround(period));
@@ -63,11 +67,23 @@ struct DifferencesOfJoint {
     if (whole < 1 || 2 * static_cast<double>(rows) < period) return;
     const VectorXd moved = shifted(e, static_cast<double>(whole) - period);
     const VectorXd both = counted.tail(rows).cwiseProduct(counted.head(rows));
-    const VectorXd difference =
-        (e.tail(rows) - moved.head(rows)).cwiseProduct(both) / std::sqrt(2.0);
+    VectorXd difference = (e.tail(rows) - moved.head(rows)).cwiseProduct(both) / std::sqrt(2.0);
     products.add(difference, both);
-    const std::vector<DifferenceLine> own = difference_lines(difference, both, period);
-    lines.insert(lines.end(), own.begin(), own.end());
+    runs.push_back({std::move(difference), both, period});
+  }
+
+  [[nodiscard]] JointDifferences of_joint() const {
+    JointDifferences joint;
+    joint.process = fit_autoregression(products.covariance(), std::max(products.samples(), 1.0));
+    joint.covariance = products.covariance();
+    joint.samples = std::max(products.samples(), 1.0);
+    if (!(joint.process.innovation > 0)) return joint;
+    for (const Run& run : runs) {
+      const std::vector<DifferenceLine> own =
+          difference_lines(run.difference, run.counted, run.period, joint.process);
+      joint.lines.insert(joint.lines.end(), own.begin(), own.end());
+    }
+    return joint;
   }
 };
 
@@ -250,10 +266,7 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   const double period = model.from_periods ? mean_period(repeats) : 0;
   if (model.from_periods) {
     std::vector<JointDifferences> joints;
-    for (const DifferencesOfJoint& joint : repeated) {
-      joints.push_back(
-          {joint.lines, joint.products.covariance(), std::max(joint.products.samples(), 1.0)});
-    }
+    for (const DifferencesOfJoint& joint : repeated) joints.push_back(joint.of_joint());
     double longest = 0;
     for (const EffectRun& run : data.runs) {
       longest = std::max(longest, static_cast<double>(run.rows.Y.rows()));

@@ -27,7 +27,7 @@ Search::Search(const DiagnosisInput& input, Eigen::Index decimation)
       views_(views_of(input, parts_, seen_)) {}
 
 std::string Search::why_insufficient(bool with_regressor) const {
-  return runtime::why_insufficient(views_.train, views_.heldout, with_regressor);
+  return runtime::why_insufficient(views_.train, views_.proof, with_regressor);
 }
 
 void Search::compete(CompetitionOptions options, const CompetitionProgress& progress) {

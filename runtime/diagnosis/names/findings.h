@@ -101,7 +101,7 @@ struct NoiseFloor {
   Eigen::VectorXd deviation;         ///< (n) N m or N, of the raw torque
   Eigen::VectorXd correlation_time;  ///< (n) samples that are worth one
   Eigen::VectorXd worth;             ///< (n) independent samples of the equations
-  bool from_periods = false;         ///< else from what the last model left: a lower bound
+  bool from_periods = false;         ///< else from what model and structure leave
   std::string how;                   ///< a sentence
 };
 

@@ -92,6 +92,19 @@ TEST(Diagnosis, AFunctionOfTwoJointsHasNoName) {
   }
 }
 
+TEST(Diagnosis, FloorIsWithoutWhatHasNoName) {
+  const EffectInstance truth = wave(0.25);
+  const Diagnosis diagnosis =
+      diagnose(test::arm_input(test::two_recordings({truth}, 4), {truth}, {test::spring_law()}),
+               test::every_sample());
+  EXPECT_FALSE(diagnosis.noise.from_periods);
+  ASSERT_FALSE(diagnosis.unexplained.empty()) << diagnosis.sentence;
+  EXPECT_GT(diagnosis.heldout.after[1], 1.5 * test::kArmNoise);
+  // smooth functions have most of the wave, not all
+  EXPECT_LT(diagnosis.heldout.floor[1], 1.3 * test::kArmNoise);
+  EXPECT_GT(diagnosis.heldout.floor[1], 0.95 * test::kArmNoise);
+}
+
 TEST(Naming, WhatHasNoNameTakesItsPartOfTheProbability) {
   Naming naming;
   naming.families = {"spring"};

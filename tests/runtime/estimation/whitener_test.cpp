@@ -74,7 +74,7 @@ MatrixXd covariance_of(const JointNoise& noise, Index samples) {
 
 TEST(Whitener, LeavesNothingOfACovarianceWithSlowPartsAndGaps) {
   constexpr Index kSamples = 90;
-  const JointNoise noise{second_order(), {{0.97, 0.4}, {0.999, 0.8}}};
+  const JointNoise noise{second_order(), {{0, 0.3}, {0.97, 0.4}, {0.999, 0.8}}};
   VectorXd counted = VectorXd::Ones(kSamples);
   counted.segment(0, 3).setZero();
   counted.segment(40, 7).setZero();
