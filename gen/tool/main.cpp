@@ -22,8 +22,6 @@
 namespace dyngen {
 namespace {
 
-constexpr int kDone = 0, kInputWrong = 1, kUsage = 2, kOurBug = 70;
-
 void print_warnings(const RobotFile& file, const RobotModel& model,
                     const GeneratorOptions& options) {
   Diagnostics diagnostics(file.file_name, file.text);

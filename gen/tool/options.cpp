@@ -11,8 +11,6 @@
 namespace dyngen {
 namespace {
 
-constexpr int kMisused = 2;
-
 bool is_source_name(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   return ending == ".c" || ending == ".cc" || ending == ".cpp" || ending == ".cxx";
@@ -184,10 +182,10 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     parsed.exit_code = app.exit(success);
   } catch (const CLI::ParseError& error) {
     std::cerr << "dyngen: " << error.what() << "\nRun 'dyngen --help' for the options.\n";
-    parsed.exit_code = kMisused;
+    parsed.exit_code = kUsage;
   } catch (const std::invalid_argument& error) {
     std::cerr << "dyngen: " << error.what() << "\nRun 'dyngen --help' for the options.\n";
-    parsed.exit_code = kMisused;
+    parsed.exit_code = kUsage;
   }
   return parsed;
 }

@@ -8,6 +8,9 @@
 
 namespace dyngen {
 
+/// What dyngen exits with.
+inline constexpr int kDone = 0, kInputWrong = 1, kUsage = 2, kOurBug = 70;
+
 /// The command line of dyngen.
 struct ToolOptions {
   std::string robot;    ///< path of the robot file
@@ -26,7 +29,7 @@ struct ToolOptions {
 };
 
 /// Reads the command line. @return what to do, or the exit code if there is nothing left to do
-///         (0 after --help or --version, 2 after a message about wrong usage)
+///         (kDone after --help or --version, kUsage after a message about wrong usage)
 struct ParsedOptions {
   ToolOptions options;
   int exit_code = -1;  ///< -1: go on

@@ -216,7 +216,7 @@ double reached_by_two(std::vector<double> values) {
 /// Slow parts that outlast half of a period may be physics that drifts, if one joint or two have
 /// them alone: noise is of all. No joint keeps far more of them, beside the rest of its noise at
 /// the motion's frequency, than two others have; its process has what the differences show of the
-/// rest.
+/// rest, where that is more likely.
 void keep_what_all_joints_have(std::vector<JointNoise>& noise,
                                const std::vector<JointDifferences>& joints, double period) {
   if (noise.size() < 2) return;
@@ -238,8 +238,14 @@ void keep_what_all_joints_have(std::vector<JointNoise>& noise,
       if (lasts(part)) part.deviation *= std::sqrt(most / lasting[j]);
     }
     const VectorXd& covariance = joints[j].covariance;
-    noise[j].quick = fit_autoregression(
-        covariance - differences_of(noise[j].slow, covariance.size(), period), joints[j].samples);
+    JointNoise again = noise[j];
+    again.quick = fit_autoregression(
+        covariance - differences_of(again.slow, covariance.size(), period), joints[j].samples);
+    // what is left of noise of accelerations may be no covariance, nor near one
+    if (again.quick.innovation > 0 &&
+        likelihood(joints[j].lines, again) > likelihood(joints[j].lines, noise[j])) {
+      noise[j] = std::move(again);
+    }
   }
 }
 
