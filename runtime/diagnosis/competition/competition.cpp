@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runtime/diagnosis/competition/beside_white_noise.h"
+#include "runtime/diagnosis/competition/effect_conditions.h"
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/competition/likely_search.h"
 #include "runtime/diagnosis/competition/nameless_search.h"
@@ -14,7 +15,6 @@
 #include "runtime/diagnosis/competition/second_scan.h"
 #include "runtime/diagnosis/competition/stops.h"
 #include "runtime/diagnosis/competition/within_rounding.h"
-#include "runtime/diagnosis/scans/time_windows.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -23,16 +23,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kRefined = 12;     // candidates whose shapes are refined in a round
-constexpr double kLeastExplained = 0.7;  // part of a joint's structure that a name must explain
-constexpr double kLeastAsGood = 0.5;     // of the winner's squares: rivals that are tried with it
-constexpr double kOutdone = 9;           // squares, net, by which what has no name is better
-constexpr double kOutdonePart = 0.1;     // and of the effect's, of a function of the motion
-constexpr std::size_t kAttempts = 4;     // effects that are fitted in a round before it gives up
-constexpr double kTie = 0.5;             // squares that decide nothing
-constexpr std::size_t kRivals = 5;       // that are compared again once the winner is fitted
-constexpr double kEventNet = 10;         // squares, net, of an event
-constexpr double kShortest = 3;          // equations that an event lasts
+constexpr std::size_t kRefined = 12;  // candidates whose shapes are refined in a round
+constexpr double kLeastAsGood = 0.5;  // of the winner's squares: rivals that are tried with it
+constexpr std::size_t kAttempts = 4;  // effects that are fitted in a round before it gives up
+constexpr double kTie = 0.5;          // squares that decide nothing
+constexpr std::size_t kRivals = 5;    // that are compared again once the winner is fitted
 
 /// One competition's data and what was found so far.
 class Competition {
@@ -53,6 +48,7 @@ class Competition {
         repeats_(repeats_of(fitted)),
         witness_(witness),
         stops_(train_, signals_, structures_, result_.resting, options_.false_alarm),
+        conditions_(train_, signals_, hypotheses_, structures_, stops_, result_),
         nameless_(train_, signals_, heldout_, hypotheses_, structures_, stops_, witness_,
                   system_options(), options_.false_alarm, result_),
         likely_(train_, signals_, hypotheses_, scales_, result_,
@@ -144,25 +140,6 @@ class Competition {
     return joints_of(hypotheses_[place].effect, train_.joints());
   }
 
-  /// What generic structure there is on a joint: squares less their expectation under noise.
-  /// Impulses at reversals count where they are far more than noise: then nothing else is to be
-  /// believed of that joint before it is said to rest.
-  [[nodiscard]] double structure_of(const Screening& screening, int joint) const {
-    double most = 0;
-    for (const GenericResult& generic : screening.generic) {
-      const GenericStructure& structure = structures_[generic.structure];
-      if (structure.joint != joint) continue;
-      if (!structure.is_specific()) continue;
-      if (structure.form == GenericStructure::Form::kImpulses &&
-          (stops_.rests(joint) ||
-           generic.score.squares < kHardlyMoreThanNoise * generic.score.degrees)) {
-        continue;
-      }
-      most = std::max(most, generic.score.squares - generic.score.degrees);
-    }
-    return most;
-  }
-
   bool next_winner(const EvidenceSystem& system, Screening& screening) {
     doubt_.reset();
     at_stops_ = false;
@@ -204,17 +181,11 @@ class Competition {
         if (!costly) costly = place;
         continue;
       }
-      double structure = 0;
-      for (const int joint : joints_of_hypothesis(place)) {
-        structure = std::max(structure, structure_of(screening, joint));
-      }
-      const double least =
-          std::max(kLeastExplained * structure, stops_.unseen_on(joints_of_hypothesis(place)));
-      if (named.best.score.squares < least) continue;
-      if (outdone(named, system, screening)) continue;
+      if (named.best.score.squares < conditions_.least_squares(named, screening)) continue;
+      if (conditions_.outdone(named, system, screening)) continue;
       if (attempted.contains(place)) continue;
       const Stops::Part stops = stops_.part_in(system, screening, hypotheses_[place], named);
-      if (stops == Stops::Part::kAll || is_no_event(system, named)) {
+      if (stops == Stops::Part::kAll || conditions_.is_no_event(system, named)) {
         stopped.insert(place);
         continue;
       }
@@ -229,50 +200,6 @@ class Competition {
       if (keep(doubt_->named, screening, std::move(doubt_->fit))) return true;
     }
     return costly && keep_without_name(*costly, system, screening);
-  }
-
-  /// Whether what would be an event is a wild value, or too little: nothing held out speaks for it.
-  [[nodiscard]] bool is_no_event(const EvidenceSystem& system, const NamedResult& named) {
-    const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
-    if (!hypothesis.windowed) return false;
-    const double slow = named.best.score.squares * (1 - 1 / named.slow_noise);
-    if (net(named) - slow < kEventNet) return true;
-    if (hypothesis.shapes.size() > 1) {  // it begins, and ends
-      const Eigen::VectorXd& p = named.best.effect.parameters;
-      const double duration = p[hypothesis.shapes[1]] - p[hypothesis.shapes[0]];
-      if (duration < kShortest * train_.row_time) return true;
-    }
-    return is_jolt(system,
-                   system.whitened(effect_columns(train_, signals_, named.best.effect, {0})));
-  }
-
-  /// Whether what has no name explains more on the same joint: an effect that its file rules out,
-  /// since the structure is something else then, of that form; or a function of the motion.
-  [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,
-                             const Screening& screening) const {
-    const std::vector<int> own = joints_of_hypothesis(named.hypothesis);
-    const auto is_own = [&](int joint) {
-      return std::find(own.begin(), own.end(), joint) != own.end();
-    };
-    const bool by_form =
-        std::any_of(screening.named.begin(), screening.named.end(), [&](const NamedResult& each) {
-          if (!each.seen || each.freest.admissible) return false;
-          const NamedResult other = without_conditions(each);
-          if (net(named) >= net(other) - kOutdone) return false;
-          const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
-          return std::any_of(joints.begin(), joints.end(), is_own) &&
-                 !stops_.hide(system, screening, hypotheses_[other.hypothesis], other);
-        });
-    if (by_form) return true;
-    // shapes of a strong effect are not quite found yet
-    const double much = (1 + kOutdonePart) * net(named) + kOutdone;
-    return std::any_of(
-        screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
-          const GenericStructure& structure = structures_[generic.structure];
-          return structure.is_specific() && structure.form != GenericStructure::Form::kImpulses &&
-                 is_own(structure.joint) && !stops_.rests(structure.joint) &&
-                 net_of(structure, generic.score, result_.noise) > much;
-        });
   }
 
   /// An effect that is far more than noise and helps on held-out recordings, but has more
@@ -313,7 +240,7 @@ class Competition {
       }
       const Stops::Part stops =
           stops_.part_in(white, beside, hypotheses_[likely.named.hypothesis], likely.named);
-      if (stops == Stops::Part::kAll || is_no_event(white, likely.named)) return false;
+      if (stops == Stops::Part::kAll || conditions_.is_no_event(white, likely.named)) return false;
       at_stops_ = stops == Stops::Part::kBecause;
       return accept(likely.named, screening, likely.fit);
     };
@@ -474,6 +401,7 @@ class Competition {
   bool at_stops_ = false;       // of the effect that is fitted
   CompetitionResult result_;
   Stops stops_;
+  EffectConditions conditions_;
   NamelessSearch nameless_;
   LikelySearch likely_;
 };

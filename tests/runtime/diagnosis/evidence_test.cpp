@@ -153,7 +153,7 @@ TEST(TorqueNoiseModel, OfAccelerationsKeepsWhatIsSlow) {
     std::printf("%.3f cycles for a sample: density over the true one %.2f\n", frequencies[i],
                 ratio);
     EXPECT_GT(ratio, 0.8);
-    EXPECT_LT(ratio, 2.5);
+    EXPECT_LT(ratio, 1.3);
   }
   // squares of slow structure are at most twice what they are taken for, in any draw
   EXPECT_GT(least, 0.5);

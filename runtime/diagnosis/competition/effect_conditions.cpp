@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/competition/effect_conditions.h"
+
+#include <algorithm>
+
+#include "runtime/diagnosis/scans/time_windows.h"
+
+namespace dyngen::runtime {
+namespace {
+
+constexpr double kLeastExplained = 0.7;  // part of a joint's structure that a name must explain
+constexpr double kOutdone = 9;           // squares, net, by which what has no name is better
+constexpr double kOutdonePart = 0.1;     // and of the effect's, of a function of the motion
+constexpr double kEventNet = 10;         // squares, net, of an event
+constexpr double kShortest = 3;          // equations that an event lasts
+
+}  // namespace
+
+double EffectConditions::net(const NamedResult& result) const {
+  return net_of(hypotheses_[result.hypothesis], result.best, result_.noise);
+}
+
+std::vector<int> EffectConditions::joints_of_hypothesis(std::size_t place) const {
+  return joints_of(hypotheses_[place].effect, data_.joints());
+}
+
+/// What generic structure there is on a joint: squares less their expectation under noise.
+/// Impulses at reversals count where they are far more than noise: then nothing else is to be
+/// believed of that joint before it is said to rest.
+double EffectConditions::structure_of(const Screening& screening, int joint) const {
+  double most = 0;
+  for (const GenericResult& generic : screening.generic) {
+    const GenericStructure& structure = structures_[generic.structure];
+    if (structure.joint != joint) continue;
+    if (!structure.is_specific()) continue;
+    if (structure.form == GenericStructure::Form::kImpulses &&
+        (stops_.rests(joint) ||
+         generic.score.squares < kHardlyMoreThanNoise * generic.score.degrees)) {
+      continue;
+    }
+    most = std::max(most, generic.score.squares - generic.score.degrees);
+  }
+  return most;
+}
+
+double EffectConditions::least_squares(const NamedResult& named, const Screening& screening) const {
+  const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
+  double structure = 0;
+  for (const int joint : joints) structure = std::max(structure, structure_of(screening, joint));
+  return std::max(kLeastExplained * structure, stops_.unseen_on(joints));
+}
+
+bool EffectConditions::is_no_event(const EvidenceSystem& system, const NamedResult& named) const {
+  const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
+  if (!hypothesis.windowed) return false;
+  const double slow = named.best.score.squares * (1 - 1 / named.slow_noise);
+  if (net(named) - slow < kEventNet) return true;
+  if (hypothesis.shapes.size() > 1) {  // it begins, and ends
+    const Eigen::VectorXd& p = named.best.effect.parameters;
+    const double duration = p[hypothesis.shapes[1]] - p[hypothesis.shapes[0]];
+    if (duration < kShortest * data_.row_time) return true;
+  }
+  return is_jolt(system, system.whitened(effect_columns(data_, signals_, named.best.effect, {0})));
+}
+
+bool EffectConditions::outdone(const NamedResult& named, const EvidenceSystem& system,
+                               const Screening& screening) const {
+  const std::vector<int> own = joints_of_hypothesis(named.hypothesis);
+  const auto is_own = [&](int joint) {
+    return std::find(own.begin(), own.end(), joint) != own.end();
+  };
+  const bool by_form =
+      std::any_of(screening.named.begin(), screening.named.end(), [&](const NamedResult& each) {
+        if (!each.seen || each.freest.admissible) return false;
+        const NamedResult other = without_conditions(each);
+        if (net(named) >= net(other) - kOutdone) return false;
+        const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
+        return std::any_of(joints.begin(), joints.end(), is_own) &&
+               !stops_.hide(system, screening, hypotheses_[other.hypothesis], other);
+      });
+  if (by_form) return true;
+  // shapes of a strong effect are not quite found yet
+  const double much = (1 + kOutdonePart) * net(named) + kOutdone;
+  return std::any_of(
+      screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
+        const GenericStructure& structure = structures_[generic.structure];
+        return structure.is_specific() && structure.form != GenericStructure::Form::kImpulses &&
+               is_own(structure.joint) && !stops_.rests(structure.joint) &&
+               net_of(structure, generic.score, result_.noise) > much;
+      });
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "runtime/diagnosis/competition/competition_result.h"
+#include "runtime/diagnosis/competition/stops.h"
+
+namespace dyngen::runtime {
+
+/// What an effect has to be beside a model, before the model is fitted with it.
+class EffectConditions {
+ public:
+  /// All of them have to outlive it.
+  EffectConditions(const EffectRecordings& data, EffectSignals& signals,
+                   const std::vector<Hypothesis>& hypotheses,
+                   const std::vector<GenericStructure>& structures, const Stops& stops,
+                   const CompetitionResult& result)
+      : data_(data),
+        signals_(signals),
+        hypotheses_(hypotheses),
+        structures_(structures),
+        stops_(stops),
+        result_(result) {}
+
+  /// The squares that an effect has to explain: most of the structure of its joints, and more than
+  /// rests leave there.
+  [[nodiscard]] double least_squares(const NamedResult& named, const Screening& screening) const;
+
+  /// Whether what would be an event is a wild value, or too little: nothing held out speaks for it.
+  [[nodiscard]] bool is_no_event(const EvidenceSystem& system, const NamedResult& named) const;
+
+  /// Whether what has no name explains more on the same joint: an effect that its file rules out,
+  /// since the structure is something else then, of that form; or a function of the motion.
+  [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,
+                             const Screening& screening) const;
+
+ private:
+  [[nodiscard]] double net(const NamedResult& result) const;
+  [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
+  [[nodiscard]] double structure_of(const Screening& screening, int joint) const;
+
+  const EffectRecordings& data_;
+  EffectSignals& signals_;
+  const std::vector<Hypothesis>& hypotheses_;
+  const std::vector<GenericStructure>& structures_;
+  const Stops& stops_;
+  const CompetitionResult& result_;
+};
+
+}  // namespace dyngen::runtime
