@@ -24,6 +24,7 @@ constexpr double kPrice = 2;           // twice log likelihood that slow parts p
                                        // them in vain power is lost, without them there are alarms
 constexpr double kAlike = 3;           // of densities at the motion's period, of joints
 constexpr double kAlwaysKept = 0.1;    // of the rest's density, there
+constexpr double kFarLess = 20;        // of twice log likelihood
 constexpr double kNegligible = 1e-3;   // of a joint's deviation: such a part is left out
 constexpr std::array<double, 5> kRatios = {0.25, 0.5, 1, 2, 4};  // 1: 1/f noise
 /// Of the variance. Noise of accelerations may be thousands of times what is slow beside it.
@@ -216,7 +217,7 @@ double reached_by_two(std::vector<double> values) {
 /// Slow parts that outlast half of a period may be physics that drifts, if one joint or two have
 /// them alone: noise is of all. No joint keeps far more of them, beside the rest of its noise at
 /// the motion's frequency, than two others have; its process has what the differences show of the
-/// rest, where that is more likely.
+/// rest, where that is not far less likely.
 void keep_what_all_joints_have(std::vector<JointNoise>& noise,
                                const std::vector<JointDifferences>& joints, double period) {
   if (noise.size() < 2) return;
@@ -243,7 +244,7 @@ void keep_what_all_joints_have(std::vector<JointNoise>& noise,
         covariance - differences_of(again.slow, covariance.size(), period), joints[j].samples);
     // what is left of noise of accelerations may be no covariance, nor near one
     if (again.quick.innovation > 0 &&
-        likelihood(joints[j].lines, again) > likelihood(joints[j].lines, noise[j])) {
+        likelihood(joints[j].lines, again) > likelihood(joints[j].lines, noise[j]) - kFarLess) {
       noise[j] = std::move(again);
     }
   }
