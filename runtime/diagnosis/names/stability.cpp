@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kBlocks = 40;
+constexpr Index kPiecesOfHalves = 40;
 constexpr int kHalves = 100;
 
 /// Products of a contender's columns with one another and with what is left, in one stretch.
@@ -25,12 +25,13 @@ struct StretchProducts {
 std::vector<StretchProducts> products_of(const EvidenceSystem& system,
                                          const JointColumns& columns) {
   const Index k = columns.columns();
-  std::vector<StretchProducts> all(kBlocks, {MatrixXd::Zero(k, k), VectorXd::Zero(k)});
+  std::vector<StretchProducts> all(kPiecesOfHalves, {MatrixXd::Zero(k, k), VectorXd::Zero(k)});
   for (const int joint : columns.joints) {
     const MatrixXd left = system.left_of(columns, joint);
     const VectorXd rest = system.rest(joint);
-    for (Index i = 0; i < kBlocks; ++i) {
-      const Index from = i * left.rows() / kBlocks, to = (i + 1) * left.rows() / kBlocks;
+    for (Index i = 0; i < kPiecesOfHalves; ++i) {
+      const Index from = i * left.rows() / kPiecesOfHalves,
+                  to = (i + 1) * left.rows() / kPiecesOfHalves;
       const auto rows = left.middleRows(from, to - from);
       auto& own = all[static_cast<std::size_t>(i)];
       own.own += rows.transpose() * rows;
@@ -66,12 +67,12 @@ std::vector<double> selected_shares(const EvidenceSystem& system,
   std::vector<double> shares(contenders.size(), 0.0);
   if (contenders.empty()) return shares;
   std::mt19937_64 random(seed);
-  std::vector<std::size_t> order(kBlocks);
+  std::vector<std::size_t> order(kPiecesOfHalves);
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (int half = 0; half < kHalves; ++half) {
     for (std::size_t i = order.size() - 1; i > 0; --i)
       std::swap(order[i], order[random() % (i + 1)]);
-    const std::vector<std::size_t> chosen(order.begin(), order.begin() + kBlocks / 2);
+    const std::vector<std::size_t> chosen(order.begin(), order.begin() + kPiecesOfHalves / 2);
     std::size_t best = 0;
     double most = 0;
     for (std::size_t c = 0; c < contenders.size(); ++c) {
