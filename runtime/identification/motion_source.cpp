@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <random>
 #include <stdexcept>
 
 #include "runtime/recordings/clipping.h"
@@ -99,6 +100,15 @@ void check_runs(const JointStates& states, const std::string& name) {
   throw TooShortError(fmt::format("{}: no run is long enough{}", name, reason));
 }
 
+Recording with_white_noise(Recording recording, const VectorXd& deviation, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (Index k = 0; k < recording.samples(); ++k) {
+    for (Index j = 0; j < deviation.size(); ++j) recording.q(k, j) += deviation[j] * normal(random);
+  }
+  return recording;
+}
+
 /// @param recording  of uniform time, its condition looked at   @param start  s, before averaging
 MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
                       RecordingCondition condition, const JointStateOptions& options) {
@@ -121,6 +131,16 @@ MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
       other.order = order;
       other.cutoff_hz = hz;
       return filtered(recording, start, condition, other);
+    };
+  }
+  if (options.method == StateMethod::kLowPass) {
+    source.with_noise = [recording, start, condition, options, hz = source.cutoff.hz](
+                            const VectorXd& deviation, unsigned seed) {
+      JointStateOptions same = options;
+      same.cutoff_hz = hz;
+      return filtered(
+          std::make_shared<const Recording>(with_white_noise(*recording, deviation, seed)), start,
+          condition, same);
     };
   }
   condition.messages.insert(condition.messages.end(), states.messages.begin(),
@@ -171,6 +191,7 @@ MotionSource stream_of_file(const std::string& path, MotionOptions options) {
   of_first.average_periods = false;
   MotionSource source = motion_in_memory(std::move(first), {}, of_first);
   source.with_low_pass = nullptr;
+  source.with_noise = nullptr;
   source.name = path;
   options.state.cutoff_hz = source.cutoff.hz;
   source.condition.messages.push_back("read piece by piece; periods were not looked for");
@@ -207,6 +228,12 @@ MotionSource part_of(const MotionSource& source, double from, double to) {
   if (source.with_low_pass) {
     part.with_low_pass = [other = source.with_low_pass, from, to](int order, double hz) {
       return part_of(other(order, hz), from, to);
+    };
+  }
+  if (source.with_noise) {
+    part.with_noise = [other = source.with_noise, from, to](const VectorXd& deviation,
+                                                            unsigned seed) {
+      return part_of(other(deviation, seed), from, to);
     };
   }
   // lengths of the runs first: pieces of a run do not know how long it is

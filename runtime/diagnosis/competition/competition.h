@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition_result.h"
+#include "runtime/diagnosis/competition/position_noise.h"
 #include "runtime/diagnosis/competition/witness.h"
 
 namespace dyngen::runtime {
@@ -32,8 +33,10 @@ using CompetitionProgress = std::function<void(const std::string& stage, double 
 /// @param train    what evidence is of
 /// @param fitted   the same equations, without those near rests: what fits are of, and noise
 /// @param witness  of the same recordings
+/// @param position_noise  of the same recordings, in `train`
 CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
-                          Witness& witness, const EffectRecordings& heldout,
+                          Witness& witness, const PositionNoise& position_noise,
+                          const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options,
                           const CompetitionProgress& progress = {});

@@ -48,7 +48,11 @@ struct TrialScore {
   double part = 1;            ///< of all joints' equations: those in which an event acts
 };
 
-/// Whitened columns of the linear parameters at given shapes.
+/// Columns of the linear parameters at given shapes.
+JointColumns plain_columns(const EffectRecordings& data, EffectSignals& signals,
+                           const Hypothesis& hypothesis, const EffectInstance& trial);
+
+/// The same, whitened.
 JointColumns hypothesis_columns(const EffectRecordings& data, EffectSignals& signals,
                                 const EvidenceSystem& system, const Hypothesis& hypothesis,
                                 const EffectInstance& trial);

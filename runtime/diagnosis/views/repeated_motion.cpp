@@ -77,6 +77,7 @@ void append(Motion& run, const Motion& piece) {
 MotionSource with_repeated_motion(const MotionSource& source) {
   MotionSource result = source;
   result.with_low_pass = nullptr;
+  result.with_noise = nullptr;
   result.pieces = [all = source.pieces](const std::function<void(const StreamPiece&)>& visit) {
     std::vector<Motion> runs;
     all([&](const StreamPiece& piece) {

@@ -28,6 +28,7 @@ constexpr double kBesideRests = 0.4;     // of that of the joint state as it is
 constexpr double kWidened = 0.5;         // over the cut-off: what the low-pass makes of a rest
 constexpr double kBesideJoltsStop = 30;  // dB, of a parallel filter that is shorter still
 constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
+constexpr unsigned kNoiseSeed = 20261125;
 
 RowOptions slower(RowOptions rows) {
   rows.band *= kSlow;
@@ -73,11 +74,17 @@ std::vector<int> resting_in(const ViewOptions& options, int recording) {
   return joints;
 }
 
+EffectRecordings every_equation(const DiagnosisInput& input,
+                                const std::vector<MotionSource>& sources,
+                                const ViewOptions& options) {
+  const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
+  return effect_recordings(input.model, input.robot, sources, options.rows, all);
+}
+
 /// @param fitted  whether they are the recordings that the options speak of
 EffectRecordings equations(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
                            const ViewOptions& options, bool fitted) {
-  const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
-  EffectRecordings data = effect_recordings(input.model, input.robot, sources, options.rows, all);
+  EffectRecordings data = every_equation(input, sources, options);
   const VectorXd still = still_speed(sources, options.rows, data.joints());
   for (EffectRun& run : data.runs) {
     leave_out_standstill(run, still);
@@ -200,6 +207,26 @@ Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOpt
   views.proof = views.heldout;
   leave_out_unvisited(views.proof, views.train);
   return views;
+}
+
+std::optional<EffectRecordings> with_more_noise(const DiagnosisInput& input, const Division& parts,
+                                                const ViewOptions& options,
+                                                const EffectRecordings& evidence, double sign) {
+  std::vector<MotionSource> noisy;
+  for (const MotionSource& source : seen(parts.train, options)) {
+    if (!source.with_noise) return std::nullopt;
+    noisy.push_back(source.with_noise(sign * source.position_noise,
+                                      kNoiseSeed + static_cast<unsigned>(noisy.size())));
+  }
+  EffectRecordings data = thinned(every_equation(input, noisy, options), kLongestSample);
+  if (data.runs.size() != evidence.runs.size()) return std::nullopt;
+  for (std::size_t r = 0; r < data.runs.size(); ++r) {
+    const EffectRun& as_seen = evidence.runs[r];
+    if (data.runs[r].rows.counted.rows() != as_seen.rows.counted.rows()) return std::nullopt;
+    data.runs[r].rows.counted = as_seen.rows.counted;
+    data.runs[r].unknown = as_seen.unknown;
+  }
+  return data;
 }
 
 }  // namespace dyngen::runtime

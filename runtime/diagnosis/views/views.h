@@ -61,4 +61,11 @@ struct Views {
 };
 Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options);
 
+/// Evidence of the same recordings with the noise of their positions once more, or taken away:
+/// equations count that count of the evidence. @param evidence  of these recordings, its motion the
+/// recorded one  @param sign  1 or -1  @return none where a recording has no noise to add
+std::optional<EffectRecordings> with_more_noise(const DiagnosisInput& input, const Division& parts,
+                                                const ViewOptions& options,
+                                                const EffectRecordings& evidence, double sign);
+
 }  // namespace dyngen::runtime
