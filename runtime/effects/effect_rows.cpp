@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <set>
 
 #include "runtime/signals/differences.h"
+#include "runtime/signals/interpolation.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -18,7 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kSincReach = 16;        // samples on each side
 constexpr double kLongestDelay = 0.05;  // s, where an effect gives no bound
 
 /// What acts on one joint at full rate: a torque, and columns of J with their places.
@@ -406,34 +405,6 @@ EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signal
     }
   }
   return signature;
-}
-
-VectorXd shifted(const VectorXd& x, double shift) {
-  const double whole = std::floor(shift);
-  const double part = shift - whole;
-  // a raised cosine holds the sinc to its reach
-  VectorXd taps(2 * kSincReach);
-  for (Index i = 0; i < taps.size(); ++i) {
-    const double at = static_cast<double>(i - kSincReach + 1) - part;
-    const double angle = std::numbers::pi * at;
-    const double window = 0.5 + 0.5 * std::cos(angle / static_cast<double>(kSincReach + 1));
-    taps[i] = (at == 0 ? 1 : std::sin(angle) / angle) * window;
-  }
-  taps /= taps.sum();
-  const Index last = x.size() - 1;
-  VectorXd result(x.size());
-  for (Index k = 0; k < x.size(); ++k) {
-    const Index first = k + static_cast<Index>(whole) - kSincReach + 1;
-    if (first >= 0 && first + taps.size() - 1 <= last) {
-      result[k] = taps.dot(x.segment(first, taps.size()));
-      continue;
-    }
-    double sum = 0;
-    for (Index i = 0; i < taps.size(); ++i)
-      sum += taps[i] * x[std::clamp(first + i, Index{0}, last)];
-    result[k] = sum;
-  }
-  return result;
 }
 
 }  // namespace dyngen::runtime

@@ -87,9 +87,4 @@ struct EffectSignature {
 EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signals, std::size_t run,
                              const EffectInstance& effect, bool states_held = false);
 
-/// x(t + shift) of a band-limited signal: interpolation by a windowed sinc of 32 samples, which
-/// needs 16 of them on both sides; beyond its ends the signal is continued as constant.
-/// @param shift  in samples
-Eigen::VectorXd shifted(const Eigen::VectorXd& x, double shift);
-
 }  // namespace dyngen::runtime

@@ -13,6 +13,7 @@
 #include "runtime/estimation/burg.h"
 #include "runtime/evidence/slow_noise.h"
 #include "runtime/recordings/periods.h"
+#include "runtime/signals/interpolation.h"
 
 namespace dyngen::runtime {
 namespace {

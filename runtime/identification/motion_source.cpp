@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <random>
 #include <stdexcept>
 
 #include "runtime/recordings/clipping.h"
@@ -16,6 +15,7 @@
 #include "runtime/recordings/quantisation.h"
 #include "runtime/recordings/reader.h"
 #include "runtime/recordings/time_base.h"
+#include "runtime/signals/interpolation.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -100,11 +100,12 @@ void check_runs(const JointStates& states, const std::string& name) {
   throw TooShortError(fmt::format("{}: no run is long enough{}", name, reason));
 }
 
-Recording with_white_noise(Recording recording, const VectorXd& deviation, unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  for (Index k = 0; k < recording.samples(); ++k) {
-    for (Index j = 0; j < deviation.size(); ++j) recording.q(k, j) += deviation[j] * normal(random);
+Recording with_every_other(Recording recording, int parity) {
+  std::vector<Index> ends = recording.run_starts;
+  ends.push_back(recording.samples());
+  for (std::size_t run = 0; run + 1 < ends.size(); ++run) {
+    auto rows = recording.q.middleRows(ends[run], ends[run + 1] - ends[run]);
+    rows = of_every_other(rows, parity);
   }
   return recording;
 }
@@ -133,14 +134,17 @@ MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
       return filtered(recording, start, condition, other);
     };
   }
-  if (options.method == StateMethod::kLowPass) {
-    source.with_noise = [recording, start, condition, options, hz = source.cutoff.hz](
-                            const VectorXd& deviation, unsigned seed) {
+  const bool quick = source.cutoff.hz * source.sample_time > kHighestOfHalf * (1 + 1e-9);
+  if (options.method == StateMethod::kLowPass && !quick) {
+    source.with_every_other = [recording, start, condition, options, hz = source.cutoff.hz,
+                               noise = source.position_noise](int parity) {
       JointStateOptions same = options;
       same.cutoff_hz = hz;
-      return filtered(
-          std::make_shared<const Recording>(with_white_noise(*recording, deviation, seed)), start,
-          condition, same);
+      MotionSource half =
+          filtered(std::make_shared<const Recording>(with_every_other(*recording, parity)), start,
+                   condition, same);
+      half.position_noise = noise;
+      return half;
     };
   }
   condition.messages.insert(condition.messages.end(), states.messages.begin(),
@@ -191,7 +195,7 @@ MotionSource stream_of_file(const std::string& path, MotionOptions options) {
   of_first.average_periods = false;
   MotionSource source = motion_in_memory(std::move(first), {}, of_first);
   source.with_low_pass = nullptr;
-  source.with_noise = nullptr;
+  source.with_every_other = nullptr;
   source.name = path;
   options.state.cutoff_hz = source.cutoff.hz;
   source.condition.messages.push_back("read piece by piece; periods were not looked for");
@@ -230,10 +234,9 @@ MotionSource part_of(const MotionSource& source, double from, double to) {
       return part_of(other(order, hz), from, to);
     };
   }
-  if (source.with_noise) {
-    part.with_noise = [other = source.with_noise, from, to](const VectorXd& deviation,
-                                                            unsigned seed) {
-      return part_of(other(deviation, seed), from, to);
+  if (source.with_every_other) {
+    part.with_every_other = [other = source.with_every_other, from, to](int parity) {
+      return part_of(other(parity), from, to);
     };
   }
   // lengths of the runs first: pieces of a run do not know how long it is

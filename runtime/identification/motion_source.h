@@ -60,10 +60,11 @@ struct MotionSource {
   /// the cut-off was given, no low-pass gives the joint state, or the file is too large to be in
   /// memory.
   std::function<MotionSource(int order, double hz)> with_low_pass;
-  /// The same recording behind the same low-pass, with white noise added to its positions.
-  /// `deviation` (n) rad or m; negative: the noise of the same seed, taken away. Empty where no
-  /// low-pass gives the joint state, or the file is too large to be in memory.
-  std::function<MotionSource(const Eigen::VectorXd& deviation, unsigned seed)> with_noise;
+  /// The same recording behind the same low-pass, its positions those of every other sample and
+  /// interpolated between them (of_every_other()): two joint states with noise of their own. Empty
+  /// where no low-pass gives the joint state, its cut-off is above a fifth of the sampling
+  /// frequency, or the file is too large to be in memory.
+  std::function<MotionSource(int parity)> with_every_other;
 
   [[nodiscard]] int joints() const { return static_cast<int>(position_noise.size()); }
 };

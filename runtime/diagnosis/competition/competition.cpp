@@ -33,9 +33,8 @@ constexpr std::size_t kRivals = 5;    // that are compared again once the winner
 class Competition {
  public:
   Competition(const EffectRecordings& train, const EffectRecordings& fitted, Witness& witness,
-              const PositionNoise& position_noise, const EffectRecordings& heldout,
-              const std::vector<Hypothesis>& hypotheses, const CompetitionOptions& options,
-              const CompetitionProgress& progress)
+              const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
+              const CompetitionOptions& options, const CompetitionProgress& progress)
       : train_(train),
         fitted_(fitted),
         heldout_(heldout),
@@ -48,11 +47,10 @@ class Competition {
         screening_data_(train),
         repeats_(repeats_of(fitted)),
         witness_(witness),
-        position_noise_(position_noise),
         stops_(train_, signals_, structures_, result_.resting, options_.false_alarm),
         conditions_(train_, signals_, hypotheses_, structures_, stops_, result_),
         nameless_(train_, signals_, heldout_, hypotheses_, structures_, stops_, witness_,
-                  position_noise_, system_options(), options_.false_alarm, result_),
+                  system_options(), options_.false_alarm, result_),
         likely_(train_, signals_, hypotheses_, scales_, result_,
                 [this](const EffectInstance& effect) { return with(effect); }) {}
 
@@ -335,23 +333,6 @@ class Competition {
     return witness_.contradicts(hypotheses_, result_, hypothesis, point, system_options());
   }
 
-  /// Whether what noise of the positions leaves of an effect is nothing.
-  bool is_noise_of_positions(const NamedResult& named, const Screening& screening) {
-    const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
-    const EffectInstance& effect = named.best.effect;
-    const EvidenceSystem system = model_system();
-    const auto columns = [&](const EffectRecordings& data, EffectSignals& signals) {
-      return plain_columns(data, signals, hypothesis, effect);
-    };
-    const Products products = system.products(system.whitened(columns(train_, signals_)), false);
-    const double before = score_of(products, false).squares;
-    const double after =
-        position_noise_.squares_without(products, columns, hypotheses_, result_, system_options());
-    const double left = before > 0 ? named.best.score.squares * after / before : 0;
-    return screening.family_wise(surprise_of(left, named.best.score.degrees)) >
-           options_.false_alarm;
-  }
-
   /// Keeps an effect that neither what is left nor the witness refutes and held-out recordings
   /// speak for, or, of one beyond doubt, agree with; an event is not in them and must only not harm
   /// them.
@@ -362,7 +343,6 @@ class Competition {
       return false;
     }
     if (contradicted(hypothesis, next.point)) return false;
-    if (!result_.noise.from_periods && is_noise_of_positions(named, screening)) return false;
     HeldoutProof proof = proof_of(next);
     proof.parameters = static_cast<double>(size_of(named.hypothesis));
     proof.fitted = named.best.score.squares;
@@ -417,7 +397,6 @@ class Competition {
   ScreeningData screening_data_;
   std::vector<double> repeats_;
   Witness& witness_;
-  const PositionNoise& position_noise_;
   std::optional<Doubt> doubt_;  // of this round
   bool at_stops_ = false;       // of the effect that is fitted
   CompetitionResult result_;
@@ -430,12 +409,10 @@ class Competition {
 }  // namespace
 
 CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
-                          Witness& witness, const PositionNoise& position_noise,
-                          const EffectRecordings& heldout,
+                          Witness& witness, const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options, const CompetitionProgress& progress) {
-  return Competition(train, fitted, witness, position_noise, heldout, hypotheses, options, progress)
-      .run();
+  return Competition(train, fitted, witness, heldout, hypotheses, options, progress).run();
 }
 
 }  // namespace dyngen::runtime

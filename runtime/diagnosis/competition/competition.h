@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition_result.h"
-#include "runtime/diagnosis/competition/position_noise.h"
 #include "runtime/diagnosis/competition/witness.h"
 
 namespace dyngen::runtime {
@@ -27,16 +26,13 @@ struct CompetitionOptions {
 using CompetitionProgress = std::function<void(const std::string& stage, double done)>;
 
 /// Round by round: everything is tested beside the model with what was found before; the best
-/// effect is fitted together with all of it and stays if noise alone would hardly have given it and
-/// it is proved on held-out recordings and, where motions repeat, the witness does not contradict
-/// it. At the end each winner is tested again beside all others.
+/// effect is fitted together with all of it and stays if noise alone would hardly have given it, it
+/// is proved on held-out recordings and the witness does not contradict it. At the end each winner is tested again beside all others.
 /// @param train    what evidence is of
 /// @param fitted   the same equations, without those near rests: what fits are of, and noise
 /// @param witness  of the same recordings
-/// @param position_noise  of the same recordings, in `train`
 CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
-                          Witness& witness, const PositionNoise& position_noise,
-                          const EffectRecordings& heldout,
+                          Witness& witness, const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options,
                           const CompetitionProgress& progress = {});

@@ -166,29 +166,16 @@ bool NamelessSearch::is_proved(const Nameless& nameless, bool needs_proof) {
   return needs_proof ? proof.informs() && proof.helps() : !proof.informs() || proof.agrees();
 }
 
-bool NamelessSearch::is_noise_of_positions(const Nameless& nameless,
-                                           const Products& products) const {
-  const double squares = position_noise_.squares_without(
-      products,
-      [&](const EffectRecordings& data, EffectSignals& signals) {
-        return nameless_columns(data, signals, nameless);
-      },
-      hypotheses_, result_, options_);
-  return result_.last.family_wise(surprise_of(squares, nameless.score.degrees)) > false_alarm_;
-}
-
 /// @param needs_proof  that held-out recordings have it too
 bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system, bool needs_proof) {
   const int joint = nameless.structure.joint;
   const JointColumns plain = nameless_columns(data_, signals_, nameless);
   const JointColumns white = system.whitened(plain);
-  const Products products = system.products(white, false);
-  nameless.score = score_of(products, false);
+  nameless.score = score_of(system.products(white, false), false);
   if (!is_proved(nameless, needs_proof)) return false;
   const auto own = std::find(plain.joints.begin(), plain.joints.end(), joint);
   const auto place = static_cast<std::size_t>(own - plain.joints.begin());
   if (witness_.contradicts(hypotheses_, result_, nameless, options_)) return false;
-  if (!result_.noise.from_periods && is_noise_of_positions(nameless, products)) return false;
   if (result_.noise.from_periods &&
       own_scatter(system, white, nameless.score.coefficients).refutes()) {
     return false;

@@ -6,7 +6,6 @@
 
 #include "runtime/diagnosis/competition/beside_white_noise.h"
 #include "runtime/diagnosis/competition/competition_result.h"
-#include "runtime/diagnosis/competition/position_noise.h"
 #include "runtime/diagnosis/competition/stops.h"
 #include "runtime/diagnosis/competition/witness.h"
 
@@ -22,8 +21,7 @@ class NamelessSearch {
   NamelessSearch(const EffectRecordings& data, EffectSignals& signals,
                  const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
                  const std::vector<GenericStructure>& structures, const Stops& stops,
-                 Witness& witness, const PositionNoise& position_noise,
-                 const EvidenceSystem::Options& options, double false_alarm,
+                 Witness& witness, const EvidenceSystem::Options& options, double false_alarm,
                  CompetitionResult& result)
       : data_(data),
         signals_(signals),
@@ -32,7 +30,6 @@ class NamelessSearch {
         structures_(structures),
         stops_(stops),
         witness_(witness),
-        position_noise_(position_noise),
         options_(options),
         false_alarm_(false_alarm),
         result_(result) {}
@@ -65,8 +62,6 @@ class NamelessSearch {
   [[nodiscard]] std::vector<const GenericResult*> candidates(const Screening& screening) const;
   bool describe(const GenericResult& generic, const EvidenceSystem& system,
                 const std::string& costly, bool needs_proof);
-  [[nodiscard]] bool is_noise_of_positions(const Nameless& nameless,
-                                           const Products& products) const;
   bool is_proved(const Nameless& nameless, bool needs_proof);
   bool add(Nameless nameless, const EvidenceSystem& system, bool needs_proof = false);
 
@@ -77,7 +72,6 @@ class NamelessSearch {
   const std::vector<GenericStructure>& structures_;
   const Stops& stops_;
   Witness& witness_;
-  const PositionNoise& position_noise_;
   EvidenceSystem::Options options_;
   double false_alarm_;
   CompetitionResult& result_;

@@ -39,11 +39,8 @@ void Search::compete(CompetitionOptions options, const CompetitionProgress& prog
   options.until_rest = true;
   for (;;) {
     Witness slow(views_.slow);
-    const PositionNoise noise([this](double sign) {
-      return with_more_noise(input_, parts_, seen_, views_.evidence(), sign);
-    });
-    result_ = runtime::compete(views_.evidence(), views_.train, slow, noise, views_.proof,
-                               hypotheses_, options, progress);
+    result_ = runtime::compete(views_.evidence(), views_.train, slow, views_.proof, hypotheses_,
+                               options, progress);
     if (!options.until_rest || result_.resting.empty()) return;
     // where that would leave too little, impulses at their reversals are left out instead
     options.until_rest = look_beside(result_.resting);

@@ -172,17 +172,12 @@ std::vector<VectorXd> shape_grid(const Hypothesis& hypothesis, const EffectScale
   return grid;
 }
 
-JointColumns plain_columns(const EffectRecordings& data, EffectSignals& signals,
-                           const Hypothesis& hypothesis, const EffectInstance& trial) {
-  std::vector<int> wanted;
-  for (const int p : hypothesis.linear) wanted.push_back(1 + p);
-  return effect_columns(data, signals, trial, wanted, hypothesis.held);
-}
-
 JointColumns hypothesis_columns(const EffectRecordings& data, EffectSignals& signals,
                                 const EvidenceSystem& system, const Hypothesis& hypothesis,
                                 const EffectInstance& trial) {
-  return system.whitened(plain_columns(data, signals, hypothesis, trial));
+  std::vector<int> wanted;
+  for (const int p : hypothesis.linear) wanted.push_back(1 + p);
+  return system.whitened(effect_columns(data, signals, trial, wanted, hypothesis.held));
 }
 
 namespace {

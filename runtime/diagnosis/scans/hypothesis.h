@@ -48,11 +48,7 @@ struct TrialScore {
   double part = 1;            ///< of all joints' equations: those in which an event acts
 };
 
-/// Columns of the linear parameters at given shapes.
-JointColumns plain_columns(const EffectRecordings& data, EffectSignals& signals,
-                           const Hypothesis& hypothesis, const EffectInstance& trial);
-
-/// The same, whitened.
+/// Whitened columns of the linear parameters at given shapes.
 JointColumns hypothesis_columns(const EffectRecordings& data, EffectSignals& signals,
                                 const EvidenceSystem& system, const Hypothesis& hypothesis,
                                 const EffectInstance& trial);

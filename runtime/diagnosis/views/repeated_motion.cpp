@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/views/repeated_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -15,7 +16,7 @@ using Eigen::MatrixXd;
 
 constexpr double kWhole = 0.1;  // samples by which the last period may be off
 constexpr int kFewest = 3;      // periods: the mean of one other is as noisy as the own
-constexpr int kRounds = 4;      // of the model's own parameters
+constexpr int kRefits = 4;      // of the model's own parameters
 
 /// The mean over all rows of the same phase but the own.
 MatrixXd of_the_others(const MatrixXd& rows, Index period) {
@@ -30,7 +31,8 @@ MatrixXd of_the_others(const MatrixXd& rows, Index period) {
   return mean;
 }
 
-Motion repeated(Motion run) {
+/// Samples after which a motion repeats, often enough and in whole samples; 0: it does not.
+Index period_of(const Motion& run) {
   Recording positions;
   positions.time = run.time;
   positions.q = run.q;
@@ -38,8 +40,13 @@ Motion repeated(Motion run) {
   const Periods periods = find_periods(positions);
   const double off =
       std::abs(periods.period / run.sample_time - static_cast<double>(periods.samples));
-  if (periods.count < kFewest || off * periods.count > kWhole) return run;
-  for (MatrixXd* rows : {&run.q, &run.dq, &run.ddq}) *rows = of_the_others(*rows, periods.samples);
+  return periods.count < kFewest || off * periods.count > kWhole ? 0 : periods.samples;
+}
+
+Motion repeated(Motion run) {
+  const Index period = period_of(run);
+  if (period == 0) return run;
+  for (MatrixXd* rows : {&run.q, &run.dq, &run.ddq}) *rows = of_the_others(*rows, period);
   return run;
 }
 
@@ -72,30 +79,46 @@ void append(Motion& run, const Motion& piece) {
   grow(run.temperature, piece.temperature);
 }
 
+std::vector<Motion> whole_runs(const MotionSource& source) {
+  std::vector<Motion> runs;
+  source.pieces([&](const StreamPiece& piece) {
+    if (piece.continues_run && !runs.empty()) {
+      append(runs.back(), piece.motion);
+    } else {
+      runs.push_back(piece.motion);
+    }
+  });
+  return runs;
+}
+
 }  // namespace
 
 MotionSource with_repeated_motion(const MotionSource& source) {
   MotionSource result = source;
   result.with_low_pass = nullptr;
-  result.with_noise = nullptr;
-  result.pieces = [all = source.pieces](const std::function<void(const StreamPiece&)>& visit) {
-    std::vector<Motion> runs;
-    all([&](const StreamPiece& piece) {
-      if (piece.continues_run && !runs.empty()) {
-        append(runs.back(), piece.motion);
-      } else {
-        runs.push_back(piece.motion);
-      }
-    });
-    for (Motion& run : runs) visit({repeated(std::move(run)), false});
+  result.with_every_other = nullptr;
+  result.pieces = [source](const std::function<void(const StreamPiece&)>& visit) {
+    for (Motion& run : whole_runs(source)) visit({repeated(std::move(run)), false});
   };
   return result;
+}
+
+bool repeats(const MotionSource& source) {
+  const std::vector<Motion> runs = whole_runs(source);
+  return std::any_of(runs.begin(), runs.end(),
+                     [](const Motion& run) { return period_of(run) > 0; });
+}
+
+TwoMotions two_motions(const MotionSource& source) {
+  if (repeats(source)) return {source, with_repeated_motion(source)};
+  if (!source.with_every_other) return {source, source};
+  return {source.with_every_other(1), source.with_every_other(0)};
 }
 
 Eigen::VectorXd leave_as_at(EffectRecordings& repeated, const EffectRecordings& own) {
   Eigen::VectorXd beta = fit_effects(own, {}).point.beta;
   const EffectRecordings recorded = repeated;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRefits; ++round) {
     if (round > 0) beta = fit_effects(repeated, {}).point.beta;
     repeated = recorded;
     leave_as_at(repeated, own, beta);

@@ -12,6 +12,19 @@ namespace dyngen::runtime {
 /// run that does not repeat, or not after a whole number of samples, stays as it is.
 MotionSource with_repeated_motion(const MotionSource& source);
 
+/// Whether a run of a recording repeats, so that its motion has others to be the mean of.
+bool repeats(const MotionSource& source);
+
+/// A recording with two motions of it whose noise is not the same: what is left is of the own one,
+/// columns are of the other.
+struct TwoMotions {
+  MotionSource own, other;
+};
+
+/// Where the motion repeats, as it is recorded, and of the other periods; else of every other
+/// sample each (MotionSource::with_every_other); twice the same where neither can be.
+TwoMotions two_motions(const MotionSource& source);
+
 /// The torque becomes what the model has at the repeated motion and what it leaves at the own one:
 /// noise of the own motion is in what is left then, and not in the columns. A refit has the
 /// estimate of instrumental variables, as which the repeated motion's regressor serves: found in

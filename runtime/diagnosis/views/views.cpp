@@ -9,6 +9,7 @@
 #include "runtime/diagnosis/views/repeated_motion.h"
 #include "runtime/diagnosis/views/repeated_rounding.h"
 #include "runtime/evidence/joint_columns.h"
+#include "runtime/signals/interpolation.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -28,7 +29,6 @@ constexpr double kBesideRests = 0.4;     // of that of the joint state as it is
 constexpr double kWidened = 0.5;         // over the cut-off: what the low-pass makes of a rest
 constexpr double kBesideJoltsStop = 30;  // dB, of a parallel filter that is shorter still
 constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
-constexpr unsigned kNoiseSeed = 20261125;
 
 RowOptions slower(RowOptions rows) {
   rows.band *= kSlow;
@@ -45,7 +45,8 @@ VectorXd still_speed(const std::vector<MotionSource>& sources, const RowOptions&
 }
 
 double quick_cutoff(const MotionSource& source) {
-  return std::max(source.cutoff.hz, std::min(kJolts, kHighest / source.sample_time));
+  const double highest = repeats(source) ? kHighest : kHighestOfHalf;
+  return std::max(source.cutoff.hz, std::min(kJolts, highest / source.sample_time));
 }
 
 /// Recordings with the joint state of a view.
@@ -74,17 +75,11 @@ std::vector<int> resting_in(const ViewOptions& options, int recording) {
   return joints;
 }
 
-EffectRecordings every_equation(const DiagnosisInput& input,
-                                const std::vector<MotionSource>& sources,
-                                const ViewOptions& options) {
-  const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
-  return effect_recordings(input.model, input.robot, sources, options.rows, all);
-}
-
 /// @param fitted  whether they are the recordings that the options speak of
 EffectRecordings equations(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
                            const ViewOptions& options, bool fitted) {
-  EffectRecordings data = every_equation(input, sources, options);
+  const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
+  EffectRecordings data = effect_recordings(input.model, input.robot, sources, options.rows, all);
   const VectorXd still = still_speed(sources, options.rows, data.joints());
   for (EffectRun& run : data.runs) {
     leave_out_standstill(run, still);
@@ -93,13 +88,26 @@ EffectRecordings equations(const DiagnosisInput& input, const std::vector<Motion
   return data;
 }
 
-/// Fitted recordings at the mean motion of the other periods, and at their own.
+struct AllMotions {
+  std::vector<MotionSource> own, others;
+};
+
+AllMotions motions_of(const std::vector<MotionSource>& sources) {
+  AllMotions all;
+  for (const MotionSource& source : sources) {
+    TwoMotions two = two_motions(source);
+    all.own.push_back(std::move(two.own));
+    all.others.push_back(std::move(two.other));
+  }
+  return all;
+}
+
+/// Fitted recordings at the other motion of each, and at their own.
 struct Fitted {
-  Fitted(const DiagnosisInput& input, const std::vector<MotionSource>& train,
-         const std::vector<MotionSource>& others, const ViewOptions& options)
-      : repeated(thinned(equations(input, others, options, true), kLongestSample)),
-        own(thinned(equations(input, train, options, true), kLongestSample)),
-        still(still_speed(train, options.rows, own.joints())) {}
+  Fitted(const DiagnosisInput& input, const AllMotions& train, const ViewOptions& options)
+      : repeated(thinned(equations(input, train.others, options, true), kLongestSample)),
+        own(thinned(equations(input, train.own, options, true), kLongestSample)),
+        still(still_speed(train.own, options.rows, own.joints())) {}
   EffectRecordings repeated, own;
   VectorXd still;  // (n) rad/s or m/s
 };
@@ -136,12 +144,6 @@ EffectRecordings with_rests(Fitted whole, const std::vector<MotionSource>& train
     mark_rests(run, whole.own.runs[r].motion, whole.still, joints, kWidened / cutoff);
   }
   return std::move(whole.repeated);
-}
-
-std::vector<MotionSource> with_repeated_motion(const std::vector<MotionSource>& sources) {
-  std::vector<MotionSource> result;
-  for (const MotionSource& source : sources) result.push_back(with_repeated_motion(source));
-  return result;
 }
 
 }  // namespace
@@ -189,17 +191,16 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
 }
 
 Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options) {
-  const std::vector<MotionSource> train = seen(parts.train, options);
-  const std::vector<MotionSource> others = with_repeated_motion(train);
+  const AllMotions train = motions_of(seen(parts.train, options));
   Views views;
-  Fitted whole(input, train, others, options);
+  Fitted whole(input, train, options);
   views.train = without_rests(whole.repeated, whole.still, options);
   const VectorXd beta = leave_as_at(views.train, without_rests(whole.own, whole.still, options));
   if (!options.resting.empty() && is_filtered(whole.own)) {
-    views.beside = with_rests(std::move(whole), train, beta, options);
+    views.beside = with_rests(std::move(whole), train.own, beta, options);
   }
   const ViewOptions half{slower(options.rows), options.resting, options.quick};
-  Fitted slow(input, train, others, half);
+  Fitted slow(input, train, half);
   views.slow = without_rests(std::move(slow.repeated), slow.still, half);
   leave_as_at(views.slow, without_rests(std::move(slow.own), slow.still, half));
   views.heldout = equations_of(input, parts.heldout, options);
@@ -207,26 +208,6 @@ Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOpt
   views.proof = views.heldout;
   leave_out_unvisited(views.proof, views.train);
   return views;
-}
-
-std::optional<EffectRecordings> with_more_noise(const DiagnosisInput& input, const Division& parts,
-                                                const ViewOptions& options,
-                                                const EffectRecordings& evidence, double sign) {
-  std::vector<MotionSource> noisy;
-  for (const MotionSource& source : seen(parts.train, options)) {
-    if (!source.with_noise) return std::nullopt;
-    noisy.push_back(source.with_noise(sign * source.position_noise,
-                                      kNoiseSeed + static_cast<unsigned>(noisy.size())));
-  }
-  EffectRecordings data = thinned(every_equation(input, noisy, options), kLongestSample);
-  if (data.runs.size() != evidence.runs.size()) return std::nullopt;
-  for (std::size_t r = 0; r < data.runs.size(); ++r) {
-    const EffectRun& as_seen = evidence.runs[r];
-    if (data.runs[r].rows.counted.rows() != as_seen.rows.counted.rows()) return std::nullopt;
-    data.runs[r].rows.counted = as_seen.rows.counted;
-    data.runs[r].unknown = as_seen.unknown;
-  }
-  return data;
 }
 
 }  // namespace dyngen::runtime

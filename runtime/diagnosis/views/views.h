@@ -45,8 +45,10 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
 
 /// The recordings of a diagnosis as its competition reads them. Where the motion of fitted ones
 /// repeats, columns are made of the mean motion of the other periods, and held against what the
-/// model leaves at the own: noise of positions is in what is left as well as in columns of the same
-/// motion, where it looks like physics (instrumental variables; Janot, Vandanjon and Gautier 2014).
+/// model leaves at the own; where it does not, columns of the samples of even number and what is
+/// left of those of odd. Noise of positions is in what is left as well as in columns of the same
+/// samples, where it looks like physics (instrumental variables; Janot, Vandanjon and Gautier
+/// 2014).
 ///
 /// Where joints rest, `train` has no equations of them near their rests, as far as filters reach.
 /// `beside` has them, and EffectRun::unknown says where friction is not known: most of what is seen
@@ -60,12 +62,5 @@ struct Views {
   EffectRecordings slow;     ///< the fitted ones again, in half the band: the witness
 };
 Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options);
-
-/// Evidence of the same recordings with the noise of their positions once more, or taken away:
-/// equations count that count of the evidence. @param evidence  of these recordings, its motion the
-/// recorded one  @param sign  1 or -1  @return none where a recording has no noise to add
-std::optional<EffectRecordings> with_more_noise(const DiagnosisInput& input, const Division& parts,
-                                                const ViewOptions& options,
-                                                const EffectRecordings& evidence, double sign);
 
 }  // namespace dyngen::runtime

@@ -224,15 +224,5 @@ TEST(EffectRows, TheirJacobianIsThatOfFiniteDifferences) {
   }
 }
 
-TEST(EffectRows, AShiftIsExactOnASine) {
-  VectorXd x(400), expected(400);
-  for (Index k = 0; k < 400; ++k) {
-    x[k] = std::sin(0.3 * static_cast<double>(k));
-    expected[k] = std::sin(0.3 * (static_cast<double>(k) + 2.37));
-  }
-  const VectorXd found = shifted(x, 2.37);
-  EXPECT_LT((found - expected).segment(20, 360).cwiseAbs().maxCoeff(), 1e-4);
-}
-
 }  // namespace
 }  // namespace dyngen::runtime
