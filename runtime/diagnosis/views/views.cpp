@@ -44,8 +44,8 @@ VectorXd still_speed(const std::vector<MotionSource>& sources, const RowOptions&
   return still;
 }
 
-double quick_cutoff(const MotionSource& source) {
-  const double highest = repeats(source) ? kHighest : kHighestOfHalf;
+/// @param highest  of the sampling frequency
+double quick_cutoff(const MotionSource& source, double highest) {
   return std::max(source.cutoff.hz, std::min(kJolts, highest / source.sample_time));
 }
 
@@ -55,7 +55,8 @@ std::vector<MotionSource> seen(const std::vector<MotionSource>& sources,
   std::vector<MotionSource> result;
   for (const MotionSource& source : sources) {
     const bool quick = options.quick && source.with_low_pass;
-    result.push_back(quick ? source.with_low_pass(kSteep, quick_cutoff(source)) : source);
+    result.push_back(quick ? source.with_low_pass(kSteep, quick_cutoff(source, options.highest))
+                           : source);
   }
   return result;
 }
@@ -167,12 +168,14 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
   beside.quick = std::all_of(train.begin(), train.end(), [](const MotionSource& source) {
     return source.with_low_pass && !repeats_rounding(source);
   });
+  const bool all_repeat = std::all_of(train.begin(), train.end(), repeats);
+  beside.highest = all_repeat ? kHighest : kHighestOfHalf;
   beside.rows.band = beside.quick ? kBesideJolts : kBesideRests;
   beside.rows.multiple = 1;
   beside.rows.attenuation_db = kBesideJoltsStop;
   std::vector<double> times;
   for (const MotionSource& source : train) {
-    const double cutoff = beside.quick ? quick_cutoff(source) : source.cutoff.hz;
+    const double cutoff = beside.quick ? quick_cutoff(source, beside.highest) : source.cutoff.hz;
     times.push_back(0.5 / (beside.rows.band * cutoff));
   }
   beside.rows.row_time = median(std::move(times));
@@ -199,7 +202,8 @@ Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOpt
   if (!options.resting.empty() && is_filtered(whole.own)) {
     views.beside = with_rests(std::move(whole), train.own, beta, options);
   }
-  const ViewOptions half{slower(options.rows), options.resting, options.quick};
+  ViewOptions half = options;
+  half.rows = slower(options.rows);
   Fitted slow(input, train, half);
   views.slow = without_rests(std::move(slow.repeated), slow.still, half);
   leave_as_at(views.slow, without_rests(std::move(slow.own), slow.still, half));

@@ -24,6 +24,8 @@ struct ViewOptions {
   std::vector<RestingJoint> resting;
   /// Whether the joint state passes as quick a filter as can be.
   bool quick = false;
+  /// Of the sampling frequency: such a filter's highest cut-off, of all recordings alike.
+  double highest = 0;
 };
 
 /// The view of recordings whose joints, as was found, rest. Where friction holds a joint it has any
