@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
 
 #include "runtime/recordings/clipping.h"
@@ -100,6 +101,22 @@ void check_runs(const JointStates& states, const std::string& name) {
   throw TooShortError(fmt::format("{}: no run is long enough{}", name, reason));
 }
 
+/// Whether noise of positions is more of a joint's acceleration than numbers are rounded.
+/// @param noise  (n) standard deviation of positions, as if they were white
+bool accelerations_are_noisy(const JointStates& states, const VectorXd& noise, double sample_time) {
+  constexpr double kNoise = 1e-7;  // of the square: a hundredth of its root, behind quick filters
+  VectorXd squares = VectorXd::Zero(noise.size());
+  double samples = 0;
+  for (const Motion& run : states.runs) {
+    squares += run.ddq.colwise().squaredNorm().transpose();
+    samples += static_cast<double>(run.samples());
+  }
+  // of a density up to the cut-off, times the fourth power of the frequency
+  const double gain =
+      2 * sample_time * std::pow(2 * std::numbers::pi, 4) * std::pow(states.cutoff.hz, 5) / 5;
+  return (gain * noise.cwiseAbs2() * samples - kNoise * squares).maxCoeff() > 0;
+}
+
 Recording with_every_other(Recording recording, int parity) {
   std::vector<Index> ends = recording.run_starts;
   ends.push_back(recording.samples());
@@ -135,7 +152,8 @@ MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
     };
   }
   const bool quick = source.cutoff.hz * source.sample_time > kHighestOfHalf * (1 + 1e-9);
-  if (options.method == StateMethod::kLowPass && !quick) {
+  if (options.method == StateMethod::kLowPass && !quick &&
+      accelerations_are_noisy(states, source.position_noise, source.sample_time)) {
     source.with_every_other = [recording, start, condition, options, hz = source.cutoff.hz,
                                noise = source.position_noise](int parity) {
       JointStateOptions same = options;

@@ -63,7 +63,8 @@ struct MotionSource {
   /// The same recording behind the same low-pass, its positions those of every other sample and
   /// interpolated between them (of_every_other()): two joint states with noise of their own. Empty
   /// where no low-pass gives the joint state, its cut-off is above a fifth of the sampling
-  /// frequency, or the file is too large to be in memory.
+  /// frequency, noise of the positions is less than 1e-7 of the square of all accelerations, or the
+  /// file is too large to be in memory.
   std::function<MotionSource(int parity)> with_every_other;
 
   [[nodiscard]] int joints() const { return static_cast<int>(position_noise.size()); }

@@ -78,6 +78,7 @@ std::vector<MatrixXd> simulated_regressors(const LinearModel& model, const Motio
   });
   MotionSource simulated = recorded;
   simulated.with_low_pass = nullptr;
+  simulated.with_every_other = nullptr;
   simulated.pieces = [runs](const std::function<void(const StreamPiece&)>& visit) {
     for (const StreamPiece& piece : *runs) visit(piece);
   };

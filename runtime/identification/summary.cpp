@@ -93,6 +93,7 @@ RecordingSummary summarise_without_noise(const LinearModel& model, const MotionS
   PostureSample postures;
   MotionSource watched = source;
   watched.with_low_pass = nullptr;
+  watched.with_every_other = nullptr;
   watched.pieces = [&](const std::function<void(const StreamPiece&)>& visit) {
     source.pieces([&](const StreamPiece& piece) {
       summary.extent.add(piece.motion.q, piece.motion.dq, piece.motion.ddq);

@@ -25,12 +25,11 @@ struct TwoMotions {
 /// sample each (MotionSource::with_every_other); twice the same where neither can be.
 TwoMotions two_motions(const MotionSource& source);
 
-/// The torque becomes what the model has at the repeated motion and what it leaves at the own one:
+/// The torque becomes what the model has at the other motion and what it leaves at the own one:
 /// noise of the own motion is in what is left then, and not in the columns. A refit has the
-/// estimate of instrumental variables, as which the repeated motion's regressor serves: found in
+/// estimate of instrumental variables, as which the other motion's regressor serves: found in
 /// rounds, since what is left depends on it. Equations count that do at both.
-/// @param repeated  equations at the mean motion of the other periods  @param own  the same as they
-///                  are recorded
+/// @param repeated  equations at TwoMotions::other  @param own  at TwoMotions::own
 /// @return          the model's parameters, (nb)
 Eigen::VectorXd leave_as_at(EffectRecordings& repeated, const EffectRecordings& own);
 

@@ -168,8 +168,10 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
   beside.quick = std::all_of(train.begin(), train.end(), [](const MotionSource& source) {
     return source.with_low_pass && !repeats_rounding(source);
   });
-  const bool all_repeat = std::all_of(train.begin(), train.end(), repeats);
-  beside.highest = all_repeat ? kHighest : kHighestOfHalf;
+  const bool of_halves = std::any_of(train.begin(), train.end(), [](const MotionSource& source) {
+    return source.with_every_other && !repeats(source);
+  });
+  beside.highest = of_halves ? kHighestOfHalf : kHighest;
   beside.rows.band = beside.quick ? kBesideJolts : kBesideRests;
   beside.rows.multiple = 1;
   beside.rows.attenuation_db = kBesideJoltsStop;

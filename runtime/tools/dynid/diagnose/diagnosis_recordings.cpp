@@ -96,6 +96,11 @@ MotionSource without_effects(const MotionSource& source, const KnownEffects& kno
       return without_effects(other(order, hz), known);
     };
   }
+  if (source.with_every_other) {
+    without.with_every_other = [other = source.with_every_other, known](int parity) {
+      return without_effects(other(parity), known);
+    };
+  }
   without.pieces = [pieces](const std::function<void(const StreamPiece&)>& visit) {
     for (const StreamPiece& piece : *pieces) visit(piece);
   };
