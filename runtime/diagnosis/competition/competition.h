@@ -27,7 +27,8 @@ using CompetitionProgress = std::function<void(const std::string& stage, double 
 
 /// Round by round: everything is tested beside the model with what was found before; the best
 /// effect is fitted together with all of it and stays if noise alone would hardly have given it, it
-/// is proved on held-out recordings and the witness does not contradict it. At the end each winner is tested again beside all others.
+/// is proved on held-out recordings and the witness does not contradict it. At the end each winner
+/// is tested again beside all others.
 /// @param train    what evidence is of
 /// @param fitted   the same equations, without those near rests: what fits are of, and noise
 /// @param witness  of the same recordings
