@@ -353,10 +353,29 @@ TEST(TwoMotions, OfPeriodsAreTheOwnAndTheOthers) {
   const MotionSource source = noisy_arm(true);
   ASSERT_TRUE(repeats(source));
   const TwoMotions two = two_motions(source);
-  source.pieces([&](const StreamPiece& recorded) {
-    two.own.pieces(
-        [&](const StreamPiece& piece) { EXPECT_EQ(piece.motion.ddq, recorded.motion.ddq); });
-  });
+  const auto accelerations = [](const MotionSource& of) {
+    Eigen::MatrixXd ddq;
+    of.pieces([&](const StreamPiece& piece) { ddq = piece.motion.ddq; });
+    return ddq;
+  };
+  EXPECT_EQ(accelerations(two.own), accelerations(source));
+  EXPECT_EQ(accelerations(two.other), accelerations(with_repeated_motion(source)));
+  EXPECT_NE(accelerations(two.other), accelerations(source));
+}
+
+TEST(TwoMotions, OfPositionsWithoutNoiseAreTheSame) {
+  const Motion exact = test::sines(30, 1 / kRate, 0.3);
+  Recording recording;
+  recording.time = exact.time;
+  recording.q = exact.q;
+  recording.tau = Eigen::MatrixXd::Ones(exact.samples(), 2);
+  recording.run_starts = {0};
+  MotionOptions options;
+  options.average_periods = false;
+  options.state.cutoff_hz = 40;
+  const MotionSource source = motion_of(std::move(recording), options);
+  EXPECT_TRUE(noisy_arm(false).with_every_other);
+  EXPECT_FALSE(source.with_every_other);
 }
 
 /// The inertia of the second link, where accelerations are noisy.
