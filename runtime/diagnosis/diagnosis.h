@@ -13,7 +13,7 @@
 namespace dyngen::runtime {
 
 struct DiagnosisOptions {
-  double false_alarm = 0.01;  ///< of the whole diagnosis, 0 .. 0.5
+  double false_alarm = 0.002;  ///< of the whole diagnosis, 0 .. 0.5
   int most_findings = 8;
   /// The regressor's parameters are not fitted: torque is what another simulator left unexplained.
   bool residual_only = false;

@@ -167,7 +167,7 @@ class Competition {
       const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
       named.best = refined(train_, signals_, system, hypothesis, named.best,
                            scales_.of(result_.fit.point.beta, hypothesis.effect));
-      named.surprise = surprise_of(named);
+      named.surprise = surprise_of_refined(named, hypothesis);
       if (within_rounding(train_, hypothesis, named.best.effect)) stopped.insert(order[i]);
     }
     std::stable_sort(order.begin(), order.end(), best_first);
@@ -280,7 +280,7 @@ class Competition {
           train_, signals_, system, hypothesis,
           try_hypothesis(train_, signals_, system, hypothesis, start, scales, false), scales);
       if (!again.best.admissible) continue;
-      again.surprise = surprise_of(again);
+      again.surprise = surprise_of_refined(again, hypothesis);
       const double gain = net(again) - net(best);
       const bool better =
           gain > kTie || (gain > -kTie && size_of(place) < size_of(best.hypothesis));

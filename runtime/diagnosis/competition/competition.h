@@ -12,7 +12,7 @@
 namespace dyngen::runtime {
 
 struct CompetitionOptions {
-  double false_alarm = 0.01;
+  double false_alarm = 0.002;
   int most_winners = 4;
   std::uint64_t seed = 1;
   bool with_regressor = true;

@@ -294,6 +294,13 @@ double surprise_of(const NamedResult& named) {
                      named.worth);
 }
 
+double surprise_of_refined(const NamedResult& named, const Hypothesis& hypothesis) {
+  const int degrees = named.best.score.degrees + static_cast<int>(hypothesis.shapes.size());
+  const double searched =
+      surprise_of(named.best.score.squares / named.slow_noise, degrees, named.worth);
+  return std::max(named.surprise, searched);
+}
+
 NamedResult without_conditions(const NamedResult& named) {
   NamedResult free = named;
   free.best = named.freest;

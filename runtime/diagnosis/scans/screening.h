@@ -28,6 +28,11 @@ struct NamedResult {
 /// Of its best trial; an event has as many squares from slow noise alone as windows elsewhere have.
 double surprise_of(const NamedResult& named);
 
+/// The same of shapes that were found by refined(): each counts as one more degree of freedom, or
+/// noise surrogates, whose squares are those of the grid's shapes, would be held against more than
+/// they are. Not less than what it was at the grid's. (Davies 1987: a search along one parameter.)
+double surprise_of_refined(const NamedResult& named, const Hypothesis& hypothesis);
+
 /// The same at what fits best whatever conditions say.
 NamedResult without_conditions(const NamedResult& named);
 
