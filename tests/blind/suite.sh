@@ -8,12 +8,14 @@
 #   suite.sh BUILD SET baselines    the same of simpler methods
 #   suite.sh BUILD SET active       lets dynid ask for one more recording where names are left, makes
 #                                   it, and has it answered again
+#   suite.sh BUILD SET strength     what of the single effects is left where friction may do anything in the
+#                                   instants in which joints stop, turn and let go
 #   suite.sh BUILD SET score        holds the answers against the truth
 #   suite.sh BUILD real [STEP]      make, diagnose, score of real recordings with something added
 #   suite.sh BUILD case KIND LAMBDA SEED [FAMILY]    one case, told in full
 #
 # BUILD is a build folder with the targets blind_make, blind_answer, blind_sealed_run, blind_baselines,
-# blind_score and dynid, for real recordings blind_spoil too. These lie in DYNGEN_SHARED_DATA, else in
+# blind_strength, blind_score and dynid, for real recordings blind_spoil too. These lie in DYNGEN_SHARED_DATA, else in
 # ../shared/data beside the project; where they are absent nothing is done. With UNSEALED=allowed a kernel that
 # cannot seal is no error: a comparison, but no proof. Everything is written to
 # BUILD/blind/SET, pictures to PICTURES where that is set. JOBS processes work at once.
@@ -147,20 +149,27 @@ active_cases() {
   echo "second answers sealed as $(sha256sum <"$out/second.sha256" | cut -d' ' -f1)"
 }
 
+measure_strength() {
+  check_seal
+  "$tools/blind_strength" "$out/sealed/manifest.json" --arms "$here/arms" --jobs "$jobs" --out "$out/strengths.json"
+}
+
 score_cases() {
   code=0
   check_seal
   if [ -f "$out/second.sha256" ]; then (cd "$out" && sha256sum --quiet -c second.sha256); fi
   (cd "$out/answers" && sha256sum --quiet -c ../answers.sha256)
   rm -rf "$out/figures"
-  simpler=
+  more=
   if [ -d "$out/baselines" ]; then
     (cd "$out/baselines" && sha256sum --quiet -c ../baselines.sha256)
-    simpler="--baselines $out/baselines"
+    more="--baselines $out/baselines"
   fi
-  # shellcheck disable=SC2046  # options, in words
+  if [ -f "$out/strengths.json" ]; then more="$more --strengths $out/strengths.json"; fi
+  if [ -d "$out/second" ]; then more="$more --asked $out/asked --second $out/second"; fi
+  # shellcheck disable=SC2046,SC2086  # options, in words
   "$tools/blind_score" "$out/sealed/manifest.json" "$out/answers" --lines "$out/lines.txt" \
-    --figures "$out/figures" $simpler $([ -d "$out/second" ] && echo "--asked $out/asked --second $out/second") \
+    --figures "$out/figures" $more \
     $(sed -n 's/^bound //p' "$here/sets/$set_name.txt") || code=$?
   if command -v gnuplot >/dev/null; then
     pictures=${PICTURES:-$out/figures}
@@ -206,6 +215,7 @@ case "$set_name/$step" in
   */diagnose) diagnose_cases ;;
   */active) active_cases ;;
   */baselines) answer_simply ;;
+  */strength) measure_strength ;;
   */score) score_cases ;;
-  *) sed -n '2,20p' "$0"; exit 2 ;;
+  *) sed -n '2,22p' "$0"; exit 2 ;;
 esac

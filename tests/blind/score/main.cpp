@@ -52,7 +52,7 @@ int score_changes(const nlohmann::json& entries, const std::filesystem::path& an
 
 int main(int argc, char** argv) {
   CLI::App app{"Holds answers of the blind suite against the truth."};
-  std::filesystem::path manifest, answers, cases, pictures, asked, second, baselines;
+  std::filesystem::path manifest, answers, cases, pictures, asked, second, baselines, strengths;
   app.add_option("manifest", manifest, "JSON array of all cases")
       ->required()
       ->check(CLI::ExistingFile);
@@ -67,6 +67,8 @@ int main(int argc, char** argv) {
   app.add_option("--asked", asked, "folder of NAME.json, what was asked for")->needs(again);
   app.add_option("--baselines", baselines, "folder of what simpler methods answered")
       ->check(CLI::ExistingDirectory);
+  app.add_option("--strengths", strengths, "what blind_strength measured")
+      ->check(CLI::ExistingFile);
   bool real = false;
   app.add_flag("--real", real,
                "cases are real recordings with something added: how answers change");
@@ -88,6 +90,12 @@ int main(int argc, char** argv) {
   for (const nlohmann::json& truth : truths) {
     judged.push_back(
         blind::judge(truth, read(answers / (truth["case"].get<std::string>() + ".json"))));
+  }
+  if (!strengths.empty()) {
+    const nlohmann::json measured = read(strengths);
+    for (blind::Judged& each : judged) {
+      if (measured.contains(each.name)) each.instants = measured[each.name].at("instants");
+    }
   }
   fmt::print("{}", blind::tables(judged));
   if (!baselines.empty()) {

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,10 @@ struct Judged {
   bool separable = false;    ///< lambda (1 - c^2) >= 30 for the other families
   double aliases = 0;        ///< names of the first finding
   double lambda = 0, absorbed = 0, excess = 0;
-  double filtered = 0;        ///< of lambda below 20 Hz, away from rests
+  double filtered = 0;  ///< of lambda below 20 Hz, away from rests
+  /// Of lambda to who knows nothing of friction in the instants in which joints stop, turn and let
+  /// go (blind_strength); none: not measured.
+  std::optional<double> instants;
   double heldout = 0;         ///< rms after over the oracle's, root mean square of the joints
   double heldout_before = 0;  ///< the same of the base model
   double gap_closed = 0;      ///< of the squares between the base model and the oracle

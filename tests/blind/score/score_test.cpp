@@ -126,6 +126,15 @@ TEST(Score, StatesTheIntervalsOfClopperAndPearson) {
               testing::HasSubstr("| nulls: false alarms | 0 of 20, 0.0 % (0.0 to 16.8) |"));
 }
 
+TEST(Score, TellsWhatIsLeftWithoutTheInstantsWhereThatWasMeasured) {
+  Judged judged = judge(truth("single", {{"time_delay", 2}}), answer(Json::array()));
+  const auto instants = testing::HasSubstr("| lambda without the instants of stops");
+  EXPECT_THAT(tables({judged}), testing::Not(instants));
+  judged.instants = 15.0;
+  EXPECT_THAT(tables({judged}), instants);
+  EXPECT_THAT(tables({judged}), testing::HasSubstr("| 10 to 20 | 0 of 1, 0.0 %"));
+}
+
 TEST(Score, SaysWhichBoundsAreBroken) {
   const Json two = truth("single", {{"stribeck", 2}});
   const std::vector<Judged> all = {

@@ -117,20 +117,20 @@ std::string ladder(const Set& singles) {
   return text + "\n";
 }
 
-/// By what is left of lambda in equations of filtered positions, away from rests.
-std::string filtered_ladder(const Set& singles) {
+/// By what is left of lambda to who does not know all. @param what  is known
+std::string known_ladder(const Set& singles, const std::string& what,
+                         const std::function<double(const Judged&)>& known) {
   constexpr std::array<double, 7> kEdges = {0, 5, 10, 20, 40, 80, 1e9};
-  std::string text =
-      "| lambda below 20 Hz, away from rests | found | by who knows the form and has that much |\n"
-      "|---|---|---|\n";
+  std::string text = fmt::format(
+      "| lambda {} | found | by who knows the form and has that much |\n|---|---|---|\n", what);
   for (std::size_t i = 0; i + 1 < kEdges.size(); ++i) {
     const Set here = part(singles, [&](const Judged& e) {
-      return e.filtered >= kEdges[i] && e.filtered < kEdges[i + 1];
+      return known(e) >= kEdges[i] && known(e) < kEdges[i + 1];
     });
     if (here.empty()) continue;
     double expected = 0;
     for (const Judged* each : here) {
-      expected += oracle_power(each->filtered, 1) / static_cast<double>(here.size());
+      expected += oracle_power(known(*each), 1) / static_cast<double>(here.size());
     }
     const std::string range = i + 2 < kEdges.size()
                                   ? fmt::format("{:g} to {:g}", kEdges[i], kEdges[i + 1])
@@ -142,7 +142,16 @@ std::string filtered_ladder(const Set& singles) {
   return text +
          fmt::format(
              "\nOf effects of lambda 60 and more the median has {:.0f} % of it there.\n\n",
-             100 * quantile(strong, 0.5, [](const Judged& e) { return e.filtered / e.lambda; }));
+             100 * quantile(strong, 0.5, [&](const Judged& e) { return known(e) / e.lambda; }));
+}
+
+std::string known_ladders(const Set& singles) {
+  std::string text = known_ladder(singles, "below 20 Hz, away from rests",
+                                  [](const Judged& e) { return e.filtered; });
+  const Set measured = part(singles, [](const Judged& e) { return e.instants.has_value(); });
+  if (measured.empty()) return text;
+  return text + known_ladder(measured, "without the instants of stops, turns and letting go",
+                             [](const Judged& e) { return e.instants.value_or(0); });
 }
 
 std::string confusion(const Set& all) {
@@ -220,8 +229,7 @@ std::string tables(const std::vector<Judged>& judged) {
   text += "\n";
   const Set singles = kind("single");
   if (!singles.empty())
-    text +=
-        concealment(singles) + single_table(singles) + ladder(singles) + filtered_ladder(singles);
+    text += concealment(singles) + single_table(singles) + ladder(singles) + known_ladders(singles);
   text += estimate_table(judged);
   return text + confusion(all);
 }
