@@ -143,28 +143,25 @@ MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
   for (const Motion& run : states.runs) {
     source.fastest = source.fastest.cwiseMax(run.dq.cwiseAbs().colwise().maxCoeff().transpose());
   }
-  if (options.method == StateMethod::kLowPass && !(options.cutoff_hz > 0)) {
-    source.with_low_pass = [recording, start, condition, options](int order, double hz) {
-      JointStateOptions other = options;
-      other.order = order;
-      other.cutoff_hz = hz;
-      return filtered(recording, start, condition, other);
-    };
-  }
+  source.others.low_passes = options.method == StateMethod::kLowPass && !(options.cutoff_hz > 0);
   const bool quick = source.cutoff.hz * source.sample_time > kHighestOfHalf * (1 + 1e-9);
-  if (options.method == StateMethod::kLowPass && !quick &&
-      accelerations_are_noisy(states, source.position_noise, source.sample_time)) {
-    source.with_every_other = [recording, start, condition, options, hz = source.cutoff.hz,
-                               noise = source.position_noise](int parity) {
-      JointStateOptions same = options;
-      same.cutoff_hz = hz;
-      MotionSource half =
-          filtered(std::make_shared<const Recording>(with_every_other(*recording, parity)), start,
-                   condition, same);
-      half.position_noise = noise;
-      return half;
-    };
-  }
+  source.others.parities =
+      options.method == StateMethod::kLowPass && !quick &&
+      accelerations_are_noisy(states, source.position_noise, source.sample_time);
+  source.others.make = [recording, start, condition, options, hz = source.cutoff.hz,
+                        noise = source.position_noise](const OtherState& state) {
+    JointStateOptions other = options;
+    other.cutoff_hz = hz;
+    if (state.order > 0) {
+      other.order = state.order;
+      other.cutoff_hz = state.hz;
+      return filtered(recording, start, condition, other);
+    }
+    auto half = std::make_shared<const Recording>(with_every_other(*recording, state.parity));
+    MotionSource of_half = filtered(std::move(half), start, condition, other);
+    of_half.position_noise = noise;
+    return of_half;
+  };
   condition.messages.insert(condition.messages.end(), states.messages.begin(),
                             states.messages.end());
   source.condition = std::move(condition);
@@ -211,14 +208,10 @@ MotionSource stream_of_file(const std::string& path, MotionOptions options) {
   }
   MotionOptions of_first = options;
   of_first.average_periods = false;
-  MotionSource source = motion_in_memory(std::move(first), {}, of_first);
-  source.with_low_pass = nullptr;
-  source.with_every_other = nullptr;
-  source.name = path;
-  options.state.cutoff_hz = source.cutoff.hz;
-  source.condition.messages.push_back("read piece by piece; periods were not looked for");
-  source.pieces = [path, state = options.state, sample_time = base.sample_time](
-                      const std::function<void(const StreamPiece&)>& visit) {
+  const MotionSource of_part = motion_in_memory(std::move(first), {}, of_first);
+  options.state.cutoff_hz = of_part.cutoff.hz;
+  const auto pieces = [path, state = options.state, sample_time = base.sample_time](
+                          const std::function<void(const StreamPiece&)>& visit) {
     RecordingReader again(path);
     JointStateStream stream(state, sample_time);
     Recording chunk;
@@ -227,6 +220,9 @@ MotionSource stream_of_file(const std::string& path, MotionOptions options) {
     }
     for (const StreamPiece& piece : stream.finish()) visit(piece);
   };
+  MotionSource source = with_pieces(of_part, pieces);
+  source.name = path;
+  source.condition.messages.push_back("read piece by piece; periods were not looked for");
   return source;
 }
 
@@ -245,22 +241,34 @@ MotionSource motion_of_file(const std::string& path, const MotionOptions& option
   return motion_in_memory(std::move(recording), std::move(condition), options);
 }
 
-MotionSource part_of(const MotionSource& source, double from, double to) {
-  MotionSource part = source;
-  if (source.with_low_pass) {
-    part.with_low_pass = [other = source.with_low_pass, from, to](int order, double hz) {
-      return part_of(other(order, hz), from, to);
-    };
-  }
-  if (source.with_every_other) {
-    part.with_every_other = [other = source.with_every_other, from, to](int parity) {
-      return part_of(other(parity), from, to);
-    };
-  }
+MotionSource with_pieces(
+    const MotionSource& source,
+    std::function<void(const std::function<void(const StreamPiece&)>&)> pieces) {
+  MotionSource other = source;
+  other.others = {};
+  other.pieces = std::move(pieces);
+  return other;
+}
+
+MotionSource made_of(const MotionSource& source,
+                     const std::function<MotionSource(const MotionSource&)>& change) {
+  MotionSource made = change(source);
+  made.others = source.others;
+  if (!source.others.make) return made;
+  made.others.make = [make = source.others.make, change](const OtherState& state) {
+    return made_of(make(state), change);
+  };
+  return made;
+}
+
+namespace {
+
+/// One joint state's part: see part_of().
+MotionSource cut_out(const MotionSource& source, double from, double to) {
   // lengths of the runs first: pieces of a run do not know how long it is
   auto known = std::make_shared<std::vector<Index>>();
-  part.pieces = [all = source.pieces, from, to,
-                 known](const std::function<void(const StreamPiece&)>& visit) {
+  return with_pieces(source, [all = source.pieces, from, to,
+                              known](const std::function<void(const StreamPiece&)>& visit) {
     std::vector<Index>& lengths = *known;
     if (lengths.empty()) {
       all([&](const StreamPiece& piece) {
@@ -300,8 +308,14 @@ MotionSource part_of(const MotionSource& source, double from, double to) {
       }
       place += piece.motion.samples();
     });
-  };
-  return part;
+  });
+}
+
+}  // namespace
+
+MotionSource part_of(const MotionSource& source, double from, double to) {
+  return made_of(source,
+                 [from, to](const MotionSource& state) { return cut_out(state, from, to); });
 }
 
 }  // namespace dyngen::runtime

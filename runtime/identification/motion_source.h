@@ -45,6 +45,29 @@ struct RecordingCondition {
   std::vector<std::string> messages;
 };
 
+/// Another joint state of a recording: behind a low-pass of the caller's, or of the samples of one
+/// parity.
+struct OtherState {
+  int order = 0;    ///< of the low-pass; 0: that of the recording
+  double hz = 0;    ///< its cut-off
+  int parity = -1;  ///< 0, 1: positions of every other sample, and interpolated between
+                    ///< (of_every_other()): two joint states with noise of their own; -1: of all
+};
+
+struct MotionSource;
+
+/// Other joint states that a recording has.
+struct OtherStates {
+  /// Not where the cut-off was given, no low-pass gives the joint state, or the file is too large
+  /// to be in memory.
+  bool low_passes = false;
+  /// Not where no low-pass gives the joint state, its cut-off is above a fifth of the sampling
+  /// frequency, noise of the positions is less than 1e-7 of the square of all accelerations, or the
+  /// file is too large to be in memory.
+  bool parities = false;
+  std::function<MotionSource(const OtherState& state)> make{};  ///< empty: there are none
+};
+
 /// The motion of a recording, which can be gone through again and again.
 struct MotionSource {
   std::string name;
@@ -56,16 +79,7 @@ struct MotionSource {
   RecordingCondition condition;
   /// Consecutive pieces of all runs.
   std::function<void(const std::function<void(const StreamPiece&)>&)> pieces;
-  /// The same recording behind a low-pass of the caller's: its order and cut-off, Hz. Empty where
-  /// the cut-off was given, no low-pass gives the joint state, or the file is too large to be in
-  /// memory.
-  std::function<MotionSource(int order, double hz)> with_low_pass;
-  /// The same recording behind the same low-pass, its positions those of every other sample and
-  /// interpolated between them (of_every_other()): two joint states with noise of their own. Empty
-  /// where no low-pass gives the joint state, its cut-off is above a fifth of the sampling
-  /// frequency, noise of the positions is less than 1e-7 of the square of all accelerations, or the
-  /// file is too large to be in memory.
-  std::function<MotionSource(int parity)> with_every_other;
+  OtherStates others;
 
   [[nodiscard]] int joints() const { return static_cast<int>(position_noise.size()); }
 };
@@ -79,6 +93,15 @@ MotionSource motion_of(Recording recording, const MotionOptions& options);
 /// The same of a file; a large one is read again each time it is gone through, in constant memory.
 /// @throws RecordingError; std::invalid_argument; TooShortError
 MotionSource motion_of_file(const std::string& path, const MotionOptions& options);
+
+/// The same recording, other pieces of it; with no other joint state, of which they are not.
+MotionSource with_pieces(
+    const MotionSource& source,
+    std::function<void(const std::function<void(const StreamPiece&)>&)> pieces);
+
+/// What is made of a recording, and of its other joint states where they are asked for.
+MotionSource made_of(const MotionSource& source,
+                     const std::function<MotionSource(const MotionSource&)>& change);
 
 /// A part of every run: [from, to) of its samples as fractions of its length. For held-out checks.
 MotionSource part_of(const MotionSource& source, double from, double to);

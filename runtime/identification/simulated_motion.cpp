@@ -76,12 +76,10 @@ std::vector<MatrixXd> simulated_regressors(const LinearModel& model, const Motio
   commanded.pieces([&](const StreamPiece& piece) {
     runs->push_back({simulate_tracking(model, beta, piece.motion, loop), piece.continues_run});
   });
-  MotionSource simulated = recorded;
-  simulated.with_low_pass = nullptr;
-  simulated.with_every_other = nullptr;
-  simulated.pieces = [runs](const std::function<void(const StreamPiece&)>& visit) {
+  const auto pieces = [runs](const std::function<void(const StreamPiece&)>& visit) {
     for (const StreamPiece& piece : *runs) visit(piece);
   };
+  const MotionSource simulated = with_pieces(recorded, pieces);
   RowOptions same = options;
   same.decimation = plan_rows(recorded, options).decimation;
   same.still_speed = 0;

@@ -91,16 +91,14 @@ RecordingSummary summarise_without_noise(const LinearModel& model, const MotionS
                                          const RowOptions& options) {
   RecordingSummary summary = empty_summary(model.columns, model.size());
   PostureSample postures;
-  MotionSource watched = source;
-  watched.with_low_pass = nullptr;
-  watched.with_every_other = nullptr;
-  watched.pieces = [&](const std::function<void(const StreamPiece&)>& visit) {
+  const auto watch = [&](const std::function<void(const StreamPiece&)>& visit) {
     source.pieces([&](const StreamPiece& piece) {
       summary.extent.add(piece.motion.q, piece.motion.dq, piece.motion.ddq);
       postures.add(piece.motion.q);
       visit(piece);
     });
   };
+  const MotionSource watched = with_pieces(source, watch);
   const RowPlan plan = plan_rows(source, options);
   summary.equations = factor_of(rows_of(model, watched, options), model.columns, model.size());
   summary.regressor_noise =

@@ -94,13 +94,9 @@ std::vector<Motion> whole_runs(const MotionSource& source) {
 }  // namespace
 
 MotionSource with_repeated_motion(const MotionSource& source) {
-  MotionSource result = source;
-  result.with_low_pass = nullptr;
-  result.with_every_other = nullptr;
-  result.pieces = [source](const std::function<void(const StreamPiece&)>& visit) {
+  return with_pieces(source, [source](const std::function<void(const StreamPiece&)>& visit) {
     for (Motion& run : whole_runs(source)) visit({repeated(std::move(run)), false});
-  };
-  return result;
+  });
 }
 
 bool repeats(const MotionSource& source) {
@@ -111,8 +107,8 @@ bool repeats(const MotionSource& source) {
 
 TwoMotions two_motions(const MotionSource& source) {
   if (repeats(source)) return {source, with_repeated_motion(source)};
-  if (!source.with_every_other) return {source, source};
-  return {source.with_every_other(1), source.with_every_other(0)};
+  if (!source.others.parities) return {source, source};
+  return {source.others.make({.parity = 1}), source.others.make({.parity = 0})};
 }
 
 Eigen::VectorXd leave_as_at(EffectRecordings& repeated, const EffectRecordings& own) {

@@ -22,7 +22,7 @@ struct TwoMotions {
 };
 
 /// Where the motion repeats, as it is recorded, and of the other periods; else of every other
-/// sample each (MotionSource::with_every_other); twice the same where neither can be.
+/// sample each (OtherStates::parities); twice the same where neither can be.
 TwoMotions two_motions(const MotionSource& source);
 
 /// The torque becomes what the model has at the other motion and what it leaves at the own one:

@@ -54,9 +54,9 @@ std::vector<MotionSource> seen(const std::vector<MotionSource>& sources,
                                const ViewOptions& options) {
   std::vector<MotionSource> result;
   for (const MotionSource& source : sources) {
-    const bool quick = options.quick && source.with_low_pass;
-    result.push_back(quick ? source.with_low_pass(kSteep, quick_cutoff(source, options.highest))
-                           : source);
+    const double hz = quick_cutoff(source, options.highest);
+    const bool quick = options.quick && source.others.low_passes;
+    result.push_back(quick ? source.others.make({.order = kSteep, .hz = hz}) : source);
   }
   return result;
 }
@@ -166,10 +166,10 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
   ViewOptions beside = options;
   beside.resting = std::move(resting);
   beside.quick = std::all_of(train.begin(), train.end(), [](const MotionSource& source) {
-    return source.with_low_pass && !repeats_rounding(source);
+    return source.others.low_passes && !repeats_rounding(source);
   });
   const bool of_halves = std::any_of(train.begin(), train.end(), [](const MotionSource& source) {
-    return source.with_every_other && !repeats(source);
+    return source.others.parities && !repeats(source);
   });
   beside.highest = of_halves ? kHighestOfHalf : kHighest;
   beside.rows.band = beside.quick ? kBesideJolts : kBesideRests;

@@ -102,15 +102,15 @@ TEST(BesideRests, EquationsAreSlowerThanTheJointState) {
 
 TEST(MotionSource, ComesBehindAnotherLowPassUnlessItWasGiven) {
   const MotionSource source = rounded(0.5);
-  ASSERT_TRUE(source.with_low_pass);
-  const MotionSource quick = part_of(source, 0, 0.5).with_low_pass(8, 50);
+  ASSERT_TRUE(source.others.low_passes);
+  const MotionSource quick = part_of(source, 0, 0.5).others.make({.order = 8, .hz = 50});
   EXPECT_EQ(quick.cutoff.hz, 50);
   EXPECT_EQ(quick.position_noise.size(), 2);
   Index samples = 0, all = 0;
   quick.pieces([&](const StreamPiece& piece) { samples += piece.motion.samples(); });
   source.pieces([&](const StreamPiece& piece) { all += piece.motion.samples(); });
   EXPECT_NEAR(static_cast<double>(samples), static_cast<double>(all) / 2, 200);  // edges are cut
-  EXPECT_FALSE(rounded(0.5, 20).with_low_pass);
+  EXPECT_FALSE(rounded(0.5, 20).others.low_passes);
 }
 
 TEST(Rests, AreLeftOutOfTheJointsThatAreNamed) {
@@ -374,8 +374,8 @@ TEST(TwoMotions, OfPositionsWithoutNoiseAreTheSame) {
   options.average_periods = false;
   options.state.cutoff_hz = 40;
   const MotionSource source = motion_of(std::move(recording), options);
-  EXPECT_TRUE(noisy_arm(false).with_every_other);
-  EXPECT_FALSE(source.with_every_other);
+  EXPECT_TRUE(noisy_arm(false).others.parities);
+  EXPECT_FALSE(source.others.parities);
 }
 
 /// The inertia of the second link, where accelerations are noisy.

@@ -73,8 +73,10 @@ KnownEffects known_effects(const std::string& path, const EffectCatalogue& catal
   return known;
 }
 
-MotionSource without_effects(const MotionSource& source, const KnownEffects& known) {
-  if (known.effects.empty()) return source;
+namespace {
+
+/// One joint state without them: see without_effects().
+MotionSource taken_off(const MotionSource& source, const KnownEffects& known) {
   auto pieces = std::make_shared<std::vector<StreamPiece>>();
   source.pieces([&](const StreamPiece& piece) {
     const Motion& motion = piece.motion;
@@ -90,21 +92,16 @@ MotionSource without_effects(const MotionSource& source, const KnownEffects& kno
     pieces->back().motion.tau =
         2 * motion.tau - recorded_torque(known.robot, known.effects, recording);
   });
-  MotionSource without = source;
-  if (source.with_low_pass) {
-    without.with_low_pass = [other = source.with_low_pass, known](int order, double hz) {
-      return without_effects(other(order, hz), known);
-    };
-  }
-  if (source.with_every_other) {
-    without.with_every_other = [other = source.with_every_other, known](int parity) {
-      return without_effects(other(parity), known);
-    };
-  }
-  without.pieces = [pieces](const std::function<void(const StreamPiece&)>& visit) {
+  return with_pieces(source, [pieces](const std::function<void(const StreamPiece&)>& visit) {
     for (const StreamPiece& piece : *pieces) visit(piece);
-  };
-  return without;
+  });
+}
+
+}  // namespace
+
+MotionSource without_effects(const MotionSource& source, const KnownEffects& known) {
+  if (known.effects.empty()) return source;
+  return made_of(source, [known](const MotionSource& state) { return taken_off(state, known); });
 }
 
 }  // namespace dyngen::runtime
