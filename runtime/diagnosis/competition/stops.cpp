@@ -14,6 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kLevel = 0.01;  // at which impulses are seen: a joint that rests is no accusation
 constexpr double kGoodPart = 1.0 / 3;  // of the squares of impulses: what explains it makes them
 constexpr double kImperfect = 0.02;    // of the squares of impulses: what their shape leaves
 constexpr double kThrough = 0.002;     // of those of another joint: it jolts the whole arm
@@ -55,7 +56,7 @@ double Stops::unseen_on(const std::vector<int>& joints) const {
 }
 
 /// Whether a single test by itself would say so.
-bool Stops::significant(double surprise) const { return std::exp(-surprise) < false_alarm_; }
+bool Stops::significant(double surprise) { return std::exp(-surprise) < kLevel; }
 
 const GenericResult* Stops::impulses_at(const Screening& screening, int joint) const {
   for (const GenericResult& generic : screening.generic) {
@@ -153,7 +154,7 @@ std::vector<RestingJoint> Stops::strongest(const EvidenceSystem& system,
   std::vector<RestingJoint> joints;
   for (int j = 0; j < data_.joints(); ++j) {
     const double impulses = impulses_of(screening, j);
-    if (rests(j) || screening.family_wise(impulses) > false_alarm_) continue;
+    if (rests(j) || screening.family_wise(impulses) > kLevel) continue;
     const bool strongest = std::all_of(
         screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
           const GenericStructure& structure = structures_[generic.structure];

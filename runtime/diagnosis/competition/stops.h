@@ -68,7 +68,7 @@ class Stops {
   [[nodiscard]] double impulses_of(const Screening& screening, int joint) const;
   [[nodiscard]] RestingJoint found(const EvidenceSystem& system, const Screening& screening,
                                    int joint) const;
-  [[nodiscard]] bool significant(double surprise) const;
+  [[nodiscard]] static bool significant(double surprise);
 
   const EffectRecordings& data_;
   EffectSignals& signals_;
