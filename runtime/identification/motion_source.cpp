@@ -148,20 +148,22 @@ MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
   source.others.parities =
       options.method == StateMethod::kLowPass && !quick &&
       accelerations_are_noisy(states, source.position_noise, source.sample_time);
-  source.others.make = [recording, start, condition, options, hz = source.cutoff.hz,
-                        noise = source.position_noise](const OtherState& state) {
-    JointStateOptions other = options;
-    other.cutoff_hz = hz;
-    if (state.order > 0) {
-      other.order = state.order;
-      other.cutoff_hz = state.hz;
-      return filtered(recording, start, condition, other);
-    }
-    auto half = std::make_shared<const Recording>(with_every_other(*recording, state.parity));
-    MotionSource of_half = filtered(std::move(half), start, condition, other);
-    of_half.position_noise = noise;
-    return of_half;
-  };
+  if (source.others.low_passes || source.others.parities) {
+    source.others.make = [recording, start, condition, options, hz = source.cutoff.hz,
+                          noise = source.position_noise](const OtherState& state) {
+      JointStateOptions other = options;
+      other.cutoff_hz = hz;
+      if (state.order > 0) {
+        other.order = state.order;
+        other.cutoff_hz = state.hz;
+        return filtered(recording, start, condition, other);
+      }
+      auto half = std::make_shared<const Recording>(with_every_other(*recording, state.parity));
+      MotionSource of_half = filtered(std::move(half), start, condition, other);
+      of_half.position_noise = noise;
+      return of_half;
+    };
+  }
   condition.messages.insert(condition.messages.end(), states.messages.begin(),
                             states.messages.end());
   source.condition = std::move(condition);
