@@ -68,8 +68,7 @@ LikelyEffect LikelySearch::compared(std::size_t place, const LikelihoodRatio& ra
     return likely;  // no finite torque at the shapes that were tried
   }
   const double squares = ratio.of(residuals_of(data_, likely.fit.point));
-  const auto degrees = named.best.score.degrees + static_cast<int>(hypothesis.shapes.size());
-  named.surprise = surprise_of(squares, degrees);
+  named.surprise = surprise_of(squares, degrees_of_refined(named, hypothesis));
   likely.net = squares - price_of(hypothesis, named.best, result_.noise);
   return likely;
 }

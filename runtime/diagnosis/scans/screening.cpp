@@ -294,10 +294,13 @@ double surprise_of(const NamedResult& named) {
                      named.worth);
 }
 
+int degrees_of_refined(const NamedResult& named, const Hypothesis& hypothesis) {
+  return named.best.score.degrees + static_cast<int>(hypothesis.shapes.size());
+}
+
 double surprise_of_refined(const NamedResult& named, const Hypothesis& hypothesis) {
-  const int degrees = named.best.score.degrees + static_cast<int>(hypothesis.shapes.size());
-  const double searched =
-      surprise_of(named.best.score.squares / named.slow_noise, degrees, named.worth);
+  const double searched = surprise_of(named.best.score.squares / named.slow_noise,
+                                      degrees_of_refined(named, hypothesis), named.worth);
   return std::max(named.surprise, searched);
 }
 

@@ -28,9 +28,12 @@ struct NamedResult {
 /// Of its best trial; an event has as many squares from slow noise alone as windows elsewhere have.
 double surprise_of(const NamedResult& named);
 
-/// The same of shapes that were found by refined(): each counts as one more degree of freedom, or
-/// noise surrogates, whose squares are those of the grid's shapes, would be held against more than
-/// they are. Not less than what it was at the grid's. (Davies 1987: a search along one parameter.)
+/// Degrees of freedom of a trial whose shapes were found by refined(): each counts as one, or noise
+/// surrogates, whose squares are those of the grid's shapes, would be held against more than they
+/// are. (Davies 1987: a search along one parameter.)
+int degrees_of_refined(const NamedResult& named, const Hypothesis& hypothesis);
+
+/// The surprise with as many; not less than what it was at the grid's shapes.
 double surprise_of_refined(const NamedResult& named, const Hypothesis& hypothesis);
 
 /// The same at what fits best whatever conditions say.
