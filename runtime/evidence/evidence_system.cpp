@@ -45,6 +45,16 @@ PivotedTriangle pivoted_triangle(const MatrixXd& A) {
   return result;
 }
 
+/// An orthonormal basis of columns that had unit length before projection. Impulses are hundreds of
+/// columns, and joints that rest make that many bases: products of matrices are all that is fast
+/// enough.
+MatrixXd basis_of(const MatrixXd& projected) {
+  const PivotedTriangle independent = pivoted_triangle(projected.transpose() * projected);
+  MatrixXd basis = projected(Eigen::all, independent.columns);
+  independent.L.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(basis);
+  return basis;
+}
+
 std::shared_ptr<const std::vector<std::vector<Whitener>>> whiteners_of(
     const EffectRecordings& data, const TorqueNoiseModel& noise) {
   auto all = std::make_shared<std::vector<std::vector<Whitener>>>(noise.joints.size());
@@ -230,13 +240,7 @@ void EvidenceSystem::add(const JointColumns& whitened) {
         whitened.parts[i](Eigen::all, present) * scale.asDiagonal();
   }
   for (int pass = 0; pass < 2; ++pass) columns -= basis_ * (basis_.transpose() * columns);
-  // impulses are hundreds of columns: products of matrices are all that is fast enough
-  const PivotedTriangle independent = pivoted_triangle(columns.transpose() * columns);
-  if (independent.columns.empty()) return;
-  MatrixXd orthonormal = columns(Eigen::all, independent.columns);
-  independent.L.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(
-      orthonormal);
-  project(orthonormal);
+  project(basis_of(columns));
 }
 
 void EvidenceSystem::leave_out(const JointColumns& whitened) {
@@ -249,7 +253,7 @@ void EvidenceSystem::leave_out(const JointColumns& whitened) {
   MatrixXd own = rest_.segment(first, rows_);
   left_out->take_out_of(own);
   rest_.segment(first, rows_) = own;
-  const MatrixXd columns = orthonormal(basis_);
+  const MatrixXd columns = basis_of(basis_);
   basis_.resize(Eigen::NoChange, 0);
   project(columns);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "runtime/diagnosis/competition/likely_structure.h"
@@ -118,33 +119,62 @@ double NamelessSearch::structure_surprise(const Screening& screening,
 /// The strongest effect that a bound or a falsifier rules out, if it is more than any other
 /// structure there: it is of that form.
 bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screening& screening) {
-  std::optional<NamedResult> strongest;
-  double most = kRuledOutNet;
+  const std::vector<RuledOut> candidates = ruled_out(screening);
+  const RuledOut* strongest = strongest_apart_from_stops(candidates, system, screening);
+  if (!strongest || strongest->named.surprise < structure_surprise(screening, strongest->joints)) {
+    return false;
+  }
+  Nameless nameless;
+  nameless.structure.joint = strongest->joints.front();
+  nameless.surprise = strongest->named.surprise;
+  nameless.ruled_out = strongest->named.best.effect;
+  nameless.objection = strongest->named.best.objection;
+  return add(std::move(nameless), system);
+}
+
+/// Effects that a bound or a falsifier rules out and that are beyond doubt, the strongest first.
+std::vector<NamelessSearch::RuledOut> NamelessSearch::ruled_out(const Screening& screening) const {
+  std::vector<RuledOut> candidates;
   for (const NamedResult& each : screening.named) {
     if (!each.seen || each.freest.admissible) continue;
     NamedResult named = without_conditions(each);
     const double net = net_of(hypotheses_[named.hypothesis], named.best, result_.noise);
-    if (net <= most || !sure(screening, named.surprise)) continue;
-    const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
+    if (net <= kRuledOutNet || !sure(screening, named.surprise)) continue;
+    std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
     // beside a joint that rests, what friction left of the stops looks like friction that cannot be
     if (std::any_of(joints.begin(), joints.end(), [&](int joint) {
           return has_nameless(result_, joint) || stops_.rests(joint);
         })) {
       continue;
     }
-    if (stops_.hide(system, screening, hypotheses_[named.hypothesis], named)) continue;
-    strongest = std::move(named);
-    most = net;
+    candidates.push_back({std::move(named), std::move(joints), net});
   }
-  if (!strongest) return false;
-  const std::vector<int> joints = joints_of_hypothesis(strongest->hypothesis);
-  if (strongest->surprise < structure_surprise(screening, joints)) return false;
-  Nameless nameless;
-  nameless.structure.joint = joints.front();
-  nameless.surprise = strongest->surprise;
-  nameless.ruled_out = strongest->best.effect;
-  nameless.objection = strongest->best.objection;
-  return add(std::move(nameless), system);
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const RuledOut& a, const RuledOut& b) { return a.net > b.net; });
+  return candidates;
+}
+
+/// The first that reversals of its joints do not hide, or none. Reversals are left out once for all
+/// candidates of the same joints.
+const NamelessSearch::RuledOut* NamelessSearch::strongest_apart_from_stops(
+    const std::vector<RuledOut>& candidates, const EvidenceSystem& system,
+    const Screening& screening) const {
+  const RuledOut* strongest = nullptr;
+  std::set<std::vector<int>> asked;
+  for (const RuledOut& first : candidates) {
+    if (strongest && first.net <= strongest->net) break;
+    if (!asked.insert(first.joints).second) continue;
+    const EvidenceSystem beside = stops_.beside_reversals(system, first.joints);
+    for (const RuledOut& candidate : candidates) {
+      if (strongest && candidate.net <= strongest->net) break;
+      if (candidate.joints != first.joints) continue;
+      const Hypothesis& hypothesis = hypotheses_[candidate.named.hypothesis];
+      if (!stops_.nothing_left_in(beside, screening, hypothesis, candidate.named)) {
+        strongest = &candidate;
+      }
+    }
+  }
+  return strongest;
 }
 
 bool NamelessSearch::describe(const GenericResult& generic, const EvidenceSystem& system,

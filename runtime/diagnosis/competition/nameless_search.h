@@ -55,7 +55,17 @@ class NamelessSearch {
   [[nodiscard]] bool is_costly(const std::string& effect) const;
 
  private:
+  struct RuledOut {
+    NamedResult named;
+    std::vector<int> joints;  ///< that it acts on
+    double net;               ///< net_of()
+  };
+
   bool next_ruled_out(const EvidenceSystem& system, const Screening& screening);
+  [[nodiscard]] std::vector<RuledOut> ruled_out(const Screening& screening) const;
+  [[nodiscard]] const RuledOut* strongest_apart_from_stops(const std::vector<RuledOut>& candidates,
+                                                           const EvidenceSystem& system,
+                                                           const Screening& screening) const;
   [[nodiscard]] double structure_surprise(const Screening& screening,
                                           const std::vector<int>& joints) const;
   [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;

@@ -114,19 +114,31 @@ Stops::Part Stops::part_in(const EvidenceSystem& system, const Screening& screen
   return makes_them ? Part::kBecause : Part::kAll;
 }
 
-bool Stops::hide(const EvidenceSystem& system, const Screening& screening,
-                 const Hypothesis& hypothesis, const NamedResult& named) const {
+EvidenceSystem Stops::beside_reversals(const EvidenceSystem& system,
+                                       const std::vector<int>& joints) const {
   EvidenceSystem beside = system;
-  for (const int joint : joints_of(hypothesis.effect, data_.joints())) {
+  for (const int joint : joints) {
     if (rests(joint)) continue;
     beside.leave_out(
         system.whitened(generic_columns(data_, signals_, impulses_at_reversals(joint))));
   }
+  return beside;
+}
+
+bool Stops::nothing_left_in(const EvidenceSystem& beside, const Screening& screening,
+                            const Hypothesis& hypothesis, const NamedResult& named) const {
   const Score left = score_of(
       beside.products(hypothesis_columns(data_, signals_, beside, hypothesis, named.best.effect),
                       false),
       false);
   return screening.family_wise(surprise_of(left.squares, left.degrees)) > false_alarm_;
+}
+
+bool Stops::hide(const EvidenceSystem& system, const Screening& screening,
+                 const Hypothesis& hypothesis, const NamedResult& named) const {
+  const EvidenceSystem beside =
+      beside_reversals(system, joints_of(hypothesis.effect, data_.joints()));
+  return nothing_left_in(beside, screening, hypothesis, named);
 }
 
 std::vector<RestingJoint> Stops::resting(const EvidenceSystem& system, const Screening& screening,

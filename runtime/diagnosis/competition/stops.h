@@ -48,8 +48,14 @@ class Stops {
     return part_in(system, screening, hypothesis, named) == Part::kAll;
   }
 
-  /// Whether beside impulses at the reversals of its joints, seen or not, nothing is left of an
-  /// effect.
+  /// The model beside impulses at the reversals of some joints, seen or not; those of joints that
+  /// rest it has already.
+  [[nodiscard]] EvidenceSystem beside_reversals(const EvidenceSystem& system,
+                                                const std::vector<int>& joints) const;
+  /// Whether no more than noise is left of an effect there.
+  [[nodiscard]] bool nothing_left_in(const EvidenceSystem& beside, const Screening& screening,
+                                     const Hypothesis& hypothesis, const NamedResult& named) const;
+  /// Whether nothing is left of it beside the reversals of its own joints.
   [[nodiscard]] bool hide(const EvidenceSystem& system, const Screening& screening,
                           const Hypothesis& hypothesis, const NamedResult& named) const;
 
