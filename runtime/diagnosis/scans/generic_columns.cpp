@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "runtime/diagnosis/scans/impulse_columns.h"
 #include "runtime/diagnosis/scans/repeat_scan.h"
 #include "runtime/evidence/torque_noise_model.h"
 
@@ -20,7 +21,6 @@ using Form = GenericStructure::Form;
 
 constexpr int kAlone = 9, kInPairs = 5;  // knots of one variable, and of each of two
 constexpr int kOfSpeeds = 3;             // of each of two velocities: rest, and fast both ways
-constexpr double kResting = 0.015;       // of the largest speed: below it a joint may have stopped
 
 /// Quantiles of a variable over all runs, from the smallest to the largest; without repeats.
 std::vector<double> knots_of(const std::vector<VectorXd>& runs, int count) {
@@ -54,73 +54,6 @@ MatrixXd hats(const VectorXd& x, const std::vector<double>& knots) {
     values(k, high) = part;
   }
   return values;
-}
-
-double fastest(const EffectRecordings& data, int joint) {
-  double speed = 0;
-  for (const EffectRun& run : data.runs) {
-    speed = std::max(speed, run.motion.dq.col(joint).cwiseAbs().maxCoeff());
-  }
-  return speed;
-}
-
-/// Samples in the middle of the impulses of a run: some apart from one another over each stretch in
-/// which the joint may have stopped, two or more of each.
-std::vector<Index> impulses_of(const EffectRun& run, int joint, double still, Index apart) {
-  const auto dq = run.motion.dq.col(joint);
-  const auto stops = [&](Index k) {
-    return std::abs(dq[k]) < still || (k > 0 && dq[k] * dq[k - 1] < 0);
-  };
-  std::vector<Index> middles;
-  Index end = -1;  // of the last stretch
-  for (Index k = 0; k < dq.size(); ++k) {
-    if (!stops(k)) continue;
-    const Index from = k;
-    Index to = k;
-    for (Index i = k; i < std::min(dq.size(), to + apart); ++i) {
-      if (stops(i)) to = i;
-    }
-    const Index length = to - from, count = std::max<Index>(4, 3 + (length + apart) / apart);
-    const Index first = (from + to) / 2 - (count - 1) * apart / 2;
-    for (Index i = 0; i < count; ++i) {
-      const Index middle = first + i * apart;
-      if (middle > end) middles.push_back(middle);
-    }
-    end = middles.empty() ? -1 : middles.back();
-    k = to;
-  }
-  return middles;
-}
-
-/// Impulses where the joint turns or stops, short beside the filter.
-JointColumns impulse_columns(const EffectRecordings& data, int joint) {
-  const double still = kResting * fastest(data, joint);
-  std::vector<std::vector<Index>> middles;
-  Index count = 0;
-  for (const EffectRun& run : data.runs) {
-    middles.push_back(impulses_of(run, joint, still, std::max<Index>(1, run.decimator.factor / 2)));
-    count += static_cast<Index>(middles.back().size());
-  }
-  JointColumns columns{{joint}, {MatrixXd::Zero(data.equations(), count)}};
-  Index start = 0, column = 0;
-  for (std::size_t run = 0; run < data.runs.size(); ++run) {
-    const EffectRun& here = data.runs[run];
-    const Index width = std::max<Index>(1, here.decimator.factor / 2);
-    MatrixXd impulses =
-        MatrixXd::Zero(here.motion.samples(), static_cast<Index>(middles[run].size()));
-    for (Index c = 0; c < impulses.cols(); ++c) {
-      const Index middle = middles[run][static_cast<std::size_t>(c)];
-      const Index end = std::min(impulses.rows(), middle + width);
-      for (Index k = std::max<Index>(0, middle - width); k < end; ++k) {
-        impulses(k, c) = 1 - std::abs(static_cast<double>(k - middle)) / static_cast<double>(width);
-      }
-    }
-    columns.parts[0].block(start, column, here.rows.Y.rows(), impulses.cols()) =
-        here.rows.counted.col(joint).asDiagonal() * decimate(here.decimator, impulses);
-    start += here.rows.Y.rows();
-    column += impulses.cols();
-  }
-  return columns;
 }
 
 /// Cosine and sine of each run.

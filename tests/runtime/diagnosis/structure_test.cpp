@@ -8,8 +8,10 @@
 
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/names/naming.h"
+#include "runtime/diagnosis/scans/impulse_columns.h"
 #include "runtime/diagnosis/scans/line_scan.h"
 #include "runtime/diagnosis/scans/time_windows.h"
+#include "runtime/diagnosis/views/left_out_rows.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {
@@ -66,6 +68,25 @@ TEST(LineScan, FindsTheFrequencyOfASinusoid) {
   EXPECT_LT(there.score.surrogates.maxCoeff(), 0.5 * lambda);
   EXPECT_LT(other.score.squares, 1.5 * other.score.surrogates.maxCoeff());
   EXPECT_GT(other.score.squares, 0.5 * other.score.surrogates.minCoeff());
+}
+
+TEST(ImpulseColumns, AreFewWhereAJointStandsForLong) {
+  EffectRecordings data = test::arm_recordings({test::source_of(test::sines(20, 0.01))});
+  EffectRun& run = data.runs.front();
+  const MatrixXd moving = impulse_columns(data, 1).parts[0];
+  ASSERT_GT(moving.cols(), 20);
+  // half of the time it stands, with an encoder that flickers
+  const Index from = 500, to = 1500;
+  for (Index k = from; k < to; ++k) run.motion.dq(k, 1) = k % 2 == 0 ? 1e-6 : -1e-6;
+  leave_out_standstill(run, VectorXd::Constant(2, 1e-4));
+  const MatrixXd standing = impulse_columns(data, 1).parts[0];
+  EXPECT_LT(standing.cols(), moving.cols() + 10);
+  EXPECT_GT(standing.colwise().squaredNorm().minCoeff(), 0);
+  const auto part = [&](const MatrixXd& columns, Index first, Index last) {
+    return columns.middleRows(first, last - first).cwiseAbs().sum();
+  };
+  EXPECT_EQ(part(standing, from + 5, to - 5), 0);
+  EXPECT_NEAR(part(standing, 0, from - 20), part(moving, 0, from - 20), 1e-9);
 }
 
 TEST(SquaresOfFew, RiseToThoseOfAllColumns) {
