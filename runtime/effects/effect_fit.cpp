@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "runtime/effects/effect_residual.h"
 #include "runtime/effects/effect_search.h"
 #include "runtime/effects/effect_start.h"
 #include "runtime/estimation/covariance.h"
@@ -23,30 +23,10 @@ using Eigen::VectorXd;
 
 constexpr int kPreviewSteps = 8;  // of a search from one of several starts
 
-/// "stribeck of joint 2", "base_tilt"
-std::string name_of(const EffectInstance& effect) {
-  const int joint = effect.link > 0 ? effect.link : effect.joint + 1;
-  if (joint == 0) return effect.law.name;
-  std::string text = fmt::format("{} of joint {}", effect.law.name, joint);
-  if (effect.law.scope == EffectScope::kPair) text += fmt::format(" and {}", effect.other + 1);
-  return text;
-}
-
 RowSource source_of(const std::vector<RowBlock>& blocks) {
   return [&blocks](const std::function<void(const RowBlock&)>& visit) {
     for (const RowBlock& block : blocks) visit(block);
   };
-}
-
-VectorXd rms_of(const std::vector<RowBlock>& blocks, const VectorXd& x) {
-  VectorXd squares, counts;
-  for (const RowBlock& block : blocks) {
-    const VectorXd here = residual(block, x).colwise().squaredNorm();
-    const VectorXd rows = counted_rows(block);
-    squares = squares.size() == 0 ? here : squares + here;
-    counts = counts.size() == 0 ? rows : counts + rows;
-  }
-  return squares.cwiseQuotient(counts.cwiseMax(1)).cwiseSqrt();
 }
 
 class EffectFitter {
@@ -211,9 +191,8 @@ class EffectFitter {
     const VectorXd x = values_of(state.point, unknowns_);
     Estimate all = least_squares(state.factor, weights_);
     all.beta = x;
-    remark_unseen(state.point, all);
-    remark_held(state.point, held);
-    remark_falsified(state.point);
+    unseen_ = unseen_among(all, unknowns_);
+    fit_.remarks = effect_remarks(data_, scales_, state.point, unknowns_, all, held);
     all.unseen = with_constraints(all, held);
     const EffectEquations equations = search.equations_at(state.point);
     const NoiseFactor noise = noise_at(all, state.factor, equations.source());
@@ -222,7 +201,7 @@ class EffectFitter {
         white_covariance(state.factor, x, weights_, all.scale, all.unseen).diagonal().cwiseSqrt();
     fit_.point = state.point;
     fit_.interval = interval_of(state.factor, noise);
-    fit_.rms = rms_of(equations.blocks, x);
+    fit_.rms = residual_rms(equations.blocks, x);
     fit_.textbook = white.head(unknowns_.base);
     conclude_base(all);
     conclude_parameters(state.point, all, held);
@@ -295,102 +274,6 @@ class EffectFitter {
     }
   }
 
-  /// Names of unknowns, for sentences.
-  [[nodiscard]] std::vector<std::string> names(const EffectPoint& point) const {
-    std::vector<std::string> names(static_cast<std::size_t>(unknowns_.size));
-    for (int i = 0; i < unknowns_.base; ++i) {
-      names[static_cast<std::size_t>(i)] = data_.model.parameters[static_cast<std::size_t>(i)].name;
-    }
-    for (std::size_t k = 0; k < point.effects.size(); ++k) {
-      const EffectInstance& effect = point.effects[k];
-      for (std::size_t p = 0; p < unknowns_.parameters[k].size(); ++p) {
-        const int place = unknowns_.parameters[k][p];
-        if (place < 0) continue;
-        names[static_cast<std::size_t>(place)] =
-            fmt::format("{} of {}", effect.law.parameters[p].name, name_of(effect));
-      }
-      for (std::size_t r = 0; r < unknowns_.initial.size(); ++r) {
-        for (std::size_t s = 0; unknowns_.initial[r][k] >= 0 && s < effect.law.states.size(); ++s) {
-          names[static_cast<std::size_t>(unknowns_.initial[r][k]) + s] = fmt::format(
-              "the first {} of {} in run {}", effect.law.states[s], name_of(effect), r + 1);
-        }
-      }
-    }
-    return names;
-  }
-
-  void remark_unseen(const EffectPoint& point, const Estimate& all) {
-    constexpr double kPart = 1e-4;  // of a direction of unit length
-    const std::vector<std::string> names = this->names(point);
-    unseen_.assign(static_cast<std::size_t>(unknowns_.size), false);
-    for (std::size_t k = 0; k < point.effects.size(); ++k) {
-      for (const int place : unknowns_.parameters[k]) {
-        if (place < 0 || all.unseen.cols() == 0 || all.unseen.row(place).norm() < kPart) continue;
-        unseen_[static_cast<std::size_t>(place)] = true;
-        // the direction in which this one cannot be told from others
-        const VectorXd direction = all.unseen * all.unseen.row(place).transpose();
-        std::string with;
-        for (int i = 0; i < unknowns_.size; ++i) {
-          if (i == place || std::abs(direction[i]) < 1e-2 * std::abs(direction[place])) continue;
-          with += (with.empty() ? "" : ", ") + names[static_cast<std::size_t>(i)];
-        }
-        const std::string& name = names[static_cast<std::size_t>(place)];
-        fit_.remarks.push_back(
-            {EffectRemark::Kind::kNotSeen, static_cast<int>(k),
-             with.empty() ? fmt::format("{} changes nothing in these recordings", name)
-                          : fmt::format("these recordings cannot tell {} from {}", name, with)});
-      }
-    }
-  }
-
-  /// Whether a scale that stands at its bound would gain nothing if that were twice as far: a
-  /// warm-up that lasts longer than the recordings.
-  [[nodiscard]] static bool flat_beyond(const EffectPoint& point, const ConstraintName& name,
-                                        double multiplier) {
-    constexpr double kNothing = 1;  // squares of noise
-    if (name.kind != ConstraintName::Kind::kBound || name.effect < 0) return false;
-    const EffectLaw& law = point.effects[static_cast<std::size_t>(name.effect)].law;
-    return by_logarithm(law.parameters[static_cast<std::size_t>(name.parameter)]) &&
-           2 * multiplier * std::numbers::ln2 < kNothing;
-  }
-
-  void remark_held(const EffectPoint& point, const EffectSearch::Held& held) {
-    for (std::size_t i = 0; i < held.constraints.names.size(); ++i) {
-      const ConstraintName& name = held.constraints.names[i];
-      if (!(held.multipliers[static_cast<Index>(i)] > 0)) continue;
-      if (name.kind == ConstraintName::Kind::kInitial) continue;
-      if (flat_beyond(point, name, held.multipliers[static_cast<Index>(i)])) continue;
-      const std::string whose = name.effect >= 0
-                                    ? name_of(point.effects[static_cast<std::size_t>(name.effect)])
-                                    : fmt::format("the friction of joint {}", name.joint + 1);
-      std::string text = fmt::format("{}: the estimate is held at {}", whose, name.text);
-      if (name.kind == ConstraintName::Kind::kRequirement) {
-        for (const EffectCondition& condition :
-             point.effects[static_cast<std::size_t>(name.effect)].law.requirements) {
-          if (condition.spelling == name.text && !condition.text.empty()) {
-            text += ": " + condition.text;
-          }
-        }
-      }
-      fit_.remarks.push_back({EffectRemark::Kind::kAtBound, name.effect, text});
-    }
-  }
-
-  void remark_falsified(const EffectPoint& point) {
-    for (std::size_t k = 0; k < point.effects.size(); ++k) {
-      const EffectInstance& effect = point.effects[k];
-      const EffectScales scales = scales_.of(point.beta, effect);
-      for (const EffectCondition& condition : effect.law.falsifiers) {
-        const double slack = condition.slack(effect.parameters, scales);
-        if (slack >= 0) continue;
-        fit_.remarks.push_back(
-            {EffectRemark::Kind::kFalsified, static_cast<int>(k),
-             fmt::format("{}: {} does not hold{}{}", name_of(effect), condition.spelling,
-                         condition.text.empty() ? "" : ": ", condition.text)});
-      }
-    }
-  }
-
   /// Unseen directions, and those in which constraints hold the estimate.
   static MatrixXd with_constraints(const Estimate& all, const EffectSearch::Held& held) {
     std::vector<VectorXd> normals;
@@ -459,37 +342,6 @@ EffectFit fit_effects(const EffectRecordings& data, const std::vector<EffectInst
                       const EffectFitOptions& options, const EffectProgress& progress) {
   options.validate();
   return EffectFitter(data, effects, options, progress).run();
-}
-
-VectorXd residual_with_effects(const EffectRecordings& data, const EffectPoint& point) {
-  return rms_of(without_effects(data, point), point.beta);
-}
-
-std::vector<RowBlock> without_effects(const EffectRecordings& data, const EffectPoint& point) {
-  EffectSignals signals(data);
-  signals.set_beta(point.beta);
-  signals.set_tangent_beta(point.beta);
-  const EffectPoint here =
-      point.initial.size() == data.runs.size() ? point : at_rest(data, point.beta, point.effects);
-  const EffectUnknowns unknowns = base_unknowns(here);
-  EffectEquations equations = linearised(data, signals, here, unknowns);
-  // what the derivatives by beta added to Y goes back into the torque
-  for (std::size_t run = 0; run < equations.blocks.size(); ++run) {
-    RowBlock& block = equations.blocks[run];
-    const MatrixXd rest = residual(block, here.beta);
-    RowBlock plain = data.runs[run].rows;
-    plain.counted = block.counted;
-    plain.tau = rest;
-    for (int j = 0; j < data.joints(); ++j) {
-      for (Index k = 0; k < rest.rows(); ++k) {
-        auto row = plain.Y.row(k).segment(j * here.beta.size(), here.beta.size());
-        if (block.counted(k, j) == 0) row.setZero();
-        plain.tau(k, j) += row.dot(here.beta);
-      }
-    }
-    block = std::move(plain);
-  }
-  return std::move(equations.blocks);
 }
 
 }  // namespace dyngen::runtime

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/effects/effect_constraints.h"
+#include "runtime/effects/effect_remarks.h"
 #include "runtime/effects/effect_rows.h"
 #include "runtime/estimation/least_squares.h"
 
@@ -31,14 +31,6 @@ struct EffectParameterFit {
   bool held = false;  ///< the file's number, or what a scan found of a step in time
   bool at_bound = false;
   bool seen = true;  ///< false: the recordings do not determine it
-};
-
-/// A condition of an effect that the estimate does not fulfil, or only just.
-struct EffectRemark {
-  enum class Kind { kAtBound, kFalsified, kNotSeen };
-  Kind kind = Kind::kAtBound;
-  int effect = -1;
-  std::string text;  ///< a sentence
 };
 
 /// A model with effects, fitted to recordings.
@@ -85,13 +77,5 @@ using EffectProgress = std::function<void(const std::string& what, double done)>
 /// method for solving separable nonlinear least squares problems", BIT 1975.
 EffectFit fit_effects(const EffectRecordings& data, const std::vector<EffectInstance>& effects,
                       const EffectFitOptions& options = {}, const EffectProgress& progress = {});
-
-/// rms of tau less the model with its effects, (n) each; states begin as first_states() says
-/// unless the point has states for as many runs.
-Eigen::VectorXd residual_with_effects(const EffectRecordings& data, const EffectPoint& point);
-
-/// The equations that are left for the model: tau less the effects, and Y. For what looks at beta
-/// alone.
-std::vector<RowBlock> without_effects(const EffectRecordings& data, const EffectPoint& point);
 
 }  // namespace dyngen::runtime

@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 constexpr double kLongestDelay = 0.05;  // s, where an effect gives no bound
 
 /// What acts on one joint at full rate: a torque, and columns of J with their places.
-struct JointColumns {
+struct JointEquations {
   VectorXd torque;  ///< (N)
   std::vector<int> places;
   std::vector<VectorXd> columns;  ///< (N) each; a place may come again: they add up
@@ -72,7 +72,7 @@ class RunRows {
         x_(values_of(point, unknowns)),
         late_(alignment_of(point.effects, data.joints())) {
     joints_.resize(static_cast<std::size_t>(data.joints()));
-    for (JointColumns& joint : joints_) joint.torque = VectorXd::Zero(here_.motion.samples());
+    for (JointEquations& joint : joints_) joint.torque = VectorXd::Zero(here_.motion.samples());
   }
 
   RowBlock make() {
@@ -109,7 +109,7 @@ class RunRows {
           law.evaluate(variables, effect.parameters, here_.motion.sample_time, state, wanted);
       for (std::size_t o = 0; o < application.outputs.size(); ++o) {
         const Index out = static_cast<Index>(o);
-        JointColumns& joint = joints_[static_cast<std::size_t>(application.outputs[o])];
+        JointEquations& joint = joints_[static_cast<std::size_t>(application.outputs[o])];
         joint.torque += torque.torque.col(out);
         for (Index p = 0; p < np; ++p) {
           const int place = unknowns_.parameters[k][static_cast<std::size_t>(p)];
@@ -142,7 +142,7 @@ class RunRows {
     const double chain = (delay ? -1 : 1) * chain_of(effect.law.parameters[p],
                                                      effect.parameters[static_cast<Index>(p)]);
     for (const int j : joints_of(effect, data_.joints())) {
-      JointColumns& joint = joints_[static_cast<std::size_t>(j)];
+      JointEquations& joint = joints_[static_cast<std::size_t>(j)];
       VectorXd torque = signals_.torque(run_).col(j) + joint.torque;
       if (delay) torque += late_.lag[j] * rate(torque);
       lateness_.push_back({j, place, chain * rate(torque)});
@@ -155,7 +155,7 @@ class RunRows {
 
   void fill(RowBlock& block, int j) {
     const double lag = late_.lag[j];
-    const JointColumns& joint = joints_[static_cast<std::size_t>(j)];
+    const JointEquations& joint = joints_[static_cast<std::size_t>(j)];
     const Index size = unknowns_.size, nb = unknowns_.base;
     block.Y.middleCols(j * size, nb) = here_.rows.Y.middleCols(Index{j} * nb, nb);
     if (lag != 0) {
@@ -226,7 +226,7 @@ class RunRows {
   const EffectRun& here_;
   VectorXd x_;
   Alignment late_;
-  std::vector<JointColumns> joints_;
+  std::vector<JointEquations> joints_;
   std::vector<Lateness> lateness_;
 };
 

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 constexpr double kDependent =
     3e-4;  // of a column's length: what is left below it is as good as nothing
-constexpr double kNothing = 1e-12;  // of a column's length, in one row
+constexpr double kOutside = 1e-12;  // of a column's length, in one row
 
 /// A column and the rows in which it is not 0.
 struct ShortColumn {
@@ -28,7 +28,7 @@ std::vector<ShortColumn> short_columns(const MatrixXd& columns) {
     ShortColumn column{columns.col(c), columns.col(c).norm()};
     if (!(column.length > 0)) continue;
     const auto is_nothing = [&](Index row) {
-      return std::abs(column.values[row]) <= kNothing * column.length;
+      return std::abs(column.values[row]) <= kOutside * column.length;
     };
     column.last = columns.rows() - 1;
     while (is_nothing(column.first)) ++column.first;

@@ -13,9 +13,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kNothing = 1e-6;  // of a column's length, in one equation
-constexpr double kSeen = 1e-6;     // of a column's squares: what equations hardly show stays
-constexpr double kDense = 0.2;     // of all values: with more than that columns are not sparse
+constexpr double kFaintest = 1e-6;  // of a column's length, in one equation
+constexpr double kSeen = 1e-6;      // of a column's squares: what equations hardly show stays
+constexpr double kDense = 0.2;      // of all values: with more than that columns are not sparse
 
 /// Half of the time between equations, in samples: faster torque they do not show.
 Index apart_in(const EffectRun& run) {
@@ -81,7 +81,7 @@ UnknownTorque::UnknownTorque(const EffectRun& run, int joint, const Whitener& wh
   if (count == 0) return;
   MatrixXd columns = hats(Eigen::all, seen);
   columns.colwise().normalize();
-  const auto values = static_cast<double>((columns.array().abs() > kNothing).count());
+  const auto values = static_cast<double>((columns.array().abs() > kFaintest).count());
   if (values > kDense * static_cast<double>(columns.size())) {
     MatrixXd products = MatrixXd::Zero(count, count);
     products.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
@@ -91,7 +91,7 @@ UnknownTorque::UnknownTorque(const EffectRun& run, int joint, const Whitener& wh
     basis_ = std::move(columns);
     return;
   }
-  columns_ = columns.sparseView(1, kNothing);
+  columns_ = columns.sparseView(1, kFaintest);
   Eigen::SparseMatrix<double> products = columns_.transpose() * columns_;
   for (Index c = 0; c < count; ++c) products.coeffRef(c, c) += kSeen;
   products_.compute(products);

@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// The parameters of interest that act on one joint.
-struct JointColumns {
+struct ColumnsOfJoint {
   std::vector<Index> rows_of_R;
   std::vector<Index> columns_of_Y;
 };
@@ -30,16 +30,16 @@ std::vector<int> asked_parameters(const LinearModel& model, const std::vector<in
   return all;
 }
 
-std::vector<JointColumns> joint_columns(const LinearModel& model,
-                                        const std::vector<int>& parameters) {
+std::vector<ColumnsOfJoint> joint_columns(const LinearModel& model,
+                                          const std::vector<int>& parameters) {
   std::vector<Index> place(static_cast<std::size_t>(model.size()), -1);
   const std::vector<int> asked = asked_parameters(model, parameters);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     place[static_cast<std::size_t>(asked[i])] = static_cast<Index>(i);
   }
-  std::vector<JointColumns> joints;
+  std::vector<ColumnsOfJoint> joints;
   for (int j = 0; j < model.joints(); ++j) {
-    JointColumns own;
+    ColumnsOfJoint own;
     for (const int column : model.columns[static_cast<std::size_t>(j)]) {
       if (place[static_cast<std::size_t>(column)] < 0) continue;
       own.rows_of_R.push_back(place[static_cast<std::size_t>(column)]);
@@ -91,7 +91,7 @@ Information information_of(const LinearModel& model, const JointMotion& motion,
   const Index size = static_cast<Index>(asked_parameters(model, options.parameters).size());
   MatrixXd& R = information.R;
   R = options.prior.size() == 0 ? MatrixXd::Zero(size, size) : options.prior;
-  const std::vector<JointColumns> joints = joint_columns(model, options.parameters);
+  const std::vector<ColumnsOfJoint> joints = joint_columns(model, options.parameters);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const MatrixXd Yj = information.Y(Eigen::all, joints[j].columns_of_Y);
     MatrixXd square = MatrixXd::Zero(Yj.cols(), Yj.cols());
@@ -110,7 +110,7 @@ JointMotion information_gradient(const LinearModel& model, const JointMotion& mo
     throw std::invalid_argument("information_gradient(): the model has no regressor_gradient");
   }
   MatrixXd A = MatrixXd::Zero(information.Y.rows(), information.Y.cols());
-  const std::vector<JointColumns> joints = joint_columns(model, options.parameters);
+  const std::vector<ColumnsOfJoint> joints = joint_columns(model, options.parameters);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const double weight = weight_of(options, static_cast<Index>(j), motion.q.rows());
     const MatrixXd own = G(joints[j].rows_of_R, joints[j].rows_of_R);
@@ -124,7 +124,7 @@ double condition_number(const LinearModel& model, const JointMotion& motion,
                         const std::vector<int>& parameters, bool unit_columns) {
   MatrixXd Y;
   model.regressor(motion.q, motion.dq, motion.ddq, Y);
-  const std::vector<JointColumns> joints = joint_columns(model, parameters);
+  const std::vector<ColumnsOfJoint> joints = joint_columns(model, parameters);
   const Index size = static_cast<Index>(asked_parameters(model, parameters).size());
   MatrixXd W = MatrixXd::Zero(motion.q.rows() * model.joints(), size);
   for (std::size_t j = 0; j < joints.size(); ++j) {

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "runtime/effects/effect_fit.h"
+#include "runtime/effects/effect_residual.h"
 #include "runtime/effects/effect_rows.h"
 #include "tests/baselines/effect_dictionary.h"
 

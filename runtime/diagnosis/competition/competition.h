@@ -12,9 +12,9 @@
 namespace dyngen::runtime {
 
 struct CompetitionOptions {
-  double false_alarm = 0.002;
-  int most_winners = 4;
-  std::uint64_t seed = 1;
+  double false_alarm = 0;  ///< this and the next two: of DiagnosisOptions
+  int most_winners = 0;
+  std::uint64_t seed = 0;
   bool with_regressor = true;
   /// Whether it ends as soon as a joint is found to rest.
   bool until_rest = false;

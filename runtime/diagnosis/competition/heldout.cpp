@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "runtime/effects/effect_residual.h"
 #include "runtime/estimation/whitener.h"
 
 namespace dyngen::runtime {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/effects/effect_residual.h"
 #include "runtime/effects/effect_signals.h"
 #include "runtime/tools/dynid/effects/effect_laws.h"
 #include "runtime/tools/dynid/effects/recorded_effects.h"

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "gen/diagnostic/diagnostic.h"
+#include "runtime/effects/effect_residual.h"
 #include "runtime/effects/effect_start.h"
 #include "runtime/tools/dynid/effects/effect_laws.h"
 #include "runtime/tools/dynid/effects/robot_tangents.h"
