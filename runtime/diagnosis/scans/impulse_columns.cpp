@@ -22,6 +22,9 @@ double fastest(const EffectRecordings& data, int joint) {
   return speed;
 }
 
+/// Samples from the middle of an impulse to its end, and between the middles of two.
+Index width_of(const EffectRun& run) { return std::max<Index>(1, run.decimator.factor / 2); }
+
 /// Samples whose torque an equation that counts is made of.
 class FeltSamples {
  public:
@@ -81,7 +84,8 @@ std::vector<Index> impulses_of(const EffectRun& run, int joint, double still, In
 }
 
 /// The same, less those that no equation that counts feels: of a joint that stands for long.
-std::vector<Index> felt_impulses_of(const EffectRun& run, int joint, double still, Index width) {
+std::vector<Index> felt_impulses_of(const EffectRun& run, int joint, double still) {
+  const Index width = width_of(run);
   std::vector<Index> middles = impulses_of(run, joint, still, width);
   const FeltSamples felt(run, joint);
   std::erase_if(middles,
@@ -96,15 +100,14 @@ JointColumns impulse_columns(const EffectRecordings& data, int joint) {
   std::vector<std::vector<Index>> middles;
   Index count = 0;
   for (const EffectRun& run : data.runs) {
-    const Index width = std::max<Index>(1, run.decimator.factor / 2);
-    middles.push_back(felt_impulses_of(run, joint, still, width));
+    middles.push_back(felt_impulses_of(run, joint, still));
     count += static_cast<Index>(middles.back().size());
   }
   JointColumns columns{{joint}, {MatrixXd::Zero(data.equations(), count)}};
   Index start = 0, column = 0;
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     const EffectRun& here = data.runs[run];
-    const Index width = std::max<Index>(1, here.decimator.factor / 2);
+    const Index width = width_of(here);
     MatrixXd impulses =
         MatrixXd::Zero(here.motion.samples(), static_cast<Index>(middles[run].size()));
     for (Index c = 0; c < impulses.cols(); ++c) {
