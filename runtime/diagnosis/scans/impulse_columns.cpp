@@ -28,7 +28,8 @@ Index width_of(const EffectRun& run) { return std::max<Index>(1, run.decimator.f
 /// Samples whose torque an equation that counts is made of.
 class FeltSamples {
  public:
-  FeltSamples(const EffectRun& run, int joint) : felt_(run.motion.samples() + 1, 0) {
+  FeltSamples(const EffectRun& run, int joint)
+      : felt_(static_cast<std::size_t>(run.motion.samples()) + 1, 0) {
     const Index factor = run.decimator.factor, first = first_sample(run.decimator);
     const Index reach = run.decimator.taps.size() / 2;
     const Index samples = run.motion.samples();
