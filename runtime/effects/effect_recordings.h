@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/effects/effect_law.h"
@@ -15,15 +17,19 @@
 
 namespace dyngen::runtime {
 
+/// The name of a variable (d_*, payload_*, contact_*, wrench_*), and the link of the robot file, from
+/// 1, that the effect is on; 0 of scope robot.
+using TangentKey = std::pair<std::string, int>;
+using TangentColumns = std::map<TangentKey, Eigen::MatrixXd>;
+
 /// What effects ask of a robot besides its linear model.
 struct EffectRobot {
-  /// Derivative of every joint's torque, (N x n), at a motion and given parameters. By the name of
-  /// the variable (d_*, payload_*, contact_*) and the link of the robot file, from 1, that the
-  /// effect is on; 0 of scope robot. wrench_*: column j is of joint j's own wrench. May be empty:
-  /// then effects that read them are refused.
-  std::function<Eigen::MatrixXd(const std::string& name, int link, const JointMotion& motion,
-                                const Eigen::VectorXd& beta)>
-      tangent;
+  /// A derivative of every joint's torque, (N x n), at a motion and given parameters, and all others
+  /// that come out with it. wrench_*: column j is of joint j's own wrench. May be empty: then
+  /// effects that read them are refused.
+  std::function<TangentColumns(const TangentKey& wanted, const JointMotion& motion,
+                               const Eigen::VectorXd& beta)>
+      tangents;
   /// (n) kg m^2 or kg: rotor inertias that the model has joined with the links', so that they are
   /// taken off the load. May be empty: none are known.
   Eigen::VectorXd joined_rotors{};

@@ -54,6 +54,11 @@ bool of_rigid_model(std::string_view name) {
   return false;
 }
 
+/// Whether there is one of it for all links.
+bool of_whole_robot(std::string_view name) {
+  return name.starts_with("d_g") || name.starts_with("payload_") || name.starts_with("wrench_");
+}
+
 MatrixXd differentiated(const MatrixXd& columns, double sample_time, int times) {
   if (times == 1) return first_difference(columns, sample_time);
   if (times == 2) return second_difference(columns, sample_time);
@@ -113,7 +118,7 @@ void EffectSignals::set_tangent_beta(const VectorXd& beta) {
   tangent_beta_ = beta;
   // those of payloads and contacts are the motion's alone
   std::erase_if(tangents_, [](const auto& entry) {
-    const std::string& name = std::get<1>(entry.first);
+    const std::string& name = entry.first.second.first;
     return !name.starts_with("payload_") && !name.starts_with("contact_");
   });
 }
@@ -180,16 +185,18 @@ const MatrixXd& EffectSignals::filtered_rates(std::size_t run, int joint) {
 }
 
 const MatrixXd& EffectSignals::tangent(std::size_t run, const std::string& name, int link) {
-  const auto [place, added] = tangents_.try_emplace({run, name, link});
-  if (!added) return place->second;
-  if (!data_.robot.tangent) {
+  const TangentKey wanted{name, link};
+  const auto place = tangents_.find({run, wanted});
+  if (place != tangents_.end()) return place->second;
+  if (!data_.robot.tangents) {
     throw std::invalid_argument(fmt::format(
         "effects: '{}' is a derivative of the rigid model, and this robot gives none", name));
   }
   const Motion& motion = data_.runs[run].motion;
-  place->second = data_.robot.tangent(name, link, {motion.q, motion.dq, motion.ddq},
-                                      tangent_beta_.size() > 0 ? tangent_beta_ : beta_);
-  return place->second;
+  TangentColumns all = data_.robot.tangents(wanted, {motion.q, motion.dq, motion.ddq},
+                                            tangent_beta_.size() > 0 ? tangent_beta_ : beta_);
+  for (auto& [key, columns] : all) tangents_.try_emplace({run, key}, std::move(columns));
+  return tangents_.at({run, wanted});
 }
 
 VectorXd EffectSignals::signal(std::size_t run, const std::string& name,
@@ -209,7 +216,7 @@ VectorXd EffectSignals::signal(std::size_t run, const std::string& name,
   }
   if (of_rigid_model(name)) {
     const int column = name.starts_with("wrench_") ? joint : target;
-    return tangent(run, name, effect.link).col(column);
+    return tangent(run, name, of_whole_robot(name) ? 0 : effect.link).col(column);
   }
   if (name == "q") return motion.q.col(joint);
   if (name == "qd") return motion.dq.col(joint);

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,7 +27,7 @@ struct ModelDerivative {
 ///     t temp                           s from the recording's first sample; as recorded
 ///     torque torque_rate torque_acc    Y beta, and its central differences
 ///     tau_load_rate tau_load_acc
-///     d_* payload_* contact_* wrench_* of EffectRobot::tangent
+///     d_* payload_* contact_* wrench_* of EffectRobot::tangents
 ///
 /// sign_qd turns only when the joint has come back by 2.5 steps of its encoder from where it was
 /// farthest, and then from the sample on since which the velocity has had that direction: the noise
@@ -77,7 +76,7 @@ class EffectSignals {
   const EffectRecordings& data_;
   Eigen::VectorXd beta_, tangent_beta_;
   std::map<std::size_t, RigidTorque> rigid_;
-  std::map<std::tuple<std::size_t, std::string, int>, Eigen::MatrixXd> tangents_;
+  std::map<std::pair<std::size_t, TangentKey>, Eigen::MatrixXd> tangents_;  // of a run
   std::size_t rows_run_ = 0;  // of regressor_rows_: one run, since they are large
   std::map<int, Eigen::MatrixXd> regressor_rows_;
   std::map<std::pair<std::size_t, int>, Eigen::MatrixXd> filtered_rates_;
@@ -88,7 +87,7 @@ class EffectSignals {
 /// @param band  rad or m; 0: the plain sign of dq
 Eigen::VectorXd travelled_sign(const Eigen::VectorXd& q, const Eigen::VectorXd& dq, double band);
 
-/// Whether a variable changes with the model's parameters (those of EffectRobot::tangent apart).
+/// Whether a variable changes with the model's parameters (those of EffectRobot::tangents apart).
 bool depends_on_model(const std::string& variable);
 
 }  // namespace dyngen::runtime

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -152,6 +153,25 @@ std::vector<MatrixXd> shapes_of(const Arguments& arguments, const StructureKnots
   return shapes;
 }
 
+/// Cosines and sines of a position times each of some frequencies.
+class Turns {
+ public:
+  Turns(const VectorXd& q, const Eigen::RowVectorXd& frequencies) {
+    for (const double frequency : frequencies) {
+      const auto [place, added] = turns_.try_emplace(frequency);
+      if (!added) continue;
+      const Eigen::ArrayXd angle = frequency * q.array();
+      place->second = {angle.cos(), angle.sin()};
+    }
+  }
+  [[nodiscard]] const std::pair<Eigen::ArrayXd, Eigen::ArrayXd>& of(double frequency) const {
+    return turns_.at(frequency);
+  }
+
+ private:
+  std::map<double, std::pair<Eigen::ArrayXd, Eigen::ArrayXd>> turns_;
+};
+
 /// The equations' columns of what is given at all samples of each run.
 JointColumns columns_of(const EffectRecordings& data, int joint,
                         const std::vector<MatrixXd>& shapes) {
@@ -177,13 +197,14 @@ JointColumns wave_columns(const EffectRecordings& data, const GenericStructure& 
                           const Eigen::Matrix2Xd& frequencies) {
   std::vector<MatrixXd> shapes;
   for (const EffectRun& run : data.runs) {
+    const Turns first(run.motion.q.col(structure.variables[0].joint), frequencies.row(0));
+    const Turns second(run.motion.q.col(structure.variables[1].joint), frequencies.row(1));
     MatrixXd both(run.motion.samples(), 2 * frequencies.cols());
     for (Index i = 0; i < frequencies.cols(); ++i) {
-      const Eigen::ArrayXd angle =
-          frequencies(0, i) * run.motion.q.col(structure.variables[0].joint) +
-          frequencies(1, i) * run.motion.q.col(structure.variables[1].joint);
-      both.col(2 * i) = angle.cos();
-      both.col(2 * i + 1) = angle.sin();
+      const auto& [c, s] = first.of(frequencies(0, i));
+      const auto& [other_c, other_s] = second.of(frequencies(1, i));
+      both.col(2 * i) = c * other_c - s * other_s;  // of the sum of both angles
+      both.col(2 * i + 1) = s * other_c + c * other_s;
     }
     shapes.push_back(std::move(both));
   }

@@ -65,6 +65,19 @@ struct Case {
   JointMotion motion;
 };
 
+/// One of the robot's tangents at a time.
+class Tangent {
+ public:
+  explicit Tangent(const Case& own) : tangents_(robot_tangents(own.robot)) {}
+  MatrixXd operator()(const std::string& name, int link, const JointMotion& motion,
+                      const VectorXd& beta) const {
+    return tangents_({name, link}, motion, beta).at({name, link});
+  }
+
+ private:
+  TangentFunction tangents_;
+};
+
 /// Central differences of the judge by a number of the robot, beside the tangent.
 double error_of(const Case& own, const MatrixXd& tangent,
                 const std::function<void(NumericRobot&, double)>& change) {
@@ -88,7 +101,7 @@ class RobotTangents : public testing::TestWithParam<const char*> {};
 
 TEST_P(RobotTangents, ByConstantsOfTheTableAreDifferencesOfTheTorque) {
   const Case own(GetParam());
-  const TangentFunction tangent = robot_tangents(own.robot);
+  const Tangent tangent(own);
   const auto check = [&](const std::string& name, int link, double NumericJoint::*constant) {
     const MatrixXd found = tangent(name, link, own.motion, own.beta);
     const double error = error_of(own, found, [&](NumericRobot& robot, double step) {
@@ -108,7 +121,7 @@ TEST_P(RobotTangents, ByConstantsOfTheTableAreDifferencesOfTheTorque) {
 
 TEST_P(RobotTangents, ByGravityAndPayloadAreDifferencesOfTheTorque) {
   const Case own(GetParam());
-  const TangentFunction tangent = robot_tangents(own.robot);
+  const Tangent tangent(own);
   const std::string gravity[] = {"d_gx", "d_gy", "d_gz"};
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_LT(
@@ -130,7 +143,7 @@ TEST_P(RobotTangents, ByGravityAndPayloadAreDifferencesOfTheTorque) {
 
 TEST_P(RobotTangents, ByTheMotionAreDifferencesOfTheTorque) {
   const Case own(GetParam());
-  const TangentFunction tangent = robot_tangents(own.robot);
+  const Tangent tangent(own);
   constexpr double kStep = 1e-5;
   const std::pair<const char*, MatrixXd JointMotion::*> parts[] = {
       {"d_q", &JointMotion::q}, {"d_qd", &JointMotion::dq}, {"d_qdd", &JointMotion::ddq}};
@@ -165,7 +178,7 @@ TEST_P(RobotTangents, ByTheMotionAreDifferencesOfTheTorque) {
 
 TEST_P(RobotTangents, OfAForceAreDifferencesOfItsPath) {
   const Case own(GetParam());
-  const TangentFunction tangent = robot_tangents(own.robot);
+  const Tangent tangent(own);
   const std::string axes[] = {"fx", "fy", "fz"};
   constexpr long double kStep = 1e-5L;
   for (int link = 1; link <= own.robot.model.size(); ++link) {
@@ -228,7 +241,7 @@ NumericRobot with_joint_along(const NumericRobot& robot, std::size_t j, int axis
 TEST(RobotTangents, OfAWrenchAreTorquesOfJointsAlongItsAxes) {
   // modified frames: a joint that is put behind link j stands in its frame
   const Case own("tests/robots/ur10e_oracle.robot");
-  const TangentFunction tangent = robot_tangents(own.robot);
+  const Tangent tangent(own);
   const std::string names[] = {"fx", "fy", "fz", "nx", "ny", "nz"};
   for (int component = 0; component < 6; ++component) {
     const MatrixXd found = tangent("wrench_" + names[component], 0, own.motion, own.beta);

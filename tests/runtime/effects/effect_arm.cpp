@@ -106,22 +106,23 @@ VectorXd planar_arm_values() {
 
 EffectRobot planar_arm_tangents() {
   EffectRobot robot;
-  robot.tangent = [](const std::string& name, int, const JointMotion& motion,
-                     const VectorXd& beta) -> MatrixXd {
+  robot.tangents = [](const TangentKey& wanted, const JointMotion& motion,
+                      const VectorXd& beta) -> TangentColumns {
+    const std::string& name = wanted.first;
     const ArrayXd q1 = motion.q.col(0), q12 = motion.q.col(0) + motion.q.col(1);
     MatrixXd torque(motion.q.rows(), 2);
     if (name == "payload_M") {
       // a mass in the origin of frame 2: L^2 of ZZ1R and L of MX1R
       torque.col(0) = kLength * kLength * motion.ddq.col(0).array() + kGravity * kLength * q1.cos();
       torque.col(1).setZero();
-      return torque;
+      return {{wanted, torque}};
     }
     // gravity (gx, gy) of the arm's plane: g is its y
     const double turn = name == "d_gx" ? std::acos(-1.0) / 2 : 0;
     torque.col(1) = beta[4] * (q12 + turn).cos() - beta[5] * (q12 + turn).sin();
     torque.col(0) =
         beta[1] * (q1 + turn).cos() - beta[2] * (q1 + turn).sin() + torque.col(1).array();
-    return torque;
+    return {{wanted, torque}};
   };
   return robot;
 }

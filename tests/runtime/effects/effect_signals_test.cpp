@@ -143,7 +143,7 @@ TEST(EffectSignals, WhatARecordingLacksIsSaid) {
   EXPECT_THROW(signals.variables(0, reading({"temp"}, 0), -1), std::invalid_argument);
   EXPECT_THROW(signals.variables(0, reading({"no_such"}, 0), -1), std::invalid_argument);
   EffectRecordings without = data;
-  without.robot.tangent = nullptr;
+  without.robot.tangents = nullptr;
   EffectSignals bare(without);
   bare.set_beta(test::planar_arm_values());
   EXPECT_THROW(bare.variables(0, reading({"d_gx"}, 0), 0), std::invalid_argument);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tools/dynid/effects/robot_tangents.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -69,7 +70,7 @@ MatrixXd column_of(const MatrixXd& array, Index column, Index width, Index rows)
   return result;
 }
 
-/// The programs of a robot, written when they are needed.
+/// The programs of a robot, written when they are needed; any number of threads may ask.
 class Tangents {
  public:
   explicit Tangents(const DescribedRobot& robot) : model_(robot.model), robot_(robot) {
@@ -79,129 +80,159 @@ class Tangents {
     }
   }
 
-  MatrixXd operator()(const std::string& name, int link, const JointMotion& motion,
-                      const VectorXd& beta) {
-    const Index n = model_.coordinate_count;
-    const VectorXd standard = nearest_standard(robot_, beta);
-    if (name == "d_gx" || name == "d_gy" || name == "d_gz") {
-      VectorXd direction = VectorXd::Zero(3);
-      direction[name[3] - 'x'] = 1;
-      const TangentProgram& program = kept(gravity_torque_, [&] { return gravity_torque(model_); });
-      return run(program.program, motion, values_of(program.chi, standard), direction).at("tau");
+  TangentColumns operator()(const TangentKey& wanted, const JointMotion& motion,
+                            const VectorXd& beta) {
+    const auto& [name, link] = wanted;
+    TangentColumns result;
+    if (name.starts_with("payload_")) {
+      result = payload(motion);
+    } else if (name.starts_with("contact_")) {
+      result = contact(link, motion);
+    } else {
+      const VectorXd standard = nearest_standard(robot_, beta);
+      if (name == "d_gx" || name == "d_gy" || name == "d_gz") {
+        result = gravity(motion, standard);
+      } else if (name == "d_q" || name == "d_qd" || name == "d_qdd") {
+        result = by_motion(motion, standard);
+      } else if (name.starts_with("wrench_")) {
+        result = wrench(motion, standard);
+      } else {
+        result = geometry(name, link, motion, standard);
+      }
     }
-    if (name == "d_q" || name == "d_qd" || name == "d_qdd") {
-      const std::string array = name == "d_q" ? "D_q" : name == "d_qd" ? "D_dq" : "D_ddq";
-      const TangentProgram& program =
-          kept(derivatives_, [&] { return motion_derivatives(model_); });
-      const auto outputs = run(program.program, motion, values_of(program.chi, standard), gravity_);
-      return column_of(outputs.at(array), coordinate(link), n, n);
-    }
-    if (name.starts_with("payload_")) return payload(name.substr(8), motion);
-    if (name.starts_with("contact_")) {
-      const auto [place, added] = jacobians_.try_emplace(link);
-      if (added) place->second = link_jacobian(model_, link);
-      const MatrixXd J = run(place->second, motion, {}, gravity_).at("J");
-      return J.middleCols(component(name.substr(8)) * n, n);
-    }
-    if (name.starts_with("wrench_")) {
-      const TangentProgram& program = kept(wrenches_, [&] { return joint_wrenches(model_); });
-      const MatrixXd w =
-          run(program.program, motion, values_of(program.chi, standard), gravity_).at("w");
-      return w.middleCols(component(name.substr(7)) * n, n);
-    }
-    return geometry(name, link, motion, standard);
+    if (result.contains(wanted)) return result;
+    throw std::invalid_argument(
+        fmt::format("robot_tangents(): there is no '{}' of link {}", name, link));
   }
 
  private:
-  template <typename Make>
-  static const TangentProgram& kept(std::optional<TangentProgram>& program, const Make& make) {
-    if (!program) program = make();
+  /// Written once; stays where it is.
+  template <typename Kept, typename Make>
+  const Kept& kept(std::unique_ptr<Kept>& program, const Make& make) {
+    const std::lock_guard lock(guard_);
+    if (!program) program = std::make_unique<Kept>(make());
     return *program;
   }
 
-  [[nodiscard]] Index coordinate(int link) const {
-    const int place = link >= 1 && link <= model_.size() ? model_.joint(link).coordinate : -1;
-    if (place < 0) throw std::invalid_argument("robot_tangents(): the link has no joint");
-    return place;
-  }
-
-  static Index component(const std::string& name) {
-    for (std::size_t k = 0; k < kWrench.size(); ++k) {
-      if (name == kWrench[k]) return static_cast<Index>(k);
+  TangentColumns gravity(const JointMotion& motion, const VectorXd& standard) {
+    const TangentProgram& program = kept(gravity_torque_, [&] { return gravity_torque(model_); });
+    const VectorXd chi = values_of(program.chi, standard);
+    TangentColumns result;
+    for (Index axis = 0; axis < 3; ++axis) {
+      const std::string name = std::string("d_g") + "xyz"[axis];
+      result[{name, 0}] = run(program.program, motion, chi, VectorXd::Unit(3, axis)).at("tau");
     }
-    throw std::invalid_argument("robot_tangents(): there is no component '" + name + "'");
-  }
-
-  MatrixXd payload(const std::string& name, const JointMotion& motion) {
-    if (!payload_) payload_ = payload_regressor(model_);
-    const Index n = model_.coordinate_count;
-    const auto width = static_cast<Index>(payload_->columns.size());
-    const MatrixXd Y = run(payload_->program, motion, {}, gravity_).at("Y");
-    MatrixXd result = MatrixXd::Zero(motion.q.rows(), n);
-    bool known = false;
-    for (std::size_t kind = 0; kind < kInertialCount; ++kind) {
-      if (name != kChiNames[kind]) continue;
-      known = true;
-      for (Index c = 0; c < width; ++c) {
-        for (const auto& term : payload_->columns[static_cast<std::size_t>(c)].terms) {
-          if (term.place == static_cast<int>(kind))
-            result += term.factor * column_of(Y, c, width, n);
-        }
-      }
-    }
-    if (!known) throw std::invalid_argument("robot_tangents(): there is no payload_" + name);
     return result;
   }
 
-  MatrixXd geometry(const std::string& name, int link, const JointMotion& motion,
-                    const VectorXd& standard) {
+  TangentColumns by_motion(const JointMotion& motion, const VectorXd& standard) {
+    const Index n = model_.coordinate_count;
+    const TangentProgram& program = kept(derivatives_, [&] { return motion_derivatives(model_); });
+    const auto outputs = run(program.program, motion, values_of(program.chi, standard), gravity_);
+    TangentColumns result;
+    for (int link = 1; link <= model_.size(); ++link) {
+      const int coordinate = model_.joint(link).coordinate;
+      if (coordinate < 0) continue;
+      for (const auto& [name, array] : {std::pair{"d_q", "D_q"}, {"d_qd", "D_dq"},
+                                        {"d_qdd", "D_ddq"}}) {
+        result[{name, link}] = column_of(outputs.at(array), coordinate, n, n);
+      }
+    }
+    return result;
+  }
+
+  TangentColumns payload(const JointMotion& motion) {
+    const PayloadProgram& program = kept(payload_, [&] { return payload_regressor(model_); });
+    const Index n = model_.coordinate_count;
+    const auto width = static_cast<Index>(program.columns.size());
+    const MatrixXd Y = run(program.program, motion, {}, gravity_).at("Y");
+    TangentColumns result;
+    for (std::size_t kind = 0; kind < kInertialCount; ++kind) {
+      MatrixXd& columns = result[TangentKey("payload_" + std::string(kChiNames[kind]), 0)];
+      columns = MatrixXd::Zero(motion.q.rows(), n);
+      for (Index c = 0; c < width; ++c) {
+        for (const auto& term : program.columns[static_cast<std::size_t>(c)].terms) {
+          if (term.place == static_cast<int>(kind)) {
+            columns += term.factor * column_of(Y, c, width, n);
+          }
+        }
+      }
+    }
+    return result;
+  }
+
+  TangentColumns contact(int link, const JointMotion& motion) {
+    std::unique_lock lock(guard_);
+    std::unique_ptr<Program>& place = jacobians_[link];
+    lock.unlock();
+    const Program& program = kept(place, [&] { return link_jacobian(model_, link); });
+    return parts_of(run(program, motion, {}, gravity_).at("J"), "contact_", link);
+  }
+
+  TangentColumns wrench(const JointMotion& motion, const VectorXd& standard) {
+    const TangentProgram& program = kept(wrenches_, [&] { return joint_wrenches(model_); });
+    const VectorXd chi = values_of(program.chi, standard);
+    return parts_of(run(program.program, motion, chi, gravity_).at("w"), "wrench_", 0);
+  }
+
+  /// Forces and moments of an array that has the columns of all joints for each.
+  [[nodiscard]] TangentColumns parts_of(const MatrixXd& array, const std::string& group,
+                                        int link) const {
+    const Index n = model_.coordinate_count;
+    TangentColumns result;
+    for (std::size_t k = 0; k < kWrench.size(); ++k) {
+      result[{group + kWrench[k], link}] = array.middleCols(static_cast<Index>(k) * n, n);
+    }
+    return result;
+  }
+
+  TangentColumns geometry(const std::string& name, int link, const JointMotion& motion,
+                          const VectorXd& standard) {
     static const std::map<std::string, DhConstant> kConstants = {{"d_alpha", DhConstant::kAlpha},
                                                                  {"d_d", DhConstant::kD},
                                                                  {"d_theta", DhConstant::kTheta},
                                                                  {"d_r", DhConstant::kR}};
     const auto constant = kConstants.find(name);
-    if (constant == kConstants.end()) {
-      throw std::invalid_argument("robot_tangents(): there is no '" + name + "'");
-    }
-    const auto [place, added] = geometry_.try_emplace({name, link});
-    if (added) place->second = geometry_derivative(model_, link, constant->second);
+    if (constant == kConstants.end()) return {};
+    std::unique_lock lock(guard_);
+    std::unique_ptr<TangentProgram>& place = geometry_[{name, link}];
+    lock.unlock();
+    const TangentProgram& program =
+        kept(place, [&] { return geometry_derivative(model_, link, constant->second); });
     const Index n = model_.coordinate_count, samples = motion.q.rows();
     const auto with_one_more = [&](const MatrixXd& part) {
       MatrixXd result = MatrixXd::Zero(samples, n + 1);
       result.leftCols(n) = part;
       return result;
     };
-    const TangentProgram& program = place->second;
     const JointMotion more{with_one_more(motion.q), with_one_more(motion.dq),
                            with_one_more(motion.ddq)};
     const auto outputs = run(program.program, more, values_of(program.chi, standard), gravity_);
-    return column_of(outputs.at("D"), n, n + 1, n);
+    return {{{name, link}, column_of(outputs.at("D"), n, n + 1, n)}};
   }
 
   RobotModel model_;
   DescribedRobot robot_;
   VectorXd gravity_;
-  std::optional<TangentProgram> gravity_torque_, derivatives_, wrenches_;
-  std::optional<PayloadProgram> payload_;
-  std::map<int, Program> jacobians_;
-  std::map<std::pair<std::string, int>, TangentProgram> geometry_;
+  std::mutex guard_;  // of the programs
+  std::unique_ptr<TangentProgram> gravity_torque_, derivatives_, wrenches_;
+  std::unique_ptr<PayloadProgram> payload_;
+  std::map<int, std::unique_ptr<Program>> jacobians_;
+  std::map<TangentKey, std::unique_ptr<TangentProgram>> geometry_;
 };
 
 }  // namespace
 
 TangentFunction robot_tangents(const DescribedRobot& robot) {
   auto tangents = std::make_shared<Tangents>(robot);
-  auto guard = std::make_shared<std::mutex>();  // programs are written when they are needed
-  return [tangents, guard](const std::string& name, int link, const JointMotion& motion,
-                           const VectorXd& beta) {
-    const std::lock_guard lock(*guard);
-    return (*tangents)(name, link, motion, beta);
+  return [tangents](const TangentKey& wanted, const JointMotion& motion, const VectorXd& beta) {
+    return (*tangents)(wanted, motion, beta);
   };
 }
 
 EffectRobot effect_robot(const DescribedRobot& robot) {
   EffectRobot result;
-  result.tangent = robot_tangents(robot);
+  result.tangents = robot_tangents(robot);
   result.joined_rotors = VectorXd::Zero(robot.model.coordinate_count);
   for (const Index place : joined_rotors(robot)) {
     const int link = static_cast<int>(place / static_cast<Index>(kChiCount)) + 1;

@@ -15,14 +15,14 @@ namespace dyngen::runtime {
 /// d_qdd of the coordinate that the link's joint is; d_alpha d_d d_theta d_r of the link's row of
 /// the DH table; d_gx d_gy d_gz; payload_XX .. payload_M; contact_fx .. contact_nz of a force or
 /// moment that the link puts on its surroundings. wrench_fx .. wrench_nz: column j is of joint j's
-/// own wrench. (N x n) each.
+/// own wrench. (N x n) each. Link 0 has those of gravity, of the payload and of the wrenches.
 ///
-/// Programs are written when they are first asked for. Base parameters do not say all of the
-/// bodies: where the file has numbers for all of them, those nearest to the file's are taken,
-/// otherwise those of the file that dynid writes. Derivatives by q, dq and ddq do not depend on
-/// that choice, others may.
-using TangentFunction = std::function<Eigen::MatrixXd(
-    const std::string& name, int link, const JointMotion& motion, const Eigen::VectorXd& beta)>;
+/// All that one program gives come together. Programs are written when they are first asked for.
+/// Base parameters do not say all of the bodies: where the file has numbers for all of them, those
+/// nearest to the file's are taken, otherwise those of the file that dynid writes. Derivatives by
+/// q, dq and ddq do not depend on that choice, others may.
+using TangentFunction = std::function<TangentColumns(
+    const TangentKey& wanted, const JointMotion& motion, const Eigen::VectorXd& beta)>;
 
 /// @throws std::invalid_argument  (the function) if there is no such name, or the link has no joint
 TangentFunction robot_tangents(const DescribedRobot& robot);
