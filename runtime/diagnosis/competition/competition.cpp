@@ -15,6 +15,7 @@
 #include "runtime/diagnosis/competition/second_scan.h"
 #include "runtime/diagnosis/competition/stops.h"
 #include "runtime/diagnosis/competition/within_rounding.h"
+#include "runtime/diagnosis/scans/in_parallel.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -60,6 +61,7 @@ class Competition {
     for (int round = 0;; ++round) {
       measure_noise();
       const EvidenceSystem system = model_system();
+      if (round == 0 && rests_at_once(system)) return std::move(result_);
       const std::string stage = round == 0 ? "structure beside the model"
                                            : "structure beside the model and what was found";
       Screening screening =
@@ -67,12 +69,6 @@ class Competition {
                  round == 0 ? nullptr : &result_.first, [&](double done) { tell(stage, done); });
       if (round == 0) result_.first = screening;
       result_.last = screening;
-      // where nothing repeats, what rests leave is taken for noise, in which nothing is seen
-      const bool ask = options_.rests || !result_.noise.from_periods;
-      if (round == 0 && ask && options_.until_rest) {
-        result_.resting = stops_.strongest(system, screening);
-        if (!result_.resting.empty()) return std::move(result_);
-      }
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
       const bool found = result_.noise.from_periods
                              ? next_winner(system, screening) || nameless_.next(system, screening)
@@ -122,6 +118,18 @@ class Competition {
     return options;
   }
 
+  /// Whether joints rest, asked before any effect is looked at.
+  bool rests_at_once(const EvidenceSystem& system) {
+    // where nothing repeats, what rests leave is taken for noise, in which nothing is seen
+    const bool ask = options_.rests || !result_.noise.from_periods;
+    if (!ask || !options_.until_rest) return false;
+    const Screening structure =
+        screen(screening_data_, system, scales_, result_.fit.point.beta, {}, structures_, nullptr,
+               [&](double done) { tell("joints that rest", done); });
+    result_.resting = stops_.strongest(system, structure);
+    return !result_.resting.empty();
+  }
+
   EvidenceSystem model_system() {
     return system_beside(train_, signals_, hypotheses_, result_, result_.fit.point, result_.noise,
                          system_options());
@@ -138,6 +146,22 @@ class Competition {
   /// Joints on which the columns of a hypothesis act.
   [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const {
     return joints_of(hypotheses_[place].effect, train_.joints());
+  }
+
+  /// Shapes of some effects between those of the grid.
+  void refine(const std::vector<std::size_t>& places, const EvidenceSystem& system,
+              Screening& screening) {
+    const auto refine_one = [&](std::size_t piece, std::size_t thread) {
+      NamedResult& named = screening.named[places[piece]];
+      if (screening.family_wise(named.surprise) > 0.5) return;
+      const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
+      named.best =
+          refined(train_, screening_data_.readers()[thread].whole, system, hypothesis, named.best,
+                  scales_.of(result_.fit.point.beta, hypothesis.effect));
+      named.surprise = surprise_of_refined(named, hypothesis);
+    };
+    in_parallel(places.size(), screening_data_.readers().size(), refine_one,
+                [&](double done) { tell("shapes of the strongest effects", done); });
   }
 
   bool next_winner(const EvidenceSystem& system, Screening& screening) {
@@ -160,15 +184,10 @@ class Competition {
     std::set<std::size_t> attempted;  // fitted and turned down
     std::set<std::size_t> stopped;    // explained by stops, or by rounding
     if (order.size() > kRefined) order.resize(kRefined);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      tell("shapes of the strongest effects", static_cast<double>(i) / kRefined);
-      NamedResult& named = screening.named[order[i]];
-      if (screening.family_wise(named.surprise) > 0.5) continue;
-      const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
-      named.best = refined(train_, signals_, system, hypothesis, named.best,
-                           scales_.of(result_.fit.point.beta, hypothesis.effect));
-      named.surprise = surprise_of_refined(named, hypothesis);
-      if (within_rounding(train_, hypothesis, named.best.effect)) stopped.insert(order[i]);
+    refine(order, system, screening);
+    for (const std::size_t place : order) {
+      const NamedResult& named = screening.named[place];
+      if (within_rounding(train_, hypotheses_[place], named.best.effect)) stopped.insert(place);
     }
     std::stable_sort(order.begin(), order.end(), best_first);
     std::optional<std::size_t> costly;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/diagnosis/scans/turning.h"
+
 namespace dyngen::runtime {
 namespace {
 
@@ -35,30 +37,6 @@ Extent extent_of(const EffectRecordings& data, int joint) {
   extent.speed = *place;
   return extent;
 }
-
-/// cos and sin of n q for rising n, by turning them on: no sine is computed after the first.
-class Turning {
- public:
-  Turning(const VectorXd& q, double first, double step)
-      : c_((first * q).array().cos()),
-        s_((first * q).array().sin()),
-        turn_c_((step * q).array().cos()),
-        turn_s_((step * q).array().sin()) {}
-
-  [[nodiscard]] MatrixXd now() const {
-    MatrixXd both(c_.size(), 2);
-    both << c_.matrix(), s_.matrix();
-    return both;
-  }
-  void next() {
-    const Eigen::ArrayXd c = c_ * turn_c_ - s_ * turn_s_;
-    s_ = s_ * turn_c_ + c_ * turn_s_;
-    c_ = c;
-  }
-
- private:
-  Eigen::ArrayXd c_, s_, turn_c_, turn_s_;
-};
 
 /// Orders at which squares have their largest peaks.
 std::vector<double> peaks_of(const std::vector<double>& squares, double first, double step) {
@@ -107,7 +85,8 @@ OrderScan scan_orders(const EffectRecordings& data, const EvidenceSystem& system
       for (std::size_t run = 0; run < runs.size(); ++run) {
         const RowBlock& rows = data.runs[run].rows;
         MatrixXd both(squared_speeds[run].size(), 4);
-        both.leftCols(2) = runs[run].now();
+        both.col(0) = runs[run].cosine();
+        both.col(1) = runs[run].sine();
         both.rightCols(2) = squared_speeds[run].asDiagonal() * both.leftCols(2);
         part.block(start, 4 * batch, rows.Y.rows(), 4) =
             rows.counted.col(joint).asDiagonal() * decimate(data.runs[run].decimator, both);

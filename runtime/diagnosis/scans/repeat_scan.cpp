@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "runtime/diagnosis/scans/turning.h"
+
 namespace dyngen::runtime {
 namespace {
 
@@ -70,15 +72,13 @@ JointColumns harmonic_columns(const EffectRecordings& data, int joint,
   for (std::size_t r = 0; r < data.runs.size(); ++r) {
     const EffectRun& run = data.runs[r];
     const Index rows = run.rows.Y.rows(), harmonics = harmonics_of(run, repeats[r], frequency);
-    for (Index k = 1; k <= harmonics; ++k) {
-      const double turn = 2 * M_PI * (static_cast<double>(k) - aside) / repeats[r];
-      for (Index row = 0; row < rows; ++row) {
-        const double counted = run.rows.counted(row, joint);
-        const double angle = turn * static_cast<double>(row);
-        part(start + row, column) = counted * std::cos(angle);
-        part(start + row, column + 1) = counted * std::sin(angle);
-      }
-      column += 2;
+    const double turn = 2 * M_PI / repeats[r];
+    Turning line(Eigen::ArrayXd::LinSpaced(rows, 0, static_cast<double>(rows - 1)),
+                 (1 - aside) * turn, turn);
+    const auto counted = run.rows.counted.col(joint).array();
+    for (Index k = 1; k <= harmonics; ++k, line.next()) {
+      part.col(column++).segment(start, rows) = counted * line.cosine();
+      part.col(column++).segment(start, rows) = counted * line.sine();
     }
     start += rows;
   }

@@ -2,14 +2,12 @@
 #include "runtime/diagnosis/scans/screening.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <stdexcept>
 #include <thread>
 
 #include "runtime/diagnosis/scans/generic_columns.h"
+#include "runtime/diagnosis/scans/in_parallel.h"
 #include "runtime/diagnosis/scans/line_scan.h"
 #include "runtime/diagnosis/scans/order_scan.h"
 #include "runtime/diagnosis/scans/repeat_scan.h"
@@ -102,19 +100,23 @@ class Screener {
     orders_.resize(static_cast<std::size_t>(data_.whole().joints()));
     std::vector<NoiseSurprises> noise(data_.readers().size());
     // orders first: hypotheses read their peaks
-    in_parallel(orders_.size(), {}, [&](std::size_t joint, std::size_t thread) {
+    const std::size_t threads = data_.readers().size();
+    const bool ordered = std::any_of(hypotheses_.begin(), hypotheses_.end(),
+                                     [](const Hypothesis& own) { return own.ordered; });
+    in_parallel(ordered ? orders_.size() : 0, threads, [&](std::size_t joint, std::size_t thread) {
       orders_[joint] = scan_orders(data_.whole(), system_, static_cast<int>(joint), !before_);
       if (!before_) noise[thread].add(orders_[joint].surrogates, 2);
     });
-    const std::size_t count = hypotheses_.size() + structures_.size();
-    in_parallel(count, progress, [&](std::size_t place, std::size_t thread) {
+    const auto piece = [&](std::size_t place, std::size_t thread) {
+      ScreeningData::Reader& reader = data_.readers()[thread];
       if (place < hypotheses_.size()) {
-        screening.named[place] = named(place, data_.readers()[thread], noise[thread]);
+        screening.named[place] = named(place, reader, noise[thread]);
       } else {
         const std::size_t structure = place - hypotheses_.size();
-        screening.generic[structure] = generic(structure, data_.readers()[thread], noise[thread]);
+        screening.generic[structure] = generic(structure, reader, noise[thread]);
       }
-    });
+    };
+    in_parallel(hypotheses_.size() + structures_.size(), threads, piece, progress);
     if (before_) {
       screening.tests = before_->tests;
     } else {
@@ -126,33 +128,6 @@ class Screener {
   }
 
  private:
-  /// Work for all threads, one piece after the other.
-  template <typename Work>
-  void in_parallel(std::size_t count, const ScreeningProgress& progress, const Work& work) {
-    std::atomic<std::size_t> next{0};
-    std::mutex guard;
-    std::exception_ptr failure;
-    const auto loop = [&](std::size_t thread) {
-      for (std::size_t i = next++; i < count; i = next++) {
-        try {
-          work(i, thread);
-        } catch (...) {
-          const std::lock_guard lock(guard);
-          if (!failure) failure = std::current_exception();
-          next = count;
-        }
-        if (thread == 0 && progress) {
-          progress(static_cast<double>(i) / static_cast<double>(count));
-        }
-      }
-    };
-    std::vector<std::thread> others;
-    for (std::size_t t = 1; t < data_.readers().size(); ++t) others.emplace_back(loop, t);
-    loop(0);
-    for (std::thread& thread : others) thread.join();
-    if (failure) std::rethrow_exception(failure);
-  }
-
   /// Trial shapes that are worth a look.
   [[nodiscard]] std::vector<EffectInstance> trials(std::size_t place,
                                                    const EffectScales& scales) const {
