@@ -12,6 +12,7 @@ namespace {
 constexpr double kGain = 2;          // by which squares must fall
 constexpr double kDeviations = 2.3;  // from what an effect would have done: 1 % of those there are
 constexpr double kInformative = 4;   // squares of the change: with less they say nothing for it
+constexpr double kJolt = 4;          // standard deviations that noise hardly has
 constexpr double kRefit = 10;        // by which squares may rise as the model's estimate changes
 
 }  // namespace
@@ -28,16 +29,29 @@ RunResiduals residuals_of(const EffectRecordings& data, const EffectPoint& point
   return residuals;
 }
 
-VectorXd whitened_squares(const EffectRecordings& data, const RunResiduals& residuals,
-                          const TorqueNoiseModel& noise) {
-  VectorXd squares = VectorXd::Zero(data.joints());
-  for (Index j = 0; j < squares.size(); ++j) {
-    for (std::size_t run = 0; run < residuals.size(); ++run) {
+namespace {
+
+/// Residuals in units of the noise, which is white there.
+RunResiduals whitened(const EffectRecordings& data, RunResiduals residuals,
+                      const TorqueNoiseModel& noise) {
+  for (std::size_t run = 0; run < residuals.size(); ++run) {
+    for (Index j = 0; j < data.joints(); ++j) {
       MatrixXd rest = residuals[run].col(j);
       Whitener(noise.joints[static_cast<std::size_t>(j)], data.runs[run].rows.counted.col(j))
           .apply(rest);
-      squares[j] += rest.squaredNorm();
+      residuals[run].col(j) = rest;
     }
+  }
+  return residuals;
+}
+
+}  // namespace
+
+VectorXd whitened_squares(const EffectRecordings& data, const RunResiduals& residuals,
+                          const TorqueNoiseModel& noise) {
+  VectorXd squares = VectorXd::Zero(data.joints());
+  for (const MatrixXd& run : whitened(data, residuals, noise)) {
+    squares += run.colwise().squaredNorm().transpose();
   }
   return squares;
 }
@@ -65,12 +79,17 @@ HeldoutProof heldout_proof(const EffectRecordings& heldout, EffectPoint before, 
                            const TorqueNoiseModel& noise) {
   before.initial.clear();
   after.initial.clear();
-  const RunResiduals first = residuals_of(heldout, before), second = residuals_of(heldout, after);
-  RunResiduals change = first;
-  for (std::size_t run = 0; run < change.size(); ++run) change[run] -= second[run];
-  return {whitened_squares(heldout, first, noise).sum(),
-          whitened_squares(heldout, second, noise).sum(),
-          whitened_squares(heldout, change, noise).sum(), 0, 0};
+  const RunResiduals first = whitened(heldout, residuals_of(heldout, before), noise);
+  const RunResiduals second = whitened(heldout, residuals_of(heldout, after), noise);
+  HeldoutProof proof;
+  for (std::size_t run = 0; run < first.size(); ++run) {
+    const auto one = first[run].array(), other = second[run].array();
+    const Eigen::ArrayXXd noise_like = (one.abs().min(other.abs()) < kJolt).template cast<double>();
+    proof.before += (noise_like * one.square()).sum();
+    proof.after += (noise_like * other.square()).sum();
+    proof.change += (noise_like * (one - other).square()).sum();
+  }
+  return proof;
 }
 
 }  // namespace dyngen::runtime

@@ -25,7 +25,8 @@ Eigen::VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint poi
 /// What is held out takes away `change` if the effect is there as it was estimated, within
 /// 2 sqrt(change) of its own noise; the estimate's errors, which the fit made with as much noise,
 /// take as many squares back as it has parameters, twice, in the ratio of both recordings'
-/// information, and are uncertain themselves.
+/// information, and are uncertain themselves. What is no noise with it and without it, a stop that
+/// was not seen or a jolt, says nothing and is left out.
 struct HeldoutProof {
   double before = 0, after = 0;
   double change = 0;      ///< squares of what the effect changes; one that is not there adds them

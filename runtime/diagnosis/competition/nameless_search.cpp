@@ -52,8 +52,10 @@ std::vector<const GenericResult*> NamelessSearch::candidates(const Screening& sc
 bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screening) {
   const std::vector<const GenericResult*> strongest = candidates(screening);
   if (!strongest.empty()) {
-    const std::vector<RestingJoint> resting =
+    std::vector<RestingJoint> resting =
         stops_.resting(system, screening, structures_[strongest.front()->structure]);
+    // what rests elsewhere jolts the whole arm: it is asked before anything is said without a name
+    if (resting.empty()) resting = stops_.strongest(system, screening);
     if (!resting.empty()) {
       result_.resting.insert(result_.resting.end(), resting.begin(), resting.end());
       return true;

@@ -190,6 +190,28 @@ TEST(HeldoutProof, IsOfSquaresBeforeAndAfter) {
               5 * std::sqrt(4.0 * static_cast<double>(data.equations())));
 }
 
+TEST(HeldoutProof, LeavesOutJoltsThatNothingExplains) {
+  const EffectInstance spring = test::known(test::spring_law(), 1, {0.4});
+  EffectRecordings data = test::arm_recordings(test::two_recordings({spring}, 8));
+  const EffectPoint before = at_rest(data, test::planar_arm_values(), {}),
+                    after = at_rest(data, test::planar_arm_values(), {spring});
+  const HeldoutProof undisturbed = heldout_proof(data, before, after, test::arm_noise());
+  const RunResiduals without = residuals_of(data, before), with = residuals_of(data, after);
+  Eigen::Index jolts = 0;
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    for (Eigen::Index k = 0; k < without[run].rows(); k += 30, ++jolts) {
+      // each against the spring
+      const double change = without[run](k, 1) - with[run](k, 1);
+      data.runs[run].rows.tau(k, 1) -= std::copysign(50 * test::kArmNoise, change);
+    }
+  }
+  ASSERT_GT(jolts, 20);
+  const HeldoutProof proof = heldout_proof(data, before, after, test::arm_noise());
+  EXPECT_NEAR(proof.change, undisturbed.change, 0.2 * undisturbed.change);
+  const double gain = proof.before - proof.after;
+  EXPECT_NEAR(gain, proof.change, 5 * 2 * std::sqrt(proof.change));
+}
+
 /// Friction that a held joint smooths about each reversal, of both joints.
 std::vector<EffectInstance> held_at_reversals() {
   const EffectLaw held = test::algebraic_law(

@@ -2,6 +2,7 @@
 // `dynid excite --for`: trajectories that tell the names of a finding apart.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -82,6 +83,31 @@ struct Pair {
   Json findings;
   double least_gain;  ///< over a random motion of the same length; in brackets what was seen
 };
+
+TEST(ExciteFor, WritesAsManyPeriodsAsNamesTake) {
+  const std::string arm = small_arm();
+  ExciteOptions options;
+  options.findings = written("f.json", stribeck_findings());
+  options.evaluations = 20;
+  const auto periods_at = [&](double noise) {
+    options.noise = {noise};
+    const SeparationReport report = make_separation_report(arm, options, {});
+    EXPECT_TRUE(report.designed.found) << report.designed.message;
+    EXPECT_EQ(report.trajectory.samples(), Eigen::Index{report.periods} * report.samples + 1);
+    return std::pair(report.periods, report.designed.separation.least);
+  };
+  const auto [usual, much] = periods_at(1e-3);
+  EXPECT_EQ(usual, 5);
+  const auto [most, little] = periods_at(1e3);
+  EXPECT_EQ(most, 20);
+  EXPECT_LT(20 * little, kSeparated);
+  // squares go with 1 / noise^2: here ten periods have half as much again as is needed
+  const auto [some, each] = periods_at(1e-3 * std::sqrt(10 * much / (1.5 * kSeparated)));
+  EXPECT_NEAR(some, 10, 1);
+  EXPECT_GE(some * each, 1.5 * kSeparated);
+  options.periods = 3;
+  EXPECT_EQ(periods_at(1e3).first, 3);
+}
 
 TEST(ExciteFor, SeparatesAliasesBetterThanARandomMotion) {
   const std::vector<Pair> pairs = {

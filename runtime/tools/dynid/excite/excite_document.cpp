@@ -81,13 +81,13 @@ ReportDocument excite_document(const ExciteReport& report, const std::string& co
         section_of("trajectory", "The motion",
                    {ReportText{sentence(recording_advice(report))},
                     motion_chart(model, report.limits, report.trajectory, rows)}));
-    document.sections.push_back(section_of(
-        "parameters", "How well parameters will be known",
-        {ReportText{fmt::format(
-             "Standard deviations after {} of white torque noise{}.",
-             report.repeats ? fmt::format("{} periods", report.options.periods) : "one pass",
-             report.prior ? ", with what the earlier recordings say" : "")},
-         deviations_of(report)}));
+    document.sections.push_back(
+        section_of("parameters", "How well parameters will be known",
+                   {ReportText{fmt::format(
+                        "Standard deviations after {} of white torque noise{}.",
+                        report.repeats ? fmt::format("{} periods", report.periods) : "one pass",
+                        report.prior ? ", with what the earlier recordings say" : "")},
+                    deviations_of(report)}));
   }
   if (!report.starts.empty()) {
     document.sections.push_back(

@@ -48,7 +48,7 @@ std::string json_of(const ExciteReport& report, const std::string& trajectory_pa
     json["trajectory"] = {{"file", trajectory_path},
                           {"period", report.duration},
                           {"samples_per_period", report.samples},
-                          {"periods", report.repeats ? report.options.periods : 1},
+                          {"periods", report.repeats ? report.periods : 1},
                           {"rate", report.samples / report.duration},
                           {"repeats", report.repeats}};
     json["condition"] = {{"random", number(report.random.condition)},

@@ -108,7 +108,7 @@ MotionWorth worth_of(const ExciteReport& report, const JointMotion& motion, cons
   MotionWorth worth;
   worth.condition = condition_number(model, motion, report.parameters);
   worth.unit_condition = condition_number(model, motion, report.parameters, true);
-  const int passes = report.repeats ? report.options.periods : 1;
+  const int passes = report.repeats ? report.periods : 1;
   const InformationOptions white{.torque_noise = report.noise,
                                  .parameters = report.parameters,
                                  .samples = static_cast<double>(motion.q.rows()) * passes,
@@ -131,7 +131,7 @@ void find_periodic(ExciteReport& report, const Progress& progress) {
   search.family.harmonics = options.harmonics;
   search.criterion = criterion_of(options);
   search.information.parameters = report.parameters;
-  search.information.samples = static_cast<double>(report.samples) * options.periods;
+  search.information.samples = static_cast<double>(report.samples) * report.periods;
   search.starts = options.starts;
   search.seed = options.seed;
   search.seconds = options.seconds;
@@ -151,7 +151,7 @@ void find_periodic(ExciteReport& report, const Progress& progress) {
   report.worth = worth_of(report, period, prior);
   report.random =
       worth_of(report, one_period(search.family, excitation.random, report.samples), prior);
-  report.trajectory = repeated(period, options.periods, report.duration);
+  report.trajectory = repeated(period, report.periods, report.duration);
 }
 
 /// The thesis's algorithm from several starts; each goes on until nothing is gained.
@@ -233,6 +233,7 @@ ExciteReport make_excite_report(const std::string& robot, const ExciteOptions& o
   const PeriodOfRows period = period_of_rows(options);
   report.duration = period.duration;
   report.samples = period.samples;
+  report.periods = options.periods.value_or(kUsualPeriods);
   if (!period.note.empty()) report.notes.push_back(period.note);
   if (options.form == "multistage") {
     find_multistage(report, tell);

@@ -10,6 +10,7 @@
 #include "runtime/recordings/trajectory_file.h"
 #include "runtime/report/document.h"
 #include "runtime/tools/dynid/excite/excite_limits.h"
+#include "runtime/tools/dynid/excite/excite_values.h"
 #include "runtime/tools/dynid/options/excite_options.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 
@@ -33,13 +34,14 @@ struct ExciteReport {
   bool prior = false;
 
   bool found = false;
-  std::string message;        ///< why nothing was found, or how the search ended
-  Trajectory trajectory;      ///< all periods
-  int samples = 0;            ///< of one period
-  double duration = 0;        ///< s, of one period
-  bool repeats = true;        ///< a multistage trajectory does not come back to its start
-  LimitShares shares;         ///< at kCheckRate
-  MotionWorth worth, random;  ///< of the result and of the first random trajectory
+  std::string message;          ///< why nothing was found, or how the search ended
+  Trajectory trajectory;        ///< all periods
+  int samples = 0;              ///< of one period
+  int periods = kUsualPeriods;  ///< that are written
+  double duration = 0;          ///< s, of one period
+  bool repeats = true;          ///< a multistage trajectory does not come back to its start
+  LimitShares shares;           ///< at kCheckRate
+  MotionWorth worth, random;    ///< of the result and of the first random trajectory
   std::vector<ExcitationStart> starts;
   int evaluations = 0;
 };

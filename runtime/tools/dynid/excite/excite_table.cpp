@@ -44,7 +44,7 @@ std::string deviations_table(const ExciteReport& report) {
   const LinearModel& model = report.robot.linear;
   std::string text =
       fmt::format("\nstandard deviations after {} of white torque noise{}\n",
-                  report.repeats ? fmt::format("{} periods", report.options.periods) : "one pass",
+                  report.repeats ? fmt::format("{} periods", report.periods) : "one pass",
                   report.prior ? ", with what the earlier recordings say" : "");
   text += fmt::format("{:<14}{:>14}{:>14}{:>14}{:>12}  {}\n", "parameter", "value", "std",
                       "% of value", "random/it", "unit");
@@ -84,7 +84,7 @@ std::string recording_advice(const ExciteReport& report) {
   return fmt::format(
       "record {} to {} periods of {:.6g} s (this file: {}) at {:.6g} Hz or a multiple, {} whole "
       "samples a period: then 'dynid fit' averages periods and measures the noise",
-      kLeast, kEnough, report.duration, report.options.periods, rate, report.samples);
+      kLeast, kEnough, report.duration, report.periods, rate, report.samples);
 }
 
 std::string limits_table(const LinearModel& model, const MotionLimits& limits,

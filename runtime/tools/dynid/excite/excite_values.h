@@ -30,6 +30,9 @@ struct PeriodOfRows {
 /// @throws std::invalid_argument  if that is fewer than 10 rows
 PeriodOfRows period_of_rows(const ExciteOptions& options);
 
+/// Periods that are written where the command line does not say how many.
+inline constexpr int kUsualPeriods = 5;
+
 /// Periods one after the other, with the end of the last one.
 Trajectory repeated(const JointMotion& period, int periods, double duration);
 

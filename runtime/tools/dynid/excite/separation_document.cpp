@@ -25,7 +25,7 @@ std::string sentence_of(const SeparationReport& report) {
   if (!report.designed.found) {
     return fmt::format("No trajectory tells {}: {}.", names_of(report), report.designed.message);
   }
-  const int periods = report.options.periods;
+  const int periods = report.periods;
   const double least = periods * report.designed.separation.least;
   if (least >= kSeparated) {
     return fmt::format("{} periods of this motion tell {}: {} squares of noise, {:.0f} are needed.",
@@ -40,7 +40,7 @@ std::string sentence_of(const SeparationReport& report) {
 
 /// Separation of each rival, on this motion and on a random one.
 ReportBars rival_bars(const SeparationReport& report) {
-  const int periods = report.options.periods;
+  const int periods = report.periods;
   ReportBars bars;
   bars.id = "separation";
   bars.title = "How far rivals are from what was found";
@@ -67,7 +67,7 @@ ReportTable archetypes_of(const SeparationReport& report) {
   for (const ArchetypeScore& score : report.designed.scores) {
     table.rows.push_back({words_of(score.archetype).motion,
                           score.joint < 0 ? "all joints" : joint_words(score.joint),
-                          report.options.periods * score.least});
+                          report.periods * score.least});
   }
   return table;
 }

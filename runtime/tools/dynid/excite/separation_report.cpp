@@ -140,6 +140,14 @@ VectorXd still_speeds(const MotionLimits& limits) {
   return kPart * speeds;
 }
 
+/// As many periods as tell the names apart, with room for a machine that is not as it was thought.
+int periods_that_separate(const Separation& of_one) {
+  constexpr double kRoom = 1.5;
+  constexpr int kMostPeriods = 20;
+  const double needed = std::ceil(kRoom * kSeparated / of_one.least);
+  return static_cast<int>(std::clamp(needed, double{kUsualPeriods}, double{kMostPeriods}));
+}
+
 }  // namespace
 
 Contest contest_of(const OpenFinding& finding, const std::string& path, const DescribedRobot& robot,
@@ -217,8 +225,9 @@ SeparationReport make_separation_report(
   report.designed = separate(problem, report.limits, search);
   if (!report.designed.found) return report;
   const PlannedMotion& motion = report.designed.motion;
+  report.periods = options.periods.value_or(periods_that_separate(report.designed.separation));
   report.trajectory =
-      repeated(motion.at(instants(motion, period.samples)), options.periods, period.duration);
+      repeated(motion.at(instants(motion, period.samples)), report.periods, period.duration);
   return report;
 }
 

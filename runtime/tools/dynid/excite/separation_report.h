@@ -10,11 +10,15 @@
 #include "runtime/discrimination/separating_trajectory.h"
 #include "runtime/recordings/trajectory_file.h"
 #include "runtime/report/document.h"
+#include "runtime/tools/dynid/excite/excite_values.h"
 #include "runtime/tools/dynid/excite/finding_file.h"
 #include "runtime/tools/dynid/options/excite_options.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 
 namespace dyngen::runtime {
+
+/// Squares of noise from which on names are apart (docs/diagnosis.md).
+inline constexpr double kSeparated = 20;
 
 /// Everything that `dynid excite --for` found, and what it was asked.
 struct SeparationReport {
@@ -30,11 +34,9 @@ struct SeparationReport {
   SeparatingTrajectory designed;   ///< separations are of one period
   double duration = 0;             ///< s, of one period
   int samples = 0;                 ///< of one period
+  int periods = kUsualPeriods;     ///< that are written
   Trajectory trajectory;           ///< all periods
 };
-
-/// Squares of noise from which on names are apart (docs/diagnosis.md).
-inline constexpr double kSeparated = 20;
 
 /// The finding as an effect of the catalogue, and its rivals on the robot.
 struct Contest {

@@ -43,9 +43,9 @@ std::string head(const SeparationReport& report) {
 
 std::string menu(const SeparationReport& report) {
   std::string text = fmt::format("\nseparation after {} periods of {:.6g} s, in squares of noise\n",
-                                 report.options.periods, report.duration);
+                                 report.periods, report.duration);
   const auto row = [&](double least, const std::string& what) {
-    text += fmt::format("{:>12.4g}  {}\n", report.options.periods * least, what);
+    text += fmt::format("{:>12.4g}  {}\n", report.periods * least, what);
   };
   if (report.designed.random.rivals.empty()) {
     text += fmt::format("{:>12}  random motions do not keep the limits\n", "-");
@@ -63,7 +63,7 @@ std::string menu(const SeparationReport& report) {
 
 std::string outcome(const SeparationReport& report) {
   const SeparatingTrajectory& designed = report.designed;
-  const int periods = report.options.periods;
+  const int periods = report.periods;
   const double least = periods * designed.separation.least;
   std::string text = fmt::format("{:>12.4g}  this one, refined from: {}\n", least,
                                  words_of(designed.archetype).motion);
@@ -113,7 +113,7 @@ std::string recording_advice(const SeparationReport& report) {
   return fmt::format(
       "record this file ({} periods of {:.6g} s) at {:.6g} Hz or a multiple, and diagnose it "
       "together with the recordings of before",
-      report.options.periods, report.duration, report.samples / report.duration);
+      report.periods, report.duration, report.samples / report.duration);
 }
 
 std::string separation_text(const SeparationReport& report) {
@@ -130,7 +130,7 @@ std::string separation_text(const SeparationReport& report) {
 
 std::string separation_json(const SeparationReport& report, const std::string& trajectory_path) {
   const SeparatingTrajectory& designed = report.designed;
-  const int periods = report.options.periods;
+  const int periods = report.periods;
   Json archetypes = Json::array();
   for (const ArchetypeScore& score : designed.scores) {
     archetypes.push_back({{"motion", words_of(score.archetype).motion},

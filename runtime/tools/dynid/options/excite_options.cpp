@@ -79,9 +79,11 @@ void add_excite(CLI::App& tool, std::string& robot, std::string& output, std::st
   excite->add_option("--rate", options.rate, "rows per second of the trajectory")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  excite->add_option("--periods", options.periods, "that are written one after the other")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  excite
+      ->add_option("--periods", options.periods,
+                   "that are written one after the other; default: 5, with --for up to 20 as the "
+                   "names take")
+      ->check(CLI::Range(1, 1000));
   excite->add_option("--starts", options.starts, "random trajectories to begin from")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()

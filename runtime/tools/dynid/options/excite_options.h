@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,10 @@ struct ExciteOptions {
   std::string form = "fourier";      ///< fourier, spline, multistage
   bool unit_columns = false;
   int harmonics = 5;
-  double duration = 10;       ///< s, one period
-  double base_frequency = 0;  ///< Hz, 1 / duration; 0: not given
-  double rate = 200;          ///< Hz, of the trajectory's rows
-  int periods = 5;            ///< that are written
+  double duration = 10;        ///< s, one period
+  double base_frequency = 0;   ///< Hz, 1 / duration; 0: not given
+  double rate = 200;           ///< Hz, of the trajectory's rows
+  std::optional<int> periods;  ///< that are written; none: as many as it takes
   int starts = 10;
   std::uint64_t seed = 1;
   double seconds = 60;
