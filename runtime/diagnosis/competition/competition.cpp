@@ -100,7 +100,11 @@ class Competition {
   [[nodiscard]] std::vector<EffectInstance> effects() const { return result_.fit.point.effects; }
 
   void measure_noise() {
-    const RunResiduals residuals = residuals_of(fitted_, result_.fit.point);
+    measure_noise_beside(residuals_of(fitted_, result_.fit.point));
+    if (options_.with_regressor) known_ = model_information(fitted_, result_.noise);
+  }
+
+  void measure_noise_beside(const RunResiduals& residuals) {
     result_.noise = torque_noise_model(fitted_, residuals, repeats_, options_.with_regressor);
     if (result_.noise.from_periods || result_.nameless.empty()) return;
     // noise is what the model leaves: structure that was found is none of it
@@ -155,9 +159,8 @@ class Competition {
       NamedResult& named = screening.named[places[piece]];
       if (screening.family_wise(named.surprise) > 0.5) return;
       const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
-      named.best =
-          refined(train_, screening_data_.readers()[thread].whole, system, hypothesis, named.best,
-                  scales_.of(result_.fit.point.beta, hypothesis.effect));
+      named.best = refined(train_, screening_data_.readers()[thread].whole, system, hypothesis,
+                           named.best, scales_.of(result_.fit.point.beta, hypothesis.effect));
       named.surprise = surprise_of_refined(named, hypothesis);
     };
     in_parallel(places.size(), screening_data_.readers().size(), refine_one,
@@ -330,7 +333,7 @@ class Competition {
   };
 
   [[nodiscard]] HeldoutProof proof_of(const EffectFit& next) const {
-    return heldout_proof(heldout_, result_.fit.point, next.point, result_.noise);
+    return heldout_proof(heldout_, result_.fit.point, next.point, result_.noise, known_);
   }
 
   bool accept(const NamedResult& named, const Screening& screening, EffectFit next) {
@@ -374,8 +377,8 @@ class Competition {
     winner.trial = named.best;
     winner.surprise = named.surprise;
     winner.at_stops = at_stops_;
-    winner.heldout_before = proof.before;
-    winner.heldout_after = proof.after;
+    winner.heldout_before = proof.residual_before;
+    winner.heldout_after = proof.residual_after;
     winner.others = screening.named;
     winner.generic = screening.generic;
     result_.winners.push_back(std::move(winner));
@@ -419,6 +422,7 @@ class Competition {
   std::optional<Doubt> doubt_;  // of this round
   bool at_stops_ = false;       // of the effect that is fitted
   CompetitionResult result_;
+  Eigen::MatrixXd known_;  // model_information() of what is fitted, at the noise of this round
   Stops stops_;
   EffectConditions conditions_;
   NamelessSearch nameless_;

@@ -20,7 +20,12 @@ Eigen::VectorXd whitened_squares(const EffectRecordings& data, const RunResidual
 Eigen::VectorXd heldout_squares(const EffectRecordings& heldout, EffectPoint point,
                                 const TorqueNoiseModel& noise);
 
-/// What held-out recordings say of one more effect: whitened squares of their residuals.
+/// (p x p) What recordings say of the model's parameters: W'W of its equations in units of the
+/// noise, the inverse of the covariance of what is fitted to them.
+Eigen::MatrixXd model_information(const EffectRecordings& data, const TorqueNoiseModel& noise);
+
+/// What held-out recordings say of one more effect: squares of their residuals, in units of what a
+/// prediction may miss: noise, and the errors of the model's parameters, which others gave.
 ///
 /// What is held out takes away `change` if the effect is there as it was estimated, within
 /// 2 sqrt(change) of its own noise; the estimate's errors, which the fit made with as much noise,
@@ -32,6 +37,8 @@ struct HeldoutProof {
   double change = 0;      ///< squares of what the effect changes; one that is not there adds them
   double parameters = 0;  ///< that were estimated
   double fitted = 0;      ///< squares that it explains of the recordings that it was fitted to
+  double residual_before = 0,
+         residual_after = 0;  ///< of all residuals, in units of the noise alone
   [[nodiscard]] bool helps() const;
   /// What the effect changes in them is enough to tell.
   [[nodiscard]] bool informs() const;
@@ -41,7 +48,9 @@ struct HeldoutProof {
   /// They are worse by more than a refit's noise, where the effect does not act in them.
   [[nodiscard]] bool harms() const;
 };
+/// @param known  model_information() of the recordings that were fitted; empty: the model has no
+///               parameters to be fitted
 HeldoutProof heldout_proof(const EffectRecordings& heldout, EffectPoint before, EffectPoint after,
-                           const TorqueNoiseModel& noise);
+                           const TorqueNoiseModel& noise, const Eigen::MatrixXd& known);
 
 }  // namespace dyngen::runtime

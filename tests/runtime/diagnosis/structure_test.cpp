@@ -2,9 +2,12 @@
 /// Structure that has no name or acts for a while: sinusoids, events, forms that are ruled out.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/names/naming.h"
@@ -183,11 +186,41 @@ TEST(HeldoutProof, IsOfSquaresBeforeAndAfter) {
   const EffectRecordings data = test::arm_recordings(test::two_recordings({spring}, 8));
   const EffectPoint before = at_rest(data, test::planar_arm_values(), {}),
                     after = at_rest(data, test::planar_arm_values(), {spring});
-  const HeldoutProof proof = heldout_proof(data, before, after, test::arm_noise());
+  const HeldoutProof proof = heldout_proof(data, before, after, test::arm_noise(), {});
   const double gain = proof.before - proof.after;
   EXPECT_NEAR(gain, proof.change, 5 * 2 * std::sqrt(proof.change));
   EXPECT_NEAR(proof.after, 2.0 * static_cast<double>(data.equations()),
               5 * std::sqrt(4.0 * static_cast<double>(data.equations())));
+}
+
+TEST(HeldoutProof, AllowsForErrorsOfTheModelsParameters) {
+  constexpr int kDraws = 60;
+  const EffectInstance spring = test::known(test::spring_law(), 1, {0.4});
+  std::mt19937 random(20261126);
+  std::normal_distribution<double> normal;
+  double allowed = 0, plain = 0;  // mean squares of what should have the deviation 1
+  for (unsigned draw = 0; draw < kDraws; ++draw) {
+    const EffectRecordings data =
+        test::arm_recordings(test::two_recordings({spring}, 100 + draw));
+    // parameters that a fiftieth of these recordings would give
+    const Eigen::MatrixXd known = 0.02 * model_information(data, test::arm_noise());
+    const Eigen::LLT<Eigen::MatrixXd> root(known);
+    ASSERT_EQ(root.info(), Eigen::Success);
+    const Eigen::VectorXd errors = root.matrixU().solve(
+        Eigen::VectorXd::NullaryExpr(known.rows(), [&] { return normal(random); }));
+    const Eigen::VectorXd beta = test::planar_arm_values() + errors;
+    const auto square_of = [&](const Eigen::MatrixXd& information) {
+      const HeldoutProof proof =
+          heldout_proof(data, at_rest(data, beta, {}), at_rest(data, beta, {spring}),
+                        test::arm_noise(), information);
+      return std::pow(proof.before - proof.after - proof.change, 2) / (4 * proof.change);
+    };
+    allowed += square_of(known) / kDraws;
+    plain += square_of({}) / kDraws;
+  }
+  // within three deviations of the mean of 60 squares of one
+  EXPECT_NEAR(allowed, 1, 3 * std::sqrt(2.0 / kDraws));
+  EXPECT_GT(plain, 4);
 }
 
 TEST(HeldoutProof, LeavesOutJoltsThatNothingExplains) {
@@ -195,7 +228,7 @@ TEST(HeldoutProof, LeavesOutJoltsThatNothingExplains) {
   EffectRecordings data = test::arm_recordings(test::two_recordings({spring}, 8));
   const EffectPoint before = at_rest(data, test::planar_arm_values(), {}),
                     after = at_rest(data, test::planar_arm_values(), {spring});
-  const HeldoutProof undisturbed = heldout_proof(data, before, after, test::arm_noise());
+  const HeldoutProof undisturbed = heldout_proof(data, before, after, test::arm_noise(), {});
   const RunResiduals without = residuals_of(data, before), with = residuals_of(data, after);
   Eigen::Index jolts = 0;
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
@@ -206,7 +239,7 @@ TEST(HeldoutProof, LeavesOutJoltsThatNothingExplains) {
     }
   }
   ASSERT_GT(jolts, 20);
-  const HeldoutProof proof = heldout_proof(data, before, after, test::arm_noise());
+  const HeldoutProof proof = heldout_proof(data, before, after, test::arm_noise(), {});
   EXPECT_NEAR(proof.change, undisturbed.change, 0.2 * undisturbed.change);
   const double gain = proof.before - proof.after;
   EXPECT_NEAR(gain, proof.change, 5 * 2 * std::sqrt(proof.change));
