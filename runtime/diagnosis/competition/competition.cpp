@@ -6,12 +6,11 @@
 #include <optional>
 #include <set>
 
+#include "runtime/diagnosis/competition/acceptance.h"
 #include "runtime/diagnosis/competition/beside_white_noise.h"
 #include "runtime/diagnosis/competition/effect_conditions.h"
-#include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/competition/likely_search.h"
 #include "runtime/diagnosis/competition/nameless_search.h"
-#include "runtime/diagnosis/competition/own_scatter.h"
 #include "runtime/diagnosis/competition/second_scan.h"
 #include "runtime/diagnosis/competition/stops.h"
 #include "runtime/diagnosis/competition/within_rounding.h"
@@ -53,13 +52,16 @@ class Competition {
         nameless_(train_, signals_, heldout_, hypotheses_, structures_, stops_, witness_,
                   system_options(), options_.false_alarm, result_),
         likely_(train_, signals_, hypotheses_, scales_, result_,
-                [this](const EffectInstance& effect) { return with(effect); }) {}
+                [this](const EffectInstance& effect) { return with(effect); }),
+        acceptance_(train_, signals_, fitted_, heldout_, hypotheses_, witness_, system_options(),
+                    result_) {}
 
   CompetitionResult run() {
     tell("the model alone", 0);
     result_.base = result_.fit = fit({});
     for (int round = 0;; ++round) {
       measure_noise();
+      acceptance_.begin_round();
       const EvidenceSystem system = model_system();
       if (round == 0 && rests_at_once(system)) return std::move(result_);
       const std::string stage = round == 0 ? "structure beside the model"
@@ -100,11 +102,7 @@ class Competition {
   [[nodiscard]] std::vector<EffectInstance> effects() const { return result_.fit.point.effects; }
 
   void measure_noise() {
-    measure_noise_beside(residuals_of(fitted_, result_.fit.point));
-    if (options_.with_regressor) known_ = model_information(fitted_, result_.noise);
-  }
-
-  void measure_noise_beside(const RunResiduals& residuals) {
+    const RunResiduals residuals = residuals_of(fitted_, result_.fit.point);
     result_.noise = torque_noise_model(fitted_, residuals, repeats_, options_.with_regressor);
     if (result_.noise.from_periods || result_.nameless.empty()) return;
     // noise is what the model leaves: structure that was found is none of it
@@ -168,8 +166,6 @@ class Competition {
   }
 
   bool next_winner(const EvidenceSystem& system, Screening& screening) {
-    doubt_.reset();
-    at_stops_ = false;
     std::vector<std::size_t> order;
     for (const NamedResult& named : screening.named) {
       if (named.seen && named.best.admissible && !is_winner(result_, named.hypothesis)) {
@@ -211,16 +207,12 @@ class Competition {
         stopped.insert(place);
         continue;
       }
-      at_stops_ = stops == Stops::Part::kBecause;
       stopped.insert(attempted.begin(), attempted.end());
       const NamedResult best = settled(named, order, stopped, screening);
       attempted.insert(best.hypothesis);
-      if (accept(best, screening)) return true;
+      if (accept(best, screening, stops == Stops::Part::kBecause)) return true;
     }
-    if (doubt_) {
-      at_stops_ = doubt_->at_stops;
-      if (keep(doubt_->named, screening, std::move(doubt_->fit))) return true;
-    }
+    if (acceptance_.accept_at_bound(screening)) return true;
     return costly && keep_without_name(*costly, system, screening);
   }
 
@@ -242,13 +234,12 @@ class Competition {
         if (!nearest || generic.surprise > nearest->surprise) nearest = &generic;
       }
     }
-    if (!nearest || !proof_of(with(named.best.effect)).helps()) return false;
+    if (!nearest || !acceptance_.proof_of(with(named.best.effect)).helps()) return false;
     return nameless_.describe(*nearest, system, name);
   }
 
   /// Where no motion repeats: see LikelySearch and likeliest_structure().
   bool next_likely(const EvidenceSystem& system, const Screening& screening) {
-    at_stops_ = false;
     tell("likelihoods", 0);
     const EvidenceSystem white =
         beside_white_noise(train_, signals_, hypotheses_, result_, system_options());
@@ -263,8 +254,7 @@ class Competition {
       const Stops::Part stops =
           stops_.part_in(white, beside, hypotheses_[likely.named.hypothesis], likely.named);
       if (stops == Stops::Part::kAll || conditions_.is_no_event(white, likely.named)) return false;
-      at_stops_ = stops == Stops::Part::kBecause;
-      return accept(likely.named, screening, likely.fit);
+      return accept(likely.named, screening, stops == Stops::Part::kBecause, likely.fit);
     };
     return likely_.next({system, screening}, plain, take) || nameless_.next(system, screening) ||
            nameless_.next_likely(plain);
@@ -312,10 +302,14 @@ class Competition {
     return best;
   }
 
-  /// Fits the model with one more effect, and keeps it if held-out recordings agree.
-  bool accept(const NamedResult& named, const Screening& screening) {
+  /// Fits the model with one more effect, and keeps it if nothing speaks against it.
+  bool accept(const NamedResult& named, const Screening& screening, bool at_stops) {
     if (screening.family_wise(named.surprise) > options_.false_alarm) return false;
-    return accept(named, screening, with(named.best.effect));
+    return accept(named, screening, at_stops, with(named.best.effect));
+  }
+  bool accept(const NamedResult& named, const Screening& screening, bool at_stops, EffectFit fit) {
+    const bool beyond_doubt = nameless_.sure(screening, named.surprise);
+    return acceptance_.accept({named, std::move(fit), beyond_doubt, at_stops}, screening);
   }
 
   EffectFit with(const EffectInstance& effect) {
@@ -323,67 +317,6 @@ class Competition {
     std::vector<EffectInstance> all = effects();
     all.push_back(effect);
     return fit(all);
-  }
-
-  /// An effect that won but for a bound that holds its estimate.
-  struct Doubt {
-    NamedResult named;
-    EffectFit fit;
-    bool at_stops;
-  };
-
-  [[nodiscard]] HeldoutProof proof_of(const EffectFit& next) const {
-    return heldout_proof(heldout_, result_.fit.point, next.point, result_.noise, known_);
-  }
-
-  bool accept(const NamedResult& named, const Screening& screening, EffectFit next) {
-    // a bound that holds the estimate, a falsifier, or a parameter that the data do not determine
-    // speak against the name
-    const int own = static_cast<int>(next.point.effects.size()) - 1;
-    bool doubtful = false, only_bounds = true;
-    for (const EffectRemark& remark : next.remarks) {
-      if (!next.objects(remark, own)) continue;
-      doubtful = true;
-      only_bounds = only_bounds && remark.kind == EffectRemark::Kind::kAtBound;
-    }
-    if (doubtful && only_bounds && !doubt_) doubt_ = Doubt{named, std::move(next), at_stops_};
-    return !doubtful && keep(named, screening, std::move(next));
-  }
-
-  /// @param point  a fit with the winners and, as its last, the effect
-  bool contradicted(const Hypothesis& hypothesis, const EffectPoint& point) {
-    return witness_.contradicts(hypotheses_, result_, hypothesis, point, system_options());
-  }
-
-  /// Keeps an effect that neither what is left nor the witness refutes and held-out recordings
-  /// speak for, or, of one beyond doubt, agree with; an event is not in them and must only not harm
-  /// them.
-  bool keep(const NamedResult& named, const Screening& screening, EffectFit next) {
-    const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
-    if (result_.noise.from_periods &&
-        scatter_refutes(train_, signals_, model_system(), hypothesis, named.best.effect)) {
-      return false;
-    }
-    if (contradicted(hypothesis, next.point)) return false;
-    HeldoutProof proof = proof_of(next);
-    proof.parameters = static_cast<double>(size_of(named.hypothesis));
-    proof.fitted = named.best.score.squares;
-    const bool event = hypothesis.windowed;  // is not in what is held out
-    const bool beyond_doubt = nameless_.sure(screening, named.surprise);
-    const bool proved = event ? !proof.harms() : proof.helps() || (beyond_doubt && proof.agrees());
-    if (!proved) return false;
-    Winner winner;
-    winner.hypothesis = named.hypothesis;
-    winner.trial = named.best;
-    winner.surprise = named.surprise;
-    winner.at_stops = at_stops_;
-    winner.heldout_before = proof.residual_before;
-    winner.heldout_after = proof.residual_after;
-    winner.others = screening.named;
-    winner.generic = screening.generic;
-    result_.winners.push_back(std::move(winner));
-    result_.fit = std::move(next);
-    return true;
   }
 
   /// A winner that the others made superfluous leaves.
@@ -419,14 +352,12 @@ class Competition {
   ScreeningData screening_data_;
   std::vector<double> repeats_;
   Witness& witness_;
-  std::optional<Doubt> doubt_;  // of this round
-  bool at_stops_ = false;       // of the effect that is fitted
   CompetitionResult result_;
-  Eigen::MatrixXd known_;  // model_information() of what is fitted, at the noise of this round
   Stops stops_;
   EffectConditions conditions_;
   NamelessSearch nameless_;
   LikelySearch likely_;
+  Acceptance acceptance_;
 };
 
 }  // namespace
