@@ -102,8 +102,9 @@ class Laboratory {
     ExciteOptions options;
     options.findings = folder_.written(
         "findings.json", diagnosis_json(diagnosis_report(diagnosis, robot_, catalogue_)));
-    options.periods = 2;
-    options.duration = asked_.next / options.periods;
+    constexpr int kPeriods = 2;
+    options.periods = kPeriods;
+    options.duration = asked_.next / kPeriods;
     options.evaluations = asked_.evaluations;
     return make_separation_report(robot_path_, options, {});
   }
