@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -174,6 +175,21 @@ TEST_P(RobotTangents, ByTheMotionAreDifferencesOfTheTorque) {
       }
     }
   }
+}
+
+TEST_P(RobotTangents, OfOneProgramComeTogether) {
+  const Case own(GetParam());
+  const TangentFunction tangents = robot_tangents(own.robot);
+  std::size_t moving = 0;
+  for (const JointModel& joint : own.robot.model.joints) moving += joint.coordinate >= 0 ? 1 : 0;
+  const int first = own.robot.model.joint(1).coordinate >= 0 ? 1 : 2;
+  EXPECT_EQ(tangents({"d_q", first}, own.motion, own.beta).size(), 3 * moving);
+  EXPECT_EQ(tangents({"d_gx", 0}, own.motion, own.beta).size(), 3u);
+  EXPECT_EQ(tangents({"payload_M", 0}, own.motion, own.beta).size(), 10u);
+  EXPECT_EQ(tangents({"contact_fx", first}, own.motion, own.beta).size(), 6u);
+  EXPECT_EQ(tangents({"wrench_nz", 0}, own.motion, own.beta).size(), 6u);
+  EXPECT_THROW(tangents({"wrench_mz", 0}, own.motion, own.beta), std::invalid_argument);
+  EXPECT_THROW(tangents({"d_q", 99}, own.motion, own.beta), std::invalid_argument);
 }
 
 TEST_P(RobotTangents, OfAForceAreDifferencesOfItsPath) {
