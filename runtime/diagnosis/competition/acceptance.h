@@ -34,7 +34,7 @@ class Acceptance {
   /// At each new noise of the result.
   void begin_round();
 
-  /// An effect beside which it is judged.
+  /// An effect, and what it is judged by.
   struct Candidate {
     NamedResult named;
     EffectFit fit;              ///< of the winners and, as its last, the effect

@@ -72,13 +72,15 @@ JointColumns harmonic_columns(const EffectRecordings& data, int joint,
   for (std::size_t r = 0; r < data.runs.size(); ++r) {
     const EffectRun& run = data.runs[r];
     const Index rows = run.rows.Y.rows(), harmonics = harmonics_of(run, repeats[r], frequency);
-    const double turn = 2 * M_PI / repeats[r];
-    Turning line(Eigen::ArrayXd::LinSpaced(rows, 0, static_cast<double>(rows - 1)),
-                 (1 - aside) * turn, turn);
-    const auto counted = run.rows.counted.col(joint).array();
-    for (Index k = 1; k <= harmonics; ++k, line.next()) {
-      part.col(column++).segment(start, rows) = counted * line.cosine();
-      part.col(column++).segment(start, rows) = counted * line.sine();
+    if (harmonics > 0) {
+      const double turn = 2 * M_PI / repeats[r];
+      Turning line(Eigen::ArrayXd::LinSpaced(rows, 0, static_cast<double>(rows - 1)),
+                   (1 - aside) * turn, turn);
+      const auto counted = run.rows.counted.col(joint).array();
+      for (Index k = 1; k <= harmonics; ++k, line.next()) {
+        part.col(column++).segment(start, rows) = counted * line.cosine();
+        part.col(column++).segment(start, rows) = counted * line.sine();
+      }
     }
     start += rows;
   }
