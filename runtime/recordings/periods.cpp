@@ -47,7 +47,7 @@ double noise_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
       (20.0 * static_cast<double>(n)));
 }
 
-/// Joints that move: positions without their mean, divided by their standard deviation. A noisy
+/// Joints that move, not those that a controller holds while others do: positions without their mean, divided by their standard deviation. A noisy
 /// joint repeats less well: it has a weight below 1, with which its mismatch is compared with
 /// kRepeats like that of the others.
 struct Motion {
@@ -64,7 +64,7 @@ Motion moving_joints(const Eigen::Ref<const Eigen::MatrixXd>& q) {
   Eigen::RowVectorXd noise(q.cols());
   for (Index j = 0; j < q.cols(); ++j) {
     noise(j) = noise_of(q.col(j));
-    constexpr double kRounding = 1e-12, kAboveNoise = 10, kAboveLargest = 1e-4;
+    constexpr double kRounding = 1e-12, kAboveNoise = 10, kAboveLargest = 3e-3;
     const double scale = 1 + q.col(j).cwiseAbs().maxCoeff();
     if (deviation(j) > kRounding * scale && deviation(j) > kAboveNoise * noise(j) &&
         deviation(j) > kAboveLargest * deviation.maxCoeff()) {

@@ -8,7 +8,7 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kLeastCounted = 0.35;  // of a joint's equations, beside its rests
+constexpr double kLeastCounted = 0.35;  // of the equations of a joint that moves, beside its rests
 
 /// Parameters of the model without effects: typical sizes are parts of its friction.
 Eigen::VectorXd model_alone(const EffectRecordings& train) {
@@ -24,7 +24,8 @@ Search::Search(const DiagnosisInput& input, Eigen::Index decimation)
       decimation_(decimation),
       parts_(input.heldout.empty() ? divided(input.train) : Division{input.train, input.heldout}),
       seen_{diagnosis_rows(parts_.train, decimation), {}},
-      views_(views_of(input, parts_, seen_)) {}
+      views_(views_of(input, parts_, seen_)),
+      moving_(counted_part(views_.train)) {}
 
 std::string Search::why_insufficient(bool with_regressor) const {
   return runtime::why_insufficient(views_.train, views_.proof, with_regressor);
@@ -55,7 +56,8 @@ bool Search::look_beside(const std::vector<RestingJoint>& found) {
   const ViewOptions beside =
       beside_rests({diagnosis_rows(parts_.train, decimation_), {}}, parts_.train, joints);
   Views views = views_of(input_, parts_, beside);
-  if (least_counted(views.train) < kLeastCounted) return false;
+  const Eigen::ArrayXd left = counted_part(views.train).array();
+  if ((left < kLeastCounted * moving_.array()).any()) return false;
   if (!whole_) whole_ = Whole{std::move(views_.train), std::move(views_.heldout)};
   seen_ = beside;
   views_ = std::move(views);

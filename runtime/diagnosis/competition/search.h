@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -45,6 +46,7 @@ class Search {
   Division parts_;
   ViewOptions seen_;
   Views views_;
+  Eigen::VectorXd moving_;  ///< (n) part of the equations in which a joint does not stand still
   /// Recordings with the joint state that was chosen and where joints rest, if the views are
   /// others.
   struct Whole {

@@ -135,10 +135,15 @@ VectorXd raw_floor(const EffectRecordings& data, const RunResiduals& residuals,
     const auto period = static_cast<Index>(std::llround(repeats[run] * factor));
     const Index rows = residuals[run].rows() - period;
     if (period < 1 || rows < 1) continue;
-    for (Index j = 0; j < squares.size(); ++j) {
+    for (int j = 0; j < data.joints(); ++j) {
+      const std::vector<bool> counted = counted_samples(data.runs[run], j);
       const auto e = residuals[run].col(j);
-      squares[j] += 0.5 * (e.tail(rows) - e.head(rows)).squaredNorm();
-      counts[j] += static_cast<double>(rows);
+      for (Index k = 0; k < rows; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        if (!counted[at] || !counted[at + static_cast<std::size_t>(period)]) continue;
+        squares[j] += 0.5 * std::pow(e[k + period] - e[k], 2);
+        counts[j] += 1;
+      }
     }
   }
   if (counts.minCoeff() < 1) return raw_rms(data, residuals);

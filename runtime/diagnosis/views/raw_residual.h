@@ -22,8 +22,8 @@ std::vector<bool> counted_samples(const EffectRun& run, int joint);
 /// (n) rms over all samples at which a joint has equations around it.
 Eigen::VectorXd raw_rms(const EffectRecordings& data, const RunResiduals& residuals);
 
-/// (n) rms of the torque's noise: of what differs between periods where the motion repeats, else of
-/// the residual itself.
+/// (n) rms of the torque's noise: of what differs between periods where the motion repeats and the
+/// joint has equations, else of the residual itself.
 /// @param repeats  in equations, of repeats_of()
 Eigen::VectorXd raw_floor(const EffectRecordings& data, const RunResiduals& residuals,
                           const std::vector<double>& repeats);

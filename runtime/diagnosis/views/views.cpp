@@ -184,10 +184,10 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
   return beside;
 }
 
-double least_counted(const EffectRecordings& data) {
+VectorXd counted_part(const EffectRecordings& data) {
   VectorXd counted = VectorXd::Zero(data.joints());
   for (const EffectRun& run : data.runs) counted += run.rows.counted.colwise().sum().transpose();
-  return counted.minCoeff() / static_cast<double>(data.equations());
+  return counted / static_cast<double>(data.equations());
 }
 
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,

@@ -37,8 +37,8 @@ struct ViewOptions {
 ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
                          std::vector<RestingJoint> resting);
 
-/// The smallest part of a joint's equations that count.
-double least_counted(const EffectRecordings& data);
+/// (n) the part of each joint's equations that counts.
+Eigen::VectorXd counted_part(const EffectRecordings& data);
 
 /// Equations of recordings that are not fitted, without those of joints that stand still, or rest
 /// in any of the fitted ones.

@@ -46,6 +46,25 @@ TEST(RawResidual, OfADelayThatIsKnownIsTheNoise) {
   }
 }
 
+/// Where a joint stands still friction may be anything: that is no noise.
+TEST(RawResidual, TheFloorIsOfEquationsThatCount) {
+  constexpr double kPeriod = 10;
+  EffectRecordings data = equations(late(30, 0.3, 0, 2));
+  RunResiduals residuals = raw_residuals(data, at_rest(data, test::planar_arm_values(), {}));
+  EffectRun& run = data.runs.front();
+  const auto factor = static_cast<double>(run.decimator.factor);
+  const std::vector<double> repeats = {kPeriod / (kStep * factor)};
+  const VectorXd before = raw_floor(data, residuals, repeats);
+  EXPECT_NEAR(before[1], kRawNoise, 0.05 * kRawNoise);
+  const Index some = run.rows.Y.rows() / 4;
+  run.rows.counted.col(1).head(some).setZero();
+  residuals.front().col(1).head(first_sample(run.decimator) + (some - 1) * run.decimator.factor)
+      .setConstant(7);
+  const VectorXd after = raw_floor(data, residuals, repeats);
+  EXPECT_EQ(after[0], before[0]);
+  EXPECT_NEAR(after[1], kRawNoise, 0.05 * kRawNoise);
+}
+
 /// u = x + T dx/dt by hand: the parallel filter passes this motion, so nothing but noise is left.
 TEST(RawResidual, OfALagThatIsKnownIsTheNoise) {
   constexpr double kLag = 0.016;

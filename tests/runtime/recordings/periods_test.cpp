@@ -87,6 +87,19 @@ TEST(Periods, WantsEveryMovingJointToRepeat) {
   EXPECT_EQ(runtime::find_periods(recording).samples, 500);
 }
 
+/// Friction holds it somewhere within what its controller lets pass, each time somewhere else.
+TEST(Periods, AJointThatIsHeldNeedNotRepeat) {
+  Recording recording = periodic(1.0, 0.002, 8000);
+  const auto held = [&](double part) {
+    recording.q.col(1) =
+        0.3 + part * std::sqrt(2.0) * (2.7 * recording.time.array().square()).sin();
+    return runtime::find_periods(recording).samples;
+  };
+  const double largest = column_rms(recording.q.rowwise() - recording.q.colwise().mean())[0];
+  EXPECT_EQ(held(0.001 * largest), 500);
+  EXPECT_EQ(held(0.01 * largest), 0);
+}
+
 TEST(Periods, FindsThePeriodOfANoisyJoint) {
   Recording recording = periodic(1.0, 0.002, 8000);
   std::mt19937 generator(3);
