@@ -10,10 +10,10 @@
 
 #include "runtime/effects/effect_rows.h"
 #include "runtime/effects/equation_stack.h"
-#include "runtime/estimation/burg.h"
+#include "runtime/evidence/lag_products.h"
+#include "runtime/evidence/period_differences.h"
 #include "runtime/evidence/slow_noise.h"
 #include "runtime/recordings/periods.h"
-#include "runtime/signals/interpolation.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -22,71 +22,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kLags = 40;
 constexpr double kLeastPart = 0.6;  // of the equations that differences between periods must give
-
-/// A joint's residuals between what does not count; sums of their products at all lags, and of how
-/// many pairs of samples.
-struct LagProducts {
-  std::vector<VectorXd> stretches;
-  VectorXd sums = VectorXd::Zero(kLags + 1);
-  VectorXd pairs = VectorXd::Zero(kLags + 1);
-
-  /// @param e  0 where `counted` is
-  void add(const VectorXd& e, const VectorXd& counted) {
-    for (VectorXd& stretch : stretches_of(e, counted)) stretches.push_back(std::move(stretch));
-    for (Index lag = 0; lag <= std::min(kLags, e.size() - 1); ++lag) {
-      const Index rows = e.size() - lag;
-      sums[lag] += e.tail(rows).dot(e.head(rows));
-      pairs[lag] += counted.tail(rows).dot(counted.head(rows));
-    }
-  }
-
-  [[nodiscard]] double samples() const { return pairs[0]; }
-  [[nodiscard]] VectorXd of_pairs() const { return sums.cwiseQuotient(pairs.cwiseMax(1)); }
-
-  /// Of the process that predicts best within the stretches. What pairs of samples give would be
-  /// wrong by a part of the variance at every frequency, about gaps above all: where noise of
-  /// accelerations is hundreds of times what the slow parts are, nothing would be left of those.
-  [[nodiscard]] VectorXd covariance() const {
-    return autocovariance(autoregression_of(stretches, kLags), kLags);
-  }
-};
-
-/// Differences between neighbouring periods of one joint, of all runs.
-struct DifferencesOfJoint {
-  struct Run {
-    VectorXd difference, counted;
-    double period;
-  };
-  LagProducts products;
-  std::vector<Run> runs;
-
-  void add(const VectorXd& e, const VectorXd& counted, double period) {
-    const auto whole = static_cast<Index>(std::llround(period));
-    const Index rows = e.size() - whole;
-    if (whole < 1 || 2 * static_cast<double>(rows) < period) return;
-    const VectorXd moved = shifted(e, static_cast<double>(whole) - period);
-    const VectorXd both = counted.tail(rows).cwiseProduct(counted.head(rows));
-    VectorXd difference = (e.tail(rows) - moved.head(rows)).cwiseProduct(both) / std::sqrt(2.0);
-    products.add(difference, both);
-    runs.push_back({std::move(difference), both, period});
-  }
-
-  [[nodiscard]] JointDifferences of_joint() const {
-    JointDifferences joint;
-    joint.process = fit_autoregression(products.covariance(), std::max(products.samples(), 1.0));
-    joint.covariance = products.covariance();
-    joint.samples = std::max(products.samples(), 1.0);
-    if (!(joint.process.innovation > 0)) return joint;
-    for (const Run& run : runs) {
-      const std::vector<DifferenceLine> own =
-          difference_lines(run.difference, run.counted, run.period, joint.process);
-      joint.lines.insert(joint.lines.end(), own.begin(), own.end());
-    }
-    return joint;
-  }
-};
 
 }  // namespace
 
@@ -204,7 +140,7 @@ std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
   for (const LagProducts& joint : observed) left.push_back(joint.covariance());
   std::mt19937_64 random(kSeed);
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<VectorXd> taken(joints.size(), VectorXd::Zero(kLags + 1));
+    std::vector<VectorXd> taken(joints.size(), VectorXd::Zero(kNoiseLags + 1));
     for (int draw = 0; draw < kDraws; ++draw) {
       RunResiduals noise = simulated(data, joints, random);
       const OfJoints before = lag_products(data, noise);
@@ -250,7 +186,7 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
                                     const std::vector<double>& repeats, bool fitted) {
   TorqueNoiseModel model;
   const OfJoints all = lag_products(data, residuals);
-  std::vector<DifferencesOfJoint> repeated(all.size());
+  std::vector<PeriodDifferences> repeated(all.size());
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     if (!(repeats[run] > 0)) continue;
     for (std::size_t j = 0; j < all.size(); ++j) {
@@ -262,12 +198,12 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   model.from_periods = true;
   for (std::size_t j = 0; j < all.size(); ++j) {
     model.from_periods = model.from_periods && all[j].samples() > 0 &&
-                         repeated[j].products.samples() >= kLeastPart * all[j].samples();
+                         repeated[j].samples() >= kLeastPart * all[j].samples();
   }
   const double period = model.from_periods ? mean_period(repeats) : 0;
   if (model.from_periods) {
     std::vector<JointDifferences> joints;
-    for (const DifferencesOfJoint& joint : repeated) joints.push_back(joint.of_joint());
+    for (PeriodDifferences& joint : repeated) joints.push_back(joint.of_joint());
     double longest = 0;
     for (const EffectRun& run : data.runs) {
       longest = std::max(longest, static_cast<double>(run.rows.Y.rows()));

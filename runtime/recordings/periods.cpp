@@ -64,7 +64,7 @@ Motion moving_joints(const Eigen::Ref<const Eigen::MatrixXd>& q) {
   Eigen::RowVectorXd noise(q.cols());
   for (Index j = 0; j < q.cols(); ++j) {
     noise(j) = noise_of(q.col(j));
-    constexpr double kRounding = 1e-12, kAboveNoise = 10, kAboveLargest = 3e-3;
+    constexpr double kRounding = 1e-12, kAboveNoise = 10, kAboveLargest = 1e-2;
     const double scale = 1 + q.col(j).cwiseAbs().maxCoeff();
     if (deviation(j) > kRounding * scale && deviation(j) > kAboveNoise * noise(j) &&
         deviation(j) > kAboveLargest * deviation.maxCoeff()) {

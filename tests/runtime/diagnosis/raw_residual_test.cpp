@@ -58,7 +58,9 @@ TEST(RawResidual, TheFloorIsOfEquationsThatCount) {
   EXPECT_NEAR(before[1], kRawNoise, 0.05 * kRawNoise);
   const Index some = run.rows.Y.rows() / 4;
   run.rows.counted.col(1).head(some).setZero();
-  residuals.front().col(1).head(first_sample(run.decimator) + (some - 1) * run.decimator.factor)
+  residuals.front()
+      .col(1)
+      .head(first_sample(run.decimator) + (some - 1) * run.decimator.factor)
       .setConstant(7);
   const VectorXd after = raw_floor(data, residuals, repeats);
   EXPECT_EQ(after[0], before[0]);
