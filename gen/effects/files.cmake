@@ -65,4 +65,5 @@ set(effect_files
   tooth_error.effect
   torque_crosstalk.effect
   torque_saturation.effect
+  tustin.effect
   viscous_coupling.effect)
