@@ -58,8 +58,9 @@ struct EffectState {
   SourcePosition position;
 };
 
-/// What may be mistaken for the effect, and how the two are told apart.
-struct EffectAlias {
+/// Another family, and what it has to do with the effect: what it may be mistaken for and how the
+/// two are told apart, or what it is a part of.
+struct RelatedFamily {
   std::string family;
   std::string text;
   SourcePosition position;
@@ -103,11 +104,12 @@ struct EffectFile {
   std::vector<EffectCondition> requirements;
   std::vector<EffectCondition> falsifiers;
   std::vector<EffectTest> tests;
-  std::vector<EffectAlias> aliases;
-  std::string hidden;     ///< what hides it
-  std::string separates;  ///< what tells it from others
-  std::string source;     ///< literature
-  std::string plot;       ///< the variable in which its signature is drawn
+  std::vector<RelatedFamily> aliases;
+  std::vector<RelatedFamily> contains;  ///< families that are this effect at some parameters
+  std::string hidden;                   ///< what hides it
+  std::string separates;                ///< what tells it from others
+  std::string source;                   ///< literature
+  std::string plot;                     ///< the variable in which its signature is drawn
   /// Variables that its equations read, without parameters and states, in the table's order.
   std::vector<std::string> variables;
 

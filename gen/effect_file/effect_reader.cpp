@@ -56,6 +56,7 @@ class Reader {
                                                    {"falsifier", &Reader::read_falsifier, true},
                                                    {"test", &Reader::read_test, true},
                                                    {"alias", &Reader::read_alias, true},
+                                                   {"contains", &Reader::read_contains, true},
                                                    {"hidden", &Reader::read_hidden},
                                                    {"separate", &Reader::read_separate},
                                                    {"source", &Reader::read_source},
@@ -395,11 +396,20 @@ class Reader {
   void read_alias(const EffectRowText& row, EffectRowCursor& cursor) {
     std::vector<std::string_view> names = effect_families();
     names.push_back("base");  // a parameter of the model without effects
+    read_family_and_text(row, cursor, names, effect_.aliases);
+  }
+
+  void read_contains(const EffectRowText& row, EffectRowCursor& cursor) {
+    read_family_and_text(row, cursor, effect_families(), effect_.contains);
+  }
+
+  void read_family_and_text(const EffectRowText& row, EffectRowCursor& cursor,
+                            const std::vector<std::string_view>& names,
+                            std::vector<RelatedFamily>& list) {
     const SourcePosition position = cursor.place();
     const auto place = choice(cursor, row.keyword, names);
     if (!place) return;
-    effect_.aliases.push_back(
-        {std::string(names[*place]), text_after_colon(cursor, row.keyword), position});
+    list.push_back({std::string(names[*place]), text_after_colon(cursor, row.keyword), position});
   }
 
   void check_complete() {

@@ -90,6 +90,7 @@ struct EffectLaw {
   std::vector<std::string> states;     ///< names
   int outputs = 1;                     ///< torques: 2 of a pair
   std::vector<std::string> aliases;    ///< families
+  std::vector<std::string> contains;   ///< families that are this one at some parameters
   std::vector<std::string> tests;      ///< of the name, by the words of effect files
   std::vector<EffectCondition> requirements, falsifiers;
 

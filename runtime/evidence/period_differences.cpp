@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t kFewestRuns = 3;  // that can have a course in common
 constexpr Index kHalfWaves = 4;         // of the longest run
+constexpr double kShared = 14;          // F of 4 and 8 degrees: one joint in a thousand by chance
 
 }  // namespace
 
@@ -63,25 +64,41 @@ MatrixXd PeriodDifferences::courses(const Run& run) const {
   return columns;
 }
 
-/// @return whether there were runs enough
-bool PeriodDifferences::take_out_what_runs_share() {
-  if (runs_.size() < kFewestRuns) return false;
-  std::vector<MatrixXd> columns;
-  MatrixXd products = MatrixXd::Zero(kHalfWaves, kHalfWaves);
+PeriodDifferences::Common PeriodDifferences::common() const {
+  Common common;
+  if (runs_.size() < kFewestRuns) return common;
+  std::vector<MatrixXd> products;
+  std::vector<VectorXd> own;  // sizes of each run
+  MatrixXd all = MatrixXd::Zero(kHalfWaves, kHalfWaves);
   VectorXd rest = VectorXd::Zero(kHalfWaves);
   for (const Run& run : runs_) {
-    columns.push_back(courses(run));
-    products += columns.back().transpose() * columns.back();
-    rest += columns.back().transpose() * run.difference;
+    common.columns.push_back(courses(run));
+    const MatrixXd& columns = common.columns.back();
+    products.emplace_back(columns.transpose() * columns);
+    const VectorXd part = columns.transpose() * run.difference;
+    own.emplace_back(products.back().completeOrthogonalDecomposition().solve(part));
+    all += products.back();
+    rest += part;
   }
-  const VectorXd sizes = products.completeOrthogonalDecomposition().solve(rest);
-  for (std::size_t r = 0; r < runs_.size(); ++r) runs_[r].difference -= columns[r] * sizes;
-  return true;
+  common.sizes = all.completeOrthogonalDecomposition().solve(rest);
+  double apart = 0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    apart += (own[r] - common.sizes).dot(products[r] * (own[r] - common.sizes));
+  }
+  const double shared = common.sizes.dot(all * common.sizes);
+  if (apart > 0) common.ratio = shared * static_cast<double>(runs_.size() - 1) / apart;
+  return common;
 }
+
+double PeriodDifferences::shared() const { return common().ratio; }
 
 JointDifferences PeriodDifferences::of_joint() {
   const double length = longest();
-  const bool shared = take_out_what_runs_share();
+  const Common all = common();
+  const bool shared = all.ratio > kShared;
+  for (std::size_t r = 0; shared && r < runs_.size(); ++r) {
+    runs_[r].difference -= all.columns[r] * all.sizes;
+  }
   LagProducts products;
   for (const Run& run : runs_) products.add(run.difference, run.counted);
   JointDifferences joint;

@@ -12,8 +12,8 @@ namespace dyngen::runtime {
 ///
 /// What the motion determines cancels in them. What drifts with the time since a run's beginning
 /// does not; where it is the same in all runs it is no noise: of three runs and more the course
-/// that they have in common is taken out, cosines of up to four half waves in the longest run, and
-/// low lines get back what noise loses by that.
+/// that they have in common, cosines of up to four half waves in the longest run, is taken out if
+/// there is far more of it than chance has, and low lines get back what noise loses by that.
 class PeriodDifferences {
  public:
   /// @param e        residuals of the run, 0 where `counted` is   @param counted  1 or 0
@@ -23,7 +23,12 @@ class PeriodDifferences {
   /// How many differences there are.
   [[nodiscard]] double samples() const;
 
-  /// What all runs give together.
+  /// F of 4 and 4 (runs - 1) degrees where the noise of courses is alike: squares of the course
+  /// that all runs have in common, over those by which they differ from it. 0 of fewer than three
+  /// runs.
+  [[nodiscard]] double shared() const;
+
+  /// What all runs give together, without the course that they have in common.
   [[nodiscard]] JointDifferences of_joint();
 
  private:
@@ -31,9 +36,14 @@ class PeriodDifferences {
     Eigen::VectorXd difference, counted;
     double period = 0;
   };
+  struct Common {
+    std::vector<Eigen::MatrixXd> columns;  // of each run
+    Eigen::VectorXd sizes;
+    double ratio = 0;
+  };
+  [[nodiscard]] Common common() const;
   [[nodiscard]] double longest() const;
   [[nodiscard]] Eigen::MatrixXd courses(const Run& run) const;
-  bool take_out_what_runs_share();
 
   std::vector<Run> runs_;
 };

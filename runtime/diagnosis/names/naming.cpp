@@ -5,12 +5,12 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/competition/own_scatter.h"
+#include "runtime/diagnosis/names/imitation.h"
 #include "runtime/diagnosis/names/stability.h"
 #include "runtime/diagnosis/names/unnamed_rival.h"
 
@@ -43,39 +43,6 @@ std::vector<std::size_t> rivals_of(const Winner& winner,
   return places;
 }
 
-/// Columns of two sets side by side; those of joints that one of them lacks are 0.
-JointColumns beside(const JointColumns& a, const JointColumns& b) {
-  std::set<int> joints(a.joints.begin(), a.joints.end());
-  joints.insert(b.joints.begin(), b.joints.end());
-  JointColumns both;
-  for (const int joint : joints) {
-    Eigen::MatrixXd part = Eigen::MatrixXd::Zero((a.parts.empty() ? b : a).parts.front().rows(),
-                                                 a.columns() + b.columns());
-    for (std::size_t i = 0; i < a.joints.size(); ++i) {
-      if (a.joints[i] == joint) part.leftCols(a.columns()) = a.parts[i];
-    }
-    for (std::size_t i = 0; i < b.joints.size(); ++i) {
-      if (b.joints[i] == joint) part.rightCols(b.columns()) = b.parts[i];
-    }
-    both.joints.push_back(joint);
-    both.parts.push_back(std::move(part));
-  }
-  return both;
-}
-
-/// Squares of a torque that a rival's columns cannot imitate beside the model: lambda (1 - c^2).
-/// @param torque  one whitened column
-double not_imitated(const EvidenceSystem& system, const JointColumns& torque,
-                    const JointColumns& rival) {
-  const Products products = system.products(beside(torque, rival), false);
-  const Eigen::Index k = rival.columns();
-  Products as_rest;
-  as_rest.whole = products.whole.bottomRightCorner(k, k);
-  as_rest.left = products.left.bottomRightCorner(k, k);
-  as_rest.rest = products.left.bottomLeftCorner(k, 1);
-  return std::max(0.0, products.left(0, 0) - score_of(as_rest, false).squares);
-}
-
 /// What held-out recordings say for a rival against a winner: squares of their residuals, where
 /// these are more than noise in units of what they are.
 double heldout_gain(const EffectRecordings& heldout, const TorqueNoiseModel& noise,
@@ -106,6 +73,34 @@ std::optional<EffectFit> with_rival(const EffectRecordings& fitted, const Compet
   } catch (const std::invalid_argument&) {
     return std::nullopt;  // no finite torque at the shapes that were tried
   }
+}
+
+/// What is another family at some parameters has to explain more than that one: else its further
+/// parameters are worth nothing.
+/// @param rivals  distance is what they explain, net   @param family, net  the winner's
+void drop_what_adds_nothing(std::vector<Rival>& rivals, const std::vector<Hypothesis>& hypotheses,
+                            const std::string& family, double net) {
+  std::map<std::string, double> explained = {{family, net}};
+  for (const Rival& rival : rivals) {
+    const auto entry = explained.try_emplace(rival.family, rival.distance).first;
+    entry->second = std::max(entry->second, rival.distance);
+  }
+  std::erase_if(rivals, [&](const Rival& rival) {
+    const std::vector<std::string>& parts = hypotheses[rival.hypothesis].effect.law.contains;
+    return std::any_of(parts.begin(), parts.end(), [&](const std::string& part) {
+      const auto entry = explained.find(part);
+      return entry != explained.end() && entry->second >= rival.distance;
+    });
+  });
+}
+
+std::map<std::string, Rival> best_of_families(std::vector<Rival> rivals) {
+  std::map<std::string, Rival> best;
+  for (Rival& rival : rivals) {
+    const auto [entry, added] = best.try_emplace(rival.family, rival);
+    if (!added && rival.distance > entry->second.distance) entry->second = std::move(rival);
+  }
+  return best;
 }
 
 /// How often the winner and each rival explain most of a half of the recordings.
@@ -170,7 +165,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   TrialScore found;  // the winner's own
   const JointColumns torque =
       system.whitened(effect_columns(data, signals, result.fit.point.effects[winner], {0}));
-  std::map<std::string, Rival> best_of;  // of each other family; distance: its squares, net
+  std::vector<Rival> rivals;  // distance: what they explain, net
   for (const std::size_t rival : rivals_of(own, hypotheses)) {
     const Hypothesis& hypothesis = hypotheses[rival];
     const EffectScales here = scales.of(result.fit.point.beta, hypothesis.effect);
@@ -193,24 +188,25 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
       naming.part_left = trial.score.part_left;
       found = std::move(trial);
     } else if (trial.admissible && hypothesis.effect.law.family != family) {
-      const auto [entry, added] = best_of.try_emplace(hypothesis.effect.law.family);
-      if (!added && net <= entry->second.distance) continue;
-      const double apart = not_imitated(
-          system, torque, hypothesis_columns(data, signals, system, hypothesis, trial.effect));
-      entry->second = {hypothesis.effect.law.family,
-                       short_name(hypothesis.effect),
-                       net,
-                       apart,
-                       rival,
-                       std::move(trial),
-                       0};
+      rivals.push_back({hypothesis.effect.law.family, short_name(hypothesis.effect), net, 0, rival,
+                        std::move(trial), 0});
     }
+  }
+  drop_what_adds_nothing(rivals, hypotheses, family, best);
+  std::map<std::string, Rival> best_of = best_of_families(std::move(rivals));
+  for (auto& [other, rival] : best_of) {
+    const Hypothesis& hypothesis = hypotheses[rival.hypothesis];
+    rival.apart =
+        imitation(system, torque,
+                  hypothesis_columns(data, signals, system, hypothesis, rival.trial.effect))
+            .left;
   }
   if (!hypotheses[own.hypothesis].windowed) {
     select_from_halves(data, signals, system, hypotheses, own, found, best, options.seed, naming,
                        best_of);
   }
-  UnnamedRival unnamed = unnamed_rival(data, signals, hypotheses, result, own, system);
+  UnnamedRival unnamed =
+      unnamed_rival(data, signals, hypotheses, result, own, found.effect, system);
   naming.unnamed = std::move(unnamed.what);
   naming.unnamed_distance = best - unnamed.net;
   for (auto& [other, rival] : best_of) {

@@ -8,12 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/diagnosis/names/imitation.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
 
 namespace dyngen::runtime {
 namespace {
 
 constexpr std::size_t kTried = 4;  // of each kind
+constexpr double kSame = 0.01;     // of a curve's squares: what the winner cannot imitate
 
 /// The first few places of those with the largest squares, net.
 std::vector<std::size_t> largest(std::vector<std::pair<double, std::size_t>> nets) {
@@ -31,7 +33,7 @@ std::vector<std::size_t> largest(std::vector<std::pair<double, std::size_t>> net
 UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
                            const std::vector<Hypothesis>& hypotheses,
                            const CompetitionResult& result, const Winner& winner,
-                           const EvidenceSystem& system) {
+                           const EffectInstance& found, const EvidenceSystem& system) {
   std::vector<int> joints = joints_of(hypotheses[winner.hypothesis].effect, data.joints());
   std::erase_if(joints, [&](int joint) {
     return std::any_of(result.resting.begin(), result.resting.end(),
@@ -72,6 +74,8 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
     nets.emplace_back(net_of(hypothesis, other.freest, result.noise), other.hypothesis);
   }
   const ScaleTable scales(data);
+  const JointColumns own =
+      hypothesis_columns(data, signals, system, hypotheses[winner.hypothesis], found);
   for (const std::size_t place : largest(std::move(nets))) {
     const Hypothesis& hypothesis = hypotheses[place];
     try {
@@ -79,6 +83,10 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
           try_hypothesis(data, signals, system, hypothesis, winner.others[place].freest.effect,
                          scales.of(result.fit.point.beta, hypothesis.effect), false);
       if (trial.admissible) continue;
+      JointColumns curve = hypothesis_columns(data, signals, system, hypothesis, trial.effect);
+      for (Eigen::MatrixXd& part : curve.parts) part = part * trial.score.coefficients;
+      const Imitation by_winner = imitation(system, curve, own);
+      if (by_winner.left < kSame * by_winner.whole) continue;  // the same curve, which has a name
       consider(net_of(hypothesis, trial, result.noise), "the form of " + short_name(trial.effect));
     } catch (const std::invalid_argument&) {
       continue;  // no finite torque there

@@ -17,10 +17,11 @@ struct UnnamedRival {
 
 /// Of what was strong in the winner's round, on one of its joints, what is best in its place.
 /// Joints that rest have none: what friction left there looks like much.
-/// @param system  the model with all other winners
+/// A form that the winner imitates is none: it is the same curve.
+/// @param found   the winner, with its latest shapes   @param system  the model with all others
 UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
                            const std::vector<Hypothesis>& hypotheses,
                            const CompetitionResult& result, const Winner& winner,
-                           const EvidenceSystem& system);
+                           const EffectInstance& found, const EvidenceSystem& system);
 
 }  // namespace dyngen::runtime

@@ -72,6 +72,22 @@ TEST(PeriodDifferences, WhatAllRunsShareIsNoNoise) {
   EXPECT_GT(own, 3);
 }
 
+/// Three runs of noise have hardly ever a course in common.
+TEST(PeriodDifferences, ChanceIsHardlyEverTakenOut) {
+  constexpr int kDraws = 2000;
+  std::mt19937_64 random(20261127);
+  int taken = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    PeriodDifferences joint;
+    for (int run = 0; run < 3; ++run) {
+      joint.add(noise(kSamples / 4, random), VectorXd::Ones(kSamples / 4), kPeriod / 4);
+    }
+    taken += joint.shared() > 14 ? 1 : 0;
+  }
+  std::printf("  %d of %d\n", taken, kDraws);
+  EXPECT_LE(taken, 8);
+}
+
 TEST(PeriodDifferences, TwoRunsHaveNothingInCommon) {
   std::mt19937_64 random(20261126);
   const VectorXd first = noise(kSamples, random), second = noise(kSamples, random);

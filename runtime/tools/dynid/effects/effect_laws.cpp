@@ -348,6 +348,7 @@ EffectLaw effect_law(const EffectFile& effect) {
   for (const auto& state : effect.states) law.states.push_back(state.name);
   for (const auto& test : effect.tests) law.tests.push_back(test.test);
   for (const auto& alias : effect.aliases) law.aliases.push_back(alias.family);
+  for (const auto& part : effect.contains) law.contains.push_back(part.family);
   for (const auto& condition : effect.requirements) {
     law.requirements.push_back(condition_of(condition, effect.parameters));
   }

@@ -90,6 +90,9 @@ std::string markdown_of(const EffectFile& effect) {
     text += fmt::format("- Like {}: {}\n", alias.family == "base" ? "the base model" : alias.family,
                         alias.text);
   }
+  for (const auto& part : effect.contains) {
+    text += fmt::format("- Contains {}: {}\n", part.family, part.text);
+  }
   for (const std::string& line : demands(effect)) text += "- Asked of the name: " + line + "\n";
   return text + "\n";
 }
@@ -186,6 +189,9 @@ std::string effect_text(const EffectFile& effect) {
   text += "\nwhat hides it: " + effect.hidden + "\nwhat separates it: " + effect.separates + "\n";
   for (const auto& alias : effect.aliases) {
     text += fmt::format("like {}: {}\n", alias.family, alias.text);
+  }
+  for (const auto& part : effect.contains) {
+    text += fmt::format("contains {}: {}\n", part.family, part.text);
   }
   for (const std::string& line : demands(effect)) text += "asked of the name: " + line + "\n";
   return text;
