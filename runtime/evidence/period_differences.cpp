@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::size_t kFewestRuns = 3;  // that can have a course in common
 constexpr Index kHalfWaves = 4;         // of the longest run
-constexpr double kShared = 14;          // F of 4 and 8 degrees: one joint in a thousand by chance
+constexpr double kPerhaps = 9.5;        // chi-square of 4: one in 20 by chance
+constexpr double kSurely = 25;          // beside noise without it, which is not known well
 
 }  // namespace
 
@@ -64,59 +65,100 @@ MatrixXd PeriodDifferences::courses(const Run& run) const {
   return columns;
 }
 
-PeriodDifferences::Common PeriodDifferences::common() const {
-  Common common;
-  if (runs_.size() < kFewestRuns) return common;
-  std::vector<MatrixXd> products;
-  std::vector<VectorXd> own;  // sizes of each run
-  MatrixXd all = MatrixXd::Zero(kHalfWaves, kHalfWaves);
-  VectorXd rest = VectorXd::Zero(kHalfWaves);
-  for (const Run& run : runs_) {
-    common.columns.push_back(courses(run));
-    const MatrixXd& columns = common.columns.back();
-    products.emplace_back(columns.transpose() * columns);
-    const VectorXd part = columns.transpose() * run.difference;
-    own.emplace_back(products.back().completeOrthogonalDecomposition().solve(part));
-    all += products.back();
-    rest += part;
-  }
-  common.sizes = all.completeOrthogonalDecomposition().solve(rest);
-  double apart = 0;
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
-    apart += (own[r] - common.sizes).dot(products[r] * (own[r] - common.sizes));
-  }
-  const double shared = common.sizes.dot(all * common.sizes);
-  if (apart > 0) common.ratio = shared * static_cast<double>(runs_.size() - 1) / apart;
-  return common;
-}
+JointDifferences PeriodDifferences::of_joint() const { return of_runs(runs_, 1); }
 
-double PeriodDifferences::shared() const { return common().ratio; }
-
-JointDifferences PeriodDifferences::of_joint() {
-  const double length = longest();
-  const Common all = common();
-  const bool shared = all.ratio > kShared;
-  for (std::size_t r = 0; shared && r < runs_.size(); ++r) {
-    runs_[r].difference -= all.columns[r] * all.sizes;
-  }
+/// @param restored  factor of the power of lines that the common course has been taken out of
+JointDifferences PeriodDifferences::of_runs(const std::vector<Run>& runs, double restored) const {
   LagProducts products;
-  for (const Run& run : runs_) products.add(run.difference, run.counted);
+  for (const Run& run : runs) products.add(run.difference, run.counted);
   JointDifferences joint;
   joint.samples = std::max(products.samples(), 1.0);
   joint.covariance = products.covariance();
   joint.process = fit_autoregression(joint.covariance, joint.samples);
   if (!(joint.process.innovation > 0)) return joint;
-  for (const Run& run : runs_) {
+  const double highest = 0.5 * static_cast<double>(kHalfWaves) / longest();
+  for (const Run& run : runs) {
     for (DifferenceLine line :
          difference_lines(run.difference, run.counted, run.period, joint.process)) {
-      const auto count = static_cast<double>(runs_.size());
-      if (shared && line.frequency * length < 0.5 * static_cast<double>(kHalfWaves)) {
-        line.power *= count / (count - 1);
-      }
+      if (line.frequency < highest) line.power *= restored;
       joint.lines.push_back(line);
     }
   }
   return joint;
+}
+
+std::optional<CommonCourse> PeriodDifferences::common_course() const {
+  if (runs_.size() < kFewestRuns) return std::nullopt;
+  Index rows = 0;
+  double periods = 0;
+  for (const Run& run : runs_) {
+    rows += run.difference.size();
+    periods += run.period / static_cast<double>(runs_.size());
+  }
+  MatrixXd columns(rows, kHalfWaves);
+  VectorXd differences(rows);
+  Index start = 0;
+  for (const Run& run : runs_) {
+    columns.middleRows(start, run.difference.size()) = courses(run);
+    differences.segment(start, run.difference.size()) = run.difference;
+    start += run.difference.size();
+  }
+  const Eigen::HouseholderQR<MatrixXd> decomposition(columns);
+  const MatrixXd basis = decomposition.householderQ() * MatrixXd::Identity(rows, kHalfWaves);
+  const VectorXd parts = basis.transpose() * differences;
+  CommonCourse course;
+  for (Index k = 0; k < kHalfWaves; ++k) {
+    const double frequency = 0.5 * static_cast<double>(k + 1) / longest();
+    course.lines.push_back(
+        {frequency, 1 - std::cos(2 * M_PI * frequency * periods), parts[k] * parts[k]});
+  }
+  differences -= basis * parts;
+  std::vector<Run> runs = runs_;
+  start = 0;
+  for (Run& run : runs) {
+    run.difference = differences.segment(start, run.difference.size());
+    start += run.difference.size();
+  }
+  const auto count = static_cast<double>(runs.size());
+  course.without = of_runs(runs, count / (count - 1));
+  return course;
+}
+
+double chi_square(const CommonCourse& course, const JointNoise& noise) {
+  double sum = 0;
+  for (const DifferenceLine& line : course.lines) {
+    sum += line.power / (line.passed * noise.density(line.frequency));
+  }
+  return sum;
+}
+
+std::vector<JointNoise> noise_of_periods(const std::vector<PeriodDifferences>& joints,
+                                         const DifferenceLengths& lengths) {
+  std::vector<JointDifferences> differences;
+  for (const PeriodDifferences& joint : joints) differences.push_back(joint.of_joint());
+  std::vector<JointNoise> noise = noise_of_differences(differences, lengths);
+  std::vector<std::size_t> drifting;
+  std::vector<CommonCourse> courses;
+  std::vector<JointDifferences> without = differences;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    std::optional<CommonCourse> course = joints[j].common_course();
+    if (!course || chi_square(*course, noise[j]) < kPerhaps) continue;
+    without[j] = course->without;
+    drifting.push_back(j);
+    courses.push_back(std::move(*course));
+  }
+  if (drifting.empty()) return noise;
+  const std::vector<JointNoise> beside = noise_of_differences(without, lengths);
+  bool all = true;
+  for (std::size_t i = 0; i < drifting.size(); ++i) {
+    const std::size_t j = drifting[i];
+    if (chi_square(courses[i], beside[j]) > kSurely) {
+      differences[j] = without[j];
+    } else {
+      all = false;
+    }
+  }
+  return all ? beside : noise_of_differences(differences, lengths);
 }
 
 }  // namespace dyngen::runtime

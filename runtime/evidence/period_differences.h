@@ -2,18 +2,27 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "runtime/evidence/slow_noise.h"
 
 namespace dyngen::runtime {
 
+/// What drifts with the time since a run's beginning, the same in all runs: cosines of up to four
+/// half waves in the longest of them.
+struct CommonCourse {
+  /// One a half wave: power is passed * density where the course is noise.
+  std::vector<DifferenceLine> lines;
+  /// The differences without it; low lines have back what noise loses by that.
+  JointDifferences without;
+};
+
+/// Of a course that is noise: a chi-square of as many degrees as it has lines.
+double chi_square(const CommonCourse& course, const JointNoise& noise);
+
 /// Differences between neighbouring periods of one joint, of all runs: (e_t - e_(t - P)) / sqrt(2).
-///
-/// What the motion determines cancels in them. What drifts with the time since a run's beginning
-/// does not; where it is the same in all runs it is no noise: of three runs and more the course
-/// that they have in common, cosines of up to four half waves in the longest run, is taken out if
-/// there is far more of it than chance has, and low lines get back what noise loses by that.
+/// What the motion determines cancels in them.
 class PeriodDifferences {
  public:
   /// @param e        residuals of the run, 0 where `counted` is   @param counted  1 or 0
@@ -23,29 +32,27 @@ class PeriodDifferences {
   /// How many differences there are.
   [[nodiscard]] double samples() const;
 
-  /// F of 4 and 4 (runs - 1) degrees where the noise of courses is alike: squares of the course
-  /// that all runs have in common, over those by which they differ from it. 0 of fewer than three
-  /// runs.
-  [[nodiscard]] double shared() const;
+  /// What all runs give together.
+  [[nodiscard]] JointDifferences of_joint() const;
 
-  /// What all runs give together, without the course that they have in common.
-  [[nodiscard]] JointDifferences of_joint();
+  /// Of three runs and more.
+  [[nodiscard]] std::optional<CommonCourse> common_course() const;
 
  private:
   struct Run {
     Eigen::VectorXd difference, counted;
     double period = 0;
   };
-  struct Common {
-    std::vector<Eigen::MatrixXd> columns;  // of each run
-    Eigen::VectorXd sizes;
-    double ratio = 0;
-  };
-  [[nodiscard]] Common common() const;
   [[nodiscard]] double longest() const;
   [[nodiscard]] Eigen::MatrixXd courses(const Run& run) const;
+  [[nodiscard]] JointDifferences of_runs(const std::vector<Run>& runs, double restored) const;
 
   std::vector<Run> runs_;
 };
+
+/// noise_of_differences() of all joints. Noise of its own in each run has hardly anything in common
+/// with the others: of a joint where the common course is far more than noise it is taken out.
+std::vector<JointNoise> noise_of_periods(const std::vector<PeriodDifferences>& joints,
+                                         const DifferenceLengths& lengths);
 
 }  // namespace dyngen::runtime

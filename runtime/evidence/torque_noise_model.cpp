@@ -202,13 +202,11 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   }
   const double period = model.from_periods ? mean_period(repeats) : 0;
   if (model.from_periods) {
-    std::vector<JointDifferences> joints;
-    for (PeriodDifferences& joint : repeated) joints.push_back(joint.of_joint());
     double longest = 0;
     for (const EffectRun& run : data.runs) {
       longest = std::max(longest, static_cast<double>(run.rows.Y.rows()));
     }
-    model.joints = noise_of_differences(joints, {period, longest});
+    model.joints = noise_of_periods(repeated, {period, longest});
   } else {
     std::vector<AutoregressiveNoise> joints;
     for (const LagProducts& products : all) {

@@ -14,106 +14,151 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kSamples = 2000;
-constexpr double kPeriod = 400;
-constexpr double kLow = 2.0 / kSamples;  // cycles a sample: below two periods of the run
+constexpr Index kSamples = 1000;
+constexpr double kPeriod = 200;
+constexpr double kLow = 1.0 / kSamples;  // cycles a sample: a period of the run
+constexpr DifferenceLengths kLengths{kPeriod, kSamples};
 
-/// First order noise of a memory of 20 samples and of variance 1.
-VectorXd noise(Index samples, std::mt19937_64& random) {
-  constexpr double kPole = 0.95;
+/// Parts of first order, of memories a factor of 4 apart and equal variance: about 1/f. Sum 1.
+const std::array<SlowNoise, 5>& parts() {
+  static const auto kParts = [] {
+    std::array<SlowNoise, 5> all;
+    double memory = 1;
+    for (SlowNoise& part : all) {
+      part = {std::exp(-1 / memory), std::sqrt(1.0 / static_cast<double>(all.size()))};
+      memory *= 4;
+    }
+    return all;
+  }();
+  return kParts;
+}
+
+double true_density(double frequency) {
+  double sum = 0;
+  for (const SlowNoise& part : parts()) sum += density(part, frequency);
+  return sum;
+}
+
+VectorXd noise(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
-  VectorXd series(samples);
-  double value = normal(random);
-  for (double& x : series) {
-    x = value;
-    value = kPole * value + std::sqrt(1 - kPole * kPole) * normal(random);
+  VectorXd series = VectorXd::Zero(kSamples);
+  for (const SlowNoise& part : parts()) {
+    double value = normal(random);
+    for (double& x : series) {
+      x += part.deviation * value;
+      value = part.pole * value + std::sqrt(1 - part.pole * part.pole) * normal(random);
+    }
   }
   return series;
 }
 
-/// A drift as the root of time since the beginning, of a size for each run.
-JointDifferences differences(const std::array<double, 3>& drifts, std::mt19937_64& random) {
+/// Of three runs that drift as the root of the time since their beginning.
+PeriodDifferences differences(const std::array<double, 3>& drifts, std::mt19937_64& random) {
   PeriodDifferences joint;
   for (const double drift : drifts) {
-    VectorXd e = noise(kSamples, random);
+    VectorXd e = noise(random);
     for (Index t = 0; t < kSamples; ++t) {
       e[t] += drift * std::sqrt(static_cast<double>(t) / kSamples);
     }
     joint.add(e, VectorXd::Ones(kSamples), kPeriod);
   }
-  return joint.of_joint();
+  return joint;
 }
 
-/// Power of the lowest lines over what the noise has there.
-double lowest_power(const std::array<double, 3>& drifts) {
-  constexpr int kDraws = 200;
+TEST(PeriodDifferences, ACommonCourseOfNoiseIsAChiSquare) {
+  constexpr int kDraws = 300;
   std::mt19937_64 random(20261126);
-  double sum = 0, count = 0;
+  double sum = 0, squares = 0;
+  JointNoise known;
+  for (const SlowNoise& part : parts()) known.slow.push_back(part);
   for (int draw = 0; draw < kDraws; ++draw) {
-    for (const DifferenceLine& line : differences(drifts, random).lines) {
-      if (line.frequency > kLow) continue;
-      sum += line.power / (line.passed * density(SlowNoise{0.95, 1}, line.frequency));
-      count += 1;
-    }
+    const auto course = differences({0, 0, 0}, random).common_course();
+    ASSERT_TRUE(course);
+    const double value = chi_square(*course, known);
+    sum += value / kDraws;
+    squares += value * value / kDraws;
   }
-  return sum / count;
+  std::printf("  mean %.2f of 4, variance %.2f of 8\n", sum, squares - sum * sum);
+  EXPECT_NEAR(sum, 4, 1.5);  // lines have a width, over which densities are not even
+  EXPECT_LT(squares - sum * sum, 12);
 }
 
-TEST(PeriodDifferences, NoiseKeepsItsLowLines) {
-  std::printf("  lowest lines over the noise's: %.3f\n", lowest_power({0, 0, 0}));
-  EXPECT_NEAR(lowest_power({0, 0, 0}), 1, 0.2);
+/// Mean logarithm of the density of the first of two joints at the lowest lines, over the truth.
+double lowest(const std::array<double, 3>& drifts) {
+  constexpr int kDraws = 20;
+  std::mt19937_64 random(20261126);
+  double sum = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const std::vector<PeriodDifferences> joints = {differences(drifts, random),
+                                                   differences({0, 0, 0}, random)};
+    const JointNoise first = noise_of_periods(joints, kLengths)[0];
+    sum += std::log(first.density(kLow) / true_density(kLow)) / kDraws;
+  }
+  return std::exp(sum);
 }
 
 TEST(PeriodDifferences, WhatAllRunsShareIsNoNoise) {
-  const double shared = lowest_power({12, 12, 12}), own = lowest_power({12, -12, 12});
-  std::printf("  with one drift in all runs %.3f, with a sign of its own in each %.3f\n", shared,
-              own);
-  EXPECT_NEAR(shared, 1, 0.2);
-  EXPECT_GT(own, 3);
+  const double none = lowest({0, 0, 0}), shared = lowest({8, 8, 8}), own = lowest({8, -8, 8});
+  std::printf(
+      "  density over the truth's: no drift %.2f, one in all runs %.2f, signs of their own %.2f\n",
+      none, shared, own);
+  EXPECT_NEAR(std::log(none), 0, std::log(1.3));
+  EXPECT_NEAR(std::log(shared), 0, std::log(1.3));
+  EXPECT_GT(own, 1.5 * shared);
 }
 
-/// Three runs of noise have hardly ever a course in common.
 TEST(PeriodDifferences, ChanceIsHardlyEverTakenOut) {
-  constexpr int kDraws = 2000;
+  constexpr int kDraws = 200;
   std::mt19937_64 random(20261127);
   int taken = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    PeriodDifferences joint;
-    for (int run = 0; run < 3; ++run) {
-      joint.add(noise(kSamples / 4, random), VectorXd::Ones(kSamples / 4), kPeriod / 4);
-    }
-    taken += joint.shared() > 14 ? 1 : 0;
+    const std::vector<PeriodDifferences> joints = {differences({0, 0, 0}, random),
+                                                   differences({0, 0, 0}, random)};
+    const std::vector<JointNoise> noise = noise_of_periods(joints, kLengths);
+    const std::vector<JointNoise> whole =
+        noise_of_differences({joints[0].of_joint(), joints[1].of_joint()}, kLengths);
+    taken +=
+        noise[0].deviation() != whole[0].deviation() || noise[1].deviation() != whole[1].deviation()
+            ? 1
+            : 0;
   }
-  std::printf("  %d of %d\n", taken, kDraws);
-  EXPECT_LE(taken, 8);
+  std::printf("  from %d of %d pairs of joints\n", taken, kDraws);
+  EXPECT_LE(taken, 6);
 }
 
 TEST(PeriodDifferences, TwoRunsHaveNothingInCommon) {
   std::mt19937_64 random(20261126);
-  const VectorXd first = noise(kSamples, random), second = noise(kSamples, random);
-  PeriodDifferences two, one;
-  for (const VectorXd& e : {first, second}) two.add(e, VectorXd::Ones(kSamples), kPeriod);
-  one.add(first, VectorXd::Ones(kSamples), kPeriod);
-  const JointDifferences both = two.of_joint(), alone = one.of_joint();
-  ASSERT_EQ(both.lines.size(), 2 * alone.lines.size());
-  const Index lag = static_cast<Index>(kPeriod);
-  const VectorXd difference = (first.tail(kSamples - lag) - first.head(kSamples - lag)) / M_SQRT2;
+  PeriodDifferences two;
+  for (int run = 0; run < 2; ++run) two.add(noise(random), VectorXd::Ones(kSamples), kPeriod);
+  EXPECT_FALSE(two.common_course());
+}
+
+TEST(PeriodDifferences, AreThoseOfNeighbouringPeriods) {
+  std::mt19937_64 random(20261126);
+  const VectorXd e = noise(random);
+  PeriodDifferences joint;
+  joint.add(e, VectorXd::Ones(kSamples), kPeriod);
+  const JointDifferences all = joint.of_joint();
+  const auto lag = static_cast<Index>(kPeriod);
+  const VectorXd difference = (e.tail(kSamples - lag) - e.head(kSamples - lag)) / M_SQRT2;
   const std::vector<DifferenceLine> by_hand =
-      difference_lines(difference, VectorXd::Ones(difference.size()), kPeriod, alone.process);
+      difference_lines(difference, VectorXd::Ones(difference.size()), kPeriod, all.process);
+  ASSERT_EQ(all.lines.size(), by_hand.size());
   for (std::size_t i = 0; i < by_hand.size(); ++i) {
-    EXPECT_NEAR(alone.lines[i].power, by_hand[i].power, 1e-9 * by_hand[i].power);
+    EXPECT_NEAR(all.lines[i].power, by_hand[i].power, 1e-9 * by_hand[i].power);
   }
 }
 
-TEST(PeriodDifferences, ARunOfHardlyAPeriodHasNone) {
+TEST(PeriodDifferences, OfARunOfHardlyAPeriodThereAreNone) {
   PeriodDifferences joint;
   std::mt19937_64 random(1);
-  joint.add(noise(500, random), VectorXd::Ones(500), kPeriod);
+  const VectorXd e = noise(random);
+  joint.add(e.head(250), VectorXd::Ones(250), kPeriod);
   EXPECT_EQ(joint.samples(), 0);
-  VectorXd counted = VectorXd::Ones(1000);
+  VectorXd counted = VectorXd::Ones(kSamples);
   counted.segment(100, 50).setZero();
-  joint.add(noise(1000, random).cwiseProduct(counted), counted, kPeriod);
-  EXPECT_EQ(joint.samples(), 1000 - 400 - 50);
+  joint.add(e.cwiseProduct(counted), counted, kPeriod);
+  EXPECT_EQ(joint.samples(), kSamples - 200 - 50);
 }
 
 }  // namespace
