@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kFewestRuns = 3;  // that can have a course in common
 constexpr Index kHalfWaves = 4;         // of the longest run
-constexpr double kPerhaps = 9.5;        // chi-square of 4: one in 20 by chance
+constexpr double kPerhaps = 5;          // chi-square of 4: it is noise with the drift in it
 constexpr double kSurely = 25;          // beside noise without it, which is not known well
 
 }  // namespace
