@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/evidence/evidence_system.h"
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "runtime/effects/equation_stack.h"
@@ -300,6 +302,30 @@ MatrixXd EvidenceSystem::absorbed(const JointColumns& whitened, Index from, Inde
   return inner;
 }
 
+namespace {
+
+/// Columns that are 0 but for a few rows each, as those of impulses are; nothing if they are not.
+/// With as many of them as there are seconds, dense products grow as the cube of the time.
+std::optional<Eigen::SparseMatrix<double>> sparse_of(const Eigen::Ref<const MatrixXd>& C) {
+  constexpr Index kMany = 64;  // columns: fewer are no burden
+  constexpr double kFew = 0.05;
+  if (C.cols() < kMany) return std::nullopt;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto most = static_cast<std::size_t>(kFew * static_cast<double>(C.size()));
+  for (Index c = 0; c < C.cols(); ++c) {
+    for (Index row = 0; row < C.rows(); ++row) {
+      if (C(row, c) == 0) continue;
+      if (entries.size() == most) return std::nullopt;
+      entries.emplace_back(static_cast<int>(row), static_cast<int>(c), C(row, c));
+    }
+  }
+  Eigen::SparseMatrix<double> sparse(C.rows(), C.cols());
+  sparse.setFromTriplets(entries.begin(), entries.end());
+  return sparse;
+}
+
+}  // namespace
+
 Products EvidenceSystem::products(const JointColumns& whitened, Index from, Index to,
                                   bool surrogates) const {
   const Index k = whitened.columns(), count = to - from;
@@ -307,14 +333,22 @@ Products EvidenceSystem::products(const JointColumns& whitened, Index from, Inde
   products.whole = MatrixXd::Zero(k, k);
   products.rest = VectorXd::Zero(k);
   products.noise = MatrixXd::Zero(k, surrogates ? noise_.cols() : 0);
+  MatrixXd inner = MatrixXd::Zero(basis_.cols(), k);
   for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
-    const auto C = whitened.parts[i].middleRows(from, count);
     const Index first = whitened.joints[i] * rows_ + from;
-    products.whole += C.transpose() * C;
-    products.rest += C.transpose() * rest_.segment(first, count);
-    if (surrogates) products.noise += C.transpose() * noise_.middleRows(first, count);
+    const auto add = [&](const auto& C) {
+      products.whole += MatrixXd(C.transpose() * C);
+      products.rest += C.transpose() * rest_.segment(first, count);
+      if (surrogates) products.noise += C.transpose() * noise_.middleRows(first, count);
+      inner += (C.transpose() * basis_.middleRows(first, count)).transpose();
+    };
+    const auto C = whitened.parts[i].middleRows(from, count);
+    if (const auto sparse = sparse_of(C)) {
+      add(*sparse);
+    } else {
+      add(C);
+    }
   }
-  const MatrixXd inner = absorbed(whitened, from, to);
   products.left = products.whole - inner.transpose() * inner;
   return products;
 }

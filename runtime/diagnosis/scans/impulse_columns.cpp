@@ -94,6 +94,27 @@ std::vector<Index> felt_impulses_of(const EffectRun& run, int joint, double stil
   return middles;
 }
 
+/// A triangle of torque about a sample, behind the parallel filter.
+/// @param equations  (rows of the run) 0 before
+void add_impulse(const EffectRun& run, int joint, Index middle,
+                 Eigen::Ref<Eigen::VectorXd> equations) {
+  const Index factor = run.decimator.factor, first = first_sample(run.decimator);
+  const Index width = width_of(run), reach = run.decimator.taps.size() / 2;
+  const Index last = run.motion.samples();
+  const Index from = std::max<Index>(0, middle - width), to = std::min(last, middle + width);
+  const Index begin = std::max<Index>(0, (from - reach - first) / factor);
+  const Index end = std::min(equations.size(), (to + reach - first) / factor + 1);
+  for (Index k = begin; k < end; ++k) {
+    const Index start = first + k * factor - reach;  // of the taps
+    for (Index i = std::max(from, start); i < std::min(to, start + run.decimator.taps.size());
+         ++i) {
+      const double height =
+          1 - std::abs(static_cast<double>(i - middle)) / static_cast<double>(width);
+      equations[k] += run.decimator.taps[i - start] * height * run.rows.counted(k, joint);
+    }
+  }
+}
+
 }  // namespace
 
 JointColumns impulse_columns(const EffectRecordings& data, int joint) {
@@ -108,20 +129,12 @@ JointColumns impulse_columns(const EffectRecordings& data, int joint) {
   Index start = 0, column = 0;
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     const EffectRun& here = data.runs[run];
-    const Index width = width_of(here);
-    MatrixXd impulses =
-        MatrixXd::Zero(here.motion.samples(), static_cast<Index>(middles[run].size()));
-    for (Index c = 0; c < impulses.cols(); ++c) {
-      const Index middle = middles[run][static_cast<std::size_t>(c)];
-      const Index end = std::min(impulses.rows(), middle + width);
-      for (Index k = std::max<Index>(0, middle - width); k < end; ++k) {
-        impulses(k, c) = 1 - std::abs(static_cast<double>(k - middle)) / static_cast<double>(width);
-      }
+    for (const Index middle : middles[run]) {
+      add_impulse(here, joint, middle,
+                  columns.parts[0].col(column).segment(start, here.rows.Y.rows()));
+      ++column;
     }
-    columns.parts[0].block(start, column, here.rows.Y.rows(), impulses.cols()) =
-        here.rows.counted.col(joint).asDiagonal() * decimate(here.decimator, impulses);
     start += here.rows.Y.rows();
-    column += impulses.cols();
   }
   return columns;
 }
