@@ -58,6 +58,15 @@ TEST(EffectFile, ReadsWhatIsRight) {
   EXPECT_EQ(effect.variables, (std::vector<std::string>{"qd", "sign_qd"}));
   EXPECT_TRUE(effect.runs_in_controller());
   EXPECT_EQ(spell(effect.torque[0]), "A*exp(-(qd/vs)^2)*sign(qd)");
+  EXPECT_TRUE(effect.contains.empty());
+}
+
+TEST(EffectFile, ReadsWhatAnEffectContains) {
+  const EffectFile effect = parse_effect_file(
+      text_with(3, "title A bump\ncontains stribeck : where it is narrow"), "bump.effect");
+  ASSERT_EQ(effect.contains.size(), 1U);
+  EXPECT_EQ(effect.contains[0].family, "stribeck");
+  EXPECT_EQ(effect.contains[0].text, "where it is narrow");
 }
 
 struct Mistake {
@@ -80,6 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::ValuesIn(std::vector<Mistake>{
         {"Keyword", 3, "titel A bump", "3:1: error: unknown keyword 'titel'"},
         {"Family", 2, "family stribek", "2:8: error: unknown word 'stribek' in 'family'"},
+        {"Contains", 3, "contains base : all", "3:10: error: unknown word 'base' in 'contains'"},
         {"Twice", 3, "effect bump", "3:1: error: row 'effect' stands twice"},
         {"Kind", 4, "kind stateful", "1:1: error: 'kind stateful' without a row 'state'"},
         {"Tangent", 8, "torque A*d_q*vs*sign(qd)",

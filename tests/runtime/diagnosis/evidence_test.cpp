@@ -203,6 +203,36 @@ TEST(EvidenceSystem, SquaresGrowAsTheNoncentralitySays) {
   EXPECT_NEAR(score.coefficients[0], 0.2, 4 * 0.2 / std::sqrt(lambda));
 }
 
+/// Of a hundred columns the rows that they have are multiplied, of half as many all rows.
+TEST(EvidenceSystem, ProductsOfColumnsOfAFewRowsAreTheSame) {
+  const EffectRecordings data = arm_recordings(20, 0.1, 3);
+  const EvidenceSystem system(data, residuals_at_truth(data), white(0.1), {});
+  constexpr Index kMany = 100, kHalf = 50;
+  JointColumns all{{0, 1}, {}};
+  for (int joint = 0; joint < 2; ++joint) {
+    MatrixXd columns = MatrixXd::Zero(data.equations(), kMany);
+    for (Index c = 0; c < kMany; ++c) {
+      for (Index row = 0; row < 12; ++row) {  // neighbours overlap
+        columns(15 * c + row + 10 * joint, c) = 1 + 0.1 * static_cast<double>(row * row);
+      }
+    }
+    all.parts.push_back(system.whitened({{joint}, {columns}}).parts[0]);
+  }
+  const Products together = system.products(all);
+  for (const Index first : {Index{0}, kHalf}) {
+    const JointColumns half{
+        all.joints, {all.parts[0].middleCols(first, kHalf), all.parts[1].middleCols(first, kHalf)}};
+    const Products part = system.products(half);
+    const auto same = [](const MatrixXd& a, const MatrixXd& b) {
+      return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+    };
+    EXPECT_LT(same(together.whole.block(first, first, kHalf, kHalf), part.whole), 1e-12);
+    EXPECT_LT(same(together.left.block(first, first, kHalf, kHalf), part.left), 1e-12);
+    EXPECT_LT(same(together.rest.segment(first, kHalf), part.rest), 1e-12);
+    EXPECT_LT(same(together.noise.middleRows(first, kHalf), part.noise), 1e-12);
+  }
+}
+
 TEST(Surprise, IsTheLogarithmOfTheTailAlsoWhereItIsTooSmallForADouble) {
   EXPECT_NEAR(surprise_of(3.841, 1), -std::log(0.05), 1e-3);
   EXPECT_EQ(surprise_of(0, 3), 0);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -90,6 +89,33 @@ TEST(ImpulseColumns, AreFewWhereAJointStandsForLong) {
   };
   EXPECT_EQ(part(standing, from + 5, to - 5), 0);
   EXPECT_NEAR(part(standing, 0, from - 20), part(moving, 0, from - 20), 1e-9);
+}
+
+/// Each is a triangle of torque about some sample, as the equations' filter passes it.
+TEST(ImpulseColumns, ArePassedByTheFilter) {
+  constexpr Index kFactor = 6;
+  RowOptions rows;
+  rows.decimation = kFactor;
+  const EffectRecordings data = effect_recordings(
+      test::planar_arm(), test::planar_arm_tangents(),
+      test::measured({test::sines(10, 0.004)}, test::planar_arm_values(), {}, 0.1, 0, 1), rows,
+      {true, true});
+  const EffectRun& run = data.runs.front();
+  const Index samples = run.motion.samples(), width = kFactor / 2;
+  MatrixXd triangles = MatrixXd::Zero(samples, samples);
+  for (Index middle = 0; middle < samples; ++middle) {
+    for (Index k = std::max<Index>(0, middle - width); k < std::min(samples, middle + width); ++k) {
+      triangles(k, middle) = 1 - std::abs(static_cast<double>(k - middle)) / width;
+    }
+  }
+  const MatrixXd passed = run.rows.counted.col(1).asDiagonal() * decimate(run.decimator, triangles);
+  const MatrixXd impulses = impulse_columns(data, 1).parts[0];
+  ASSERT_GT(impulses.cols(), 10);
+  for (Index c = 0; c < impulses.cols(); ++c) {
+    const double nearest =
+        (passed.colwise() - impulses.col(c)).colwise().lpNorm<Eigen::Infinity>().minCoeff();
+    EXPECT_LT(nearest, 1e-14) << c;
+  }
 }
 
 TEST(SquaresOfFew, RiseToThoseOfAllColumns) {
@@ -200,8 +226,7 @@ TEST(HeldoutProof, AllowsForErrorsOfTheModelsParameters) {
   std::normal_distribution<double> normal;
   double allowed = 0, plain = 0;  // mean squares of what should have the deviation 1
   for (unsigned draw = 0; draw < kDraws; ++draw) {
-    const EffectRecordings data =
-        test::arm_recordings(test::two_recordings({spring}, 100 + draw));
+    const EffectRecordings data = test::arm_recordings(test::two_recordings({spring}, 100 + draw));
     // parameters that a fiftieth of these recordings would give
     const Eigen::MatrixXd known = 0.02 * model_information(data, test::arm_noise());
     const Eigen::LLT<Eigen::MatrixXd> root(known);

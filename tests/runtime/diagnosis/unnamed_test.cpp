@@ -105,6 +105,25 @@ TEST(Diagnosis, FloorIsWithoutWhatHasNoName) {
   EXPECT_GT(diagnosis.heldout.floor[1], 0.95 * test::kArmNoise);
 }
 
+/// Bristles of a friction that falls are that friction where they hardly bend.
+TEST(Naming, WhatContainsAFamilyHasToExplainMoreThanIt) {
+  EffectLaw bristles = test::stribeck_law();
+  bristles.name = "bristles";
+  bristles.family = "presliding";
+  const EffectInstance truth = test::known(test::stribeck_law(), 1, {3, 0.05});
+  const auto names = [&](const EffectLaw& rival) {
+    const Diagnosis diagnosis = diagnose(
+        test::arm_input(test::two_recordings({truth}, 4), {truth}, {test::stribeck_law(), rival}),
+        test::every_sample());
+    EXPECT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+    return diagnosis.findings.empty() ? std::vector<std::string>{}
+                                      : diagnosis.findings.front().aliases;
+  };
+  EXPECT_EQ(names(bristles).size(), 2U);
+  bristles.contains = {"stribeck"};
+  EXPECT_EQ(names(bristles), std::vector<std::string>{"stribeck"});
+}
+
 TEST(Naming, WhatHasNoNameTakesItsPartOfTheProbability) {
   Naming naming;
   naming.families = {"spring"};
