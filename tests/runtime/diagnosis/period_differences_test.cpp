@@ -14,10 +14,10 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kSamples = 1000;
-constexpr double kPeriod = 200;
-constexpr double kLow = 1.0 / kSamples;  // cycles a sample: a period of the run
-constexpr DifferenceLengths kLengths{kPeriod, kSamples};
+constexpr Index kOfRun = 1000;
+constexpr double kOfPeriod = 200;
+constexpr double kLow = 1.0 / kOfRun;  // cycles a sample: a period of the run
+constexpr DifferenceLengths kLengths{kOfPeriod, kOfRun};
 
 /// Parts of first order, of memories a factor of 4 apart and equal variance: about 1/f. Sum 1.
 const std::array<SlowNoise, 5>& parts() {
@@ -41,7 +41,7 @@ double true_density(double frequency) {
 
 VectorXd noise(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
-  VectorXd series = VectorXd::Zero(kSamples);
+  VectorXd series = VectorXd::Zero(kOfRun);
   for (const SlowNoise& part : parts()) {
     double value = normal(random);
     for (double& x : series) {
@@ -57,10 +57,10 @@ PeriodDifferences differences(const std::array<double, 3>& drifts, std::mt19937_
   PeriodDifferences joint;
   for (const double drift : drifts) {
     VectorXd e = noise(random);
-    for (Index t = 0; t < kSamples; ++t) {
-      e[t] += drift * std::sqrt(static_cast<double>(t) / kSamples);
+    for (Index t = 0; t < kOfRun; ++t) {
+      e[t] += drift * std::sqrt(static_cast<double>(t) / kOfRun);
     }
-    joint.add(e, VectorXd::Ones(kSamples), kPeriod);
+    joint.add(e, VectorXd::Ones(kOfRun), kOfPeriod);
   }
   return joint;
 }
@@ -129,7 +129,7 @@ TEST(PeriodDifferences, ChanceIsHardlyEverTakenOut) {
 TEST(PeriodDifferences, TwoRunsHaveNothingInCommon) {
   std::mt19937_64 random(20261126);
   PeriodDifferences two;
-  for (int run = 0; run < 2; ++run) two.add(noise(random), VectorXd::Ones(kSamples), kPeriod);
+  for (int run = 0; run < 2; ++run) two.add(noise(random), VectorXd::Ones(kOfRun), kOfPeriod);
   EXPECT_FALSE(two.common_course());
 }
 
@@ -137,12 +137,12 @@ TEST(PeriodDifferences, AreThoseOfNeighbouringPeriods) {
   std::mt19937_64 random(20261126);
   const VectorXd e = noise(random);
   PeriodDifferences joint;
-  joint.add(e, VectorXd::Ones(kSamples), kPeriod);
+  joint.add(e, VectorXd::Ones(kOfRun), kOfPeriod);
   const JointDifferences all = joint.of_joint();
-  const auto lag = static_cast<Index>(kPeriod);
-  const VectorXd difference = (e.tail(kSamples - lag) - e.head(kSamples - lag)) / M_SQRT2;
+  const auto lag = static_cast<Index>(kOfPeriod);
+  const VectorXd difference = (e.tail(kOfRun - lag) - e.head(kOfRun - lag)) / M_SQRT2;
   const std::vector<DifferenceLine> by_hand =
-      difference_lines(difference, VectorXd::Ones(difference.size()), kPeriod, all.process);
+      difference_lines(difference, VectorXd::Ones(difference.size()), kOfPeriod, all.process);
   ASSERT_EQ(all.lines.size(), by_hand.size());
   for (std::size_t i = 0; i < by_hand.size(); ++i) {
     EXPECT_NEAR(all.lines[i].power, by_hand[i].power, 1e-9 * by_hand[i].power);
@@ -153,12 +153,12 @@ TEST(PeriodDifferences, OfARunOfHardlyAPeriodThereAreNone) {
   PeriodDifferences joint;
   std::mt19937_64 random(1);
   const VectorXd e = noise(random);
-  joint.add(e.head(250), VectorXd::Ones(250), kPeriod);
+  joint.add(e.head(250), VectorXd::Ones(250), kOfPeriod);
   EXPECT_EQ(joint.samples(), 0);
-  VectorXd counted = VectorXd::Ones(kSamples);
+  VectorXd counted = VectorXd::Ones(kOfRun);
   counted.segment(100, 50).setZero();
-  joint.add(e.cwiseProduct(counted), counted, kPeriod);
-  EXPECT_EQ(joint.samples(), kSamples - 200 - 50);
+  joint.add(e.cwiseProduct(counted), counted, kOfPeriod);
+  EXPECT_EQ(joint.samples(), kOfRun - 200 - 50);
 }
 
 }  // namespace
