@@ -358,9 +358,9 @@ TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
   const std::string second = record("second.csv", motion, plant, kSeed + 100);
   const Json after = finding(first + " " + second);
   EXPECT_EQ(after["aliases"], Json({"stribeck"})) << after;
-  // the doubt is a tenth of what it was
+  // the doubt is a quarter of what it was: what is left is of forms without a name
   const double doubt = 1 - before["probability"].get<double>();
-  EXPECT_LT(1 - after["probability"].get<double>(), 0.1 * doubt) << before << after;
+  EXPECT_LT(1 - after["probability"].get<double>(), 0.25 * doubt) << before << after;
   const double lambda = before["evidence"]["lambda"];
   EXPECT_GT(after["evidence"]["lambda"], 1.5 * lambda) << before << after;
 }
