@@ -162,7 +162,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   const std::string& family = hypotheses[own.hypothesis].effect.law.family;
   naming.families = {family};
   double best = 0;
-  TrialScore found;  // the winner's own
+  TrialScore found = own.trial;  // the winner's own
   const JointColumns torque =
       system.whitened(effect_columns(data, signals, result.fit.point.effects[winner], {0}));
   std::vector<Rival> rivals;  // distance: what they explain, net
