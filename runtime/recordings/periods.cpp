@@ -47,9 +47,9 @@ double noise_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
       (20.0 * static_cast<double>(n)));
 }
 
-/// Joints that move, not those that a controller holds while others do: positions without their mean, divided by their standard deviation. A noisy
-/// joint repeats less well: it has a weight below 1, with which its mismatch is compared with
-/// kRepeats like that of the others.
+/// Joints that move, not those that a controller holds while others do: positions without their
+/// mean, divided by their standard deviation. A noisy joint repeats less well: it has a weight
+/// below 1, with which its mismatch is compared with kRepeats like that of the others.
 struct Motion {
   Eigen::MatrixXd x;       ///< with its weight's root
   Eigen::VectorXd weight;  ///< kRepeats / (kRepeats + 4 noise^2), noise per standard deviation
