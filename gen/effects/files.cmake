@@ -22,6 +22,7 @@ set(effect_files
   exponential_viscous.effect
   gain_drift.effect
   gain_drift_temperature.effect
+  gain_drift_warming.effect
   gas_spring.effect
   gear_efficiency.effect
   global_torque_gain.effect
@@ -30,6 +31,7 @@ set(effect_files
   joint_elasticity_cubic.effect
   joint_time_delay.effect
   joint_torque_gain.effect
+  lever_spring.effect
   linear_spring.effect
   link_angle.effect
   link_flexibility.effect
@@ -45,7 +47,9 @@ set(effect_files
   motor_coupling.effect
   payload.effect
   payload_change.effect
+  payload_change_point.effect
   position_friction.effect
+  progressive_spring.effect
   power_law_viscous.effect
   quadratic_drag.effect
   rational_viscous.effect
