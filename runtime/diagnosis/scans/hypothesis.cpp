@@ -16,6 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kOrders = 1000;  // values of a scan that is one over orders
+constexpr int kScanned = 40;   // values of any other, at most
 constexpr double kWide = 8;    // times the typical shape, both ways, where there are no bounds
 
 /// Linear parameters at which the effect has no torque: torque = C (p - nothing).
@@ -136,6 +137,8 @@ bool is_position_error(const Hypothesis& hypothesis) {
   return hypothesis.ordered && std::find(read.begin(), read.end(), "d_qdd") != read.end();
 }
 
+int grid_values(const EffectParameter& scanned) { return std::min(scanned.grid, kScanned); }
+
 std::vector<VectorXd> shape_grid(const Hypothesis& hypothesis, const EffectScales& scales,
                                  int values) {
   const EffectSizes sizes = hypothesis.effect.law.sizes(scales);
@@ -148,7 +151,7 @@ std::vector<VectorXd> shape_grid(const Hypothesis& hypothesis, const EffectScale
     const bool logarithmic = parameter.logarithmic && typical > 0;
     int count = hypothesis.shapes.size() > 2 ? 2 : hypothesis.shapes.size() > 1 ? 3 : values;
     if (parameter.role == EffectRole::kScanned) {
-      count = std::max(values, std::min(parameter.grid, 40));
+      count = std::max(values, grid_values(parameter));
     } else {
       low = std::max(low, logarithmic ? typical / kWide : typical - std::abs(typical));
       high = std::min(high, logarithmic ? typical * kWide : typical + std::abs(typical));

@@ -28,6 +28,9 @@ Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scale
 /// Whether it is an error of a joint's position that repeats with the position.
 bool is_position_error(const Hypothesis& hypothesis);
 
+/// How many values of a scanned parameter are tried between its bounds.
+int grid_values(const EffectParameter& scanned);
+
 /// Trial values of the shapes: a grid between the bounds, around the typical values. The shapes of
 /// each entry, in the order of Hypothesis::shapes.
 std::vector<Eigen::VectorXd> shape_grid(const Hypothesis& hypothesis, const EffectScales& scales,

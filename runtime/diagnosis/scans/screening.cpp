@@ -332,7 +332,7 @@ TrialScore refined(const EffectRecordings& data, EffectSignals& signals,
     const double reach = sizes.max[p] - sizes.min[p];
     const bool scanned = parameter.role == EffectRole::kScanned && std::isfinite(reach);
     steps[i] = hypothesis.ordered   ? 0.5 / std::max(scales.q_range, 0.1)
-               : scanned            ? reach / 80
+               : scanned            ? reach / (2 * grid_values(parameter))
                : logarithmic.back() ? std::log(2.0)
                                     : 0.25 * std::max(std::abs(best.effect.parameters[p]), 1e-6);
     if (!scanned) continue;
