@@ -11,6 +11,7 @@
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/competition/own_scatter.h"
 #include "runtime/diagnosis/names/imitation.h"
+#include "runtime/diagnosis/names/rival_families.h"
 #include "runtime/diagnosis/names/stability.h"
 #include "runtime/diagnosis/names/unnamed_rival.h"
 
@@ -73,34 +74,6 @@ std::optional<EffectFit> with_rival(const EffectRecordings& fitted, const Compet
   } catch (const std::invalid_argument&) {
     return std::nullopt;  // no finite torque at the shapes that were tried
   }
-}
-
-/// What is another family at some parameters has to explain more than that one: else its further
-/// parameters are worth nothing.
-/// @param rivals  distance is what they explain, net   @param family, net  the winner's
-void drop_what_adds_nothing(std::vector<Rival>& rivals, const std::vector<Hypothesis>& hypotheses,
-                            const std::string& family, double net) {
-  std::map<std::string, double> explained = {{family, net}};
-  for (const Rival& rival : rivals) {
-    const auto entry = explained.try_emplace(rival.family, rival.distance).first;
-    entry->second = std::max(entry->second, rival.distance);
-  }
-  std::erase_if(rivals, [&](const Rival& rival) {
-    const std::vector<std::string>& parts = hypotheses[rival.hypothesis].effect.law.contains;
-    return std::any_of(parts.begin(), parts.end(), [&](const std::string& part) {
-      const auto entry = explained.find(part);
-      return entry != explained.end() && entry->second >= rival.distance;
-    });
-  });
-}
-
-std::map<std::string, Rival> best_of_families(std::vector<Rival> rivals) {
-  std::map<std::string, Rival> best;
-  for (Rival& rival : rivals) {
-    const auto [entry, added] = best.try_emplace(rival.family, rival);
-    if (!added && rival.distance > entry->second.distance) entry->second = std::move(rival);
-  }
-  return best;
 }
 
 /// How often the winner and each rival explain most of a half of the recordings.
@@ -187,20 +160,33 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
       naming.delta_bic = -net;
       naming.part_left = trial.score.part_left;
       found = std::move(trial);
-    } else if (trial.admissible && hypothesis.effect.law.family != family) {
-      rivals.push_back({hypothesis.effect.law.family, short_name(hypothesis.effect), net, 0, rival,
-                        std::move(trial), 0});
+    } else if (trial.admissible) {
+      Rival other{hypothesis.effect.law.family,
+                  short_name(hypothesis.effect),
+                  net,
+                  0,
+                  rival,
+                  std::move(trial),
+                  0};
+      if (other.family != family) {
+        rivals.push_back(std::move(other));
+      } else if (hypothesis.effect.joint != hypotheses[own.hypothesis].effect.joint) {
+        continue;
+      } else if (!naming.kin || other.distance > naming.kin->distance) {
+        naming.kin = std::move(other);
+      }
     }
   }
+  if (naming.kin) naming.kin->distance = best - naming.kin->distance;
   drop_what_adds_nothing(rivals, hypotheses, family, best);
-  std::map<std::string, Rival> best_of = best_of_families(std::move(rivals));
-  for (auto& [other, rival] : best_of) {
+  for (Rival& rival : rivals) {
     const Hypothesis& hypothesis = hypotheses[rival.hypothesis];
     rival.apart =
         imitation(system, torque,
                   hypothesis_columns(data, signals, system, hypothesis, rival.trial.effect))
             .left;
   }
+  std::map<std::string, Rival> best_of = best_of_families(std::move(rivals));
   if (!hypotheses[own.hypothesis].windowed) {
     select_from_halves(data, signals, system, hypotheses, own, found, best, options.seed, naming,
                        best_of);
@@ -219,38 +205,101 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
 
 namespace {
 
-/// Adds to the distance of the nearest rival what held-out recordings say, and puts it in the
-/// winner's place if it is better then.
-void settle(const EffectRecordings& train, const EffectRecordings& fitted,
-            const EffectRecordings& heldout, EffectSignals& signals,
-            const std::vector<Hypothesis>& hypotheses, CompetitionResult& result,
-            std::size_t winner, const EvidenceSystem::Options& options, Naming& naming) {
-  Rival& nearest = naming.rivals.front();
-  std::optional<EffectFit> other;
-  const bool refuted =
-      result.noise.from_periods &&
-      scatter_refutes(train, signals,
-                      system_without(train, signals, hypotheses, result, winner, options),
-                      hypotheses[nearest.hypothesis], nearest.trial.effect);
-  if (!refuted) other = with_rival(fitted, result, winner, nearest);
-  if (!other) {
-    naming.rivals.erase(naming.rivals.begin());
-    return;
+/// Who stands in a winner's place once everything is found: what its round chose, or another.
+class Places {
+ public:
+  Places(const EffectRecordings& train, const EffectRecordings& fitted,
+         const EffectRecordings& heldout, EffectSignals& signals,
+         const std::vector<Hypothesis>& hypotheses, CompetitionResult& result,
+         const EvidenceSystem::Options& options)
+      : train_(train),
+        fitted_(fitted),
+        heldout_(heldout),
+        signals_(signals),
+        hypotheses_(hypotheses),
+        result_(result),
+        options_(options) {}
+
+  Naming named(std::size_t winner) {
+    Naming naming = name(winner);
+    // another form of the same effect, beside all that was found since
+    if (naming.kin && naming.kin->distance < -kEven) {
+      const Rival kin = *naming.kin;
+      const Challenge challenge = challenged(winner, kin);
+      if (challenge.fit && kin.distance - challenge.gain < -kEven) {
+        put_in_place(winner, kin, *challenge.fit);
+        naming = name(winner);
+      }
+    }
+    if (!naming.rivals.empty() && naming.rivals.front().distance < kApart) {
+      settle(winner, naming);
+      conclude(naming);
+    }
+    return naming;
   }
-  const double gain = heldout_gain(heldout, result.noise, result.fit.point, other->point);
-  nearest.distance -= gain;
-  if (nearest.distance > -kEven) return;
-  Winner& own = result.winners[winner];
-  const std::string family = hypotheses[own.hypothesis].effect.law.family;
-  own.hypothesis = nearest.hypothesis;
-  own.trial = own.others[nearest.hypothesis].best;  // squares beside those of its round
-  own.trial.effect = nearest.trial.effect;
-  result.fit = *other;
-  naming = name_winner(train, signals, hypotheses, result, winner, options);
-  for (Rival& rival : naming.rivals) {
-    if (rival.family == family) rival.distance += gain;
+
+ private:
+  /// The model with a rival in a winner's place, and what held-out recordings say for it; no fit
+  /// where something speaks against it.
+  struct Challenge {
+    std::optional<EffectFit> fit;
+    double gain = 0;
+  };
+
+  [[nodiscard]] Naming name(std::size_t winner) {
+    return name_winner(train_, signals_, hypotheses_, result_, winner, options_);
   }
-}
+
+  Challenge challenged(std::size_t winner, const Rival& rival) {
+    const bool refuted =
+        result_.noise.from_periods &&
+        scatter_refutes(train_, signals_,
+                        system_without(train_, signals_, hypotheses_, result_, winner, options_),
+                        hypotheses_[rival.hypothesis], rival.trial.effect);
+    Challenge challenge;
+    if (!refuted) challenge.fit = with_rival(fitted_, result_, winner, rival);
+    if (challenge.fit) {
+      challenge.gain =
+          heldout_gain(heldout_, result_.noise, result_.fit.point, challenge.fit->point);
+    }
+    return challenge;
+  }
+
+  void put_in_place(std::size_t winner, const Rival& rival, const EffectFit& fit) {
+    Winner& own = result_.winners[winner];
+    own.hypothesis = rival.hypothesis;
+    own.trial = own.others[rival.hypothesis].best;  // squares beside those of its round
+    own.trial.effect = rival.trial.effect;
+    result_.fit = fit;
+  }
+
+  /// Adds to the distance of the nearest rival what held-out recordings say, and puts it in the
+  /// winner's place if it is better then.
+  void settle(std::size_t winner, Naming& naming) {
+    Rival& nearest = naming.rivals.front();
+    const Challenge challenge = challenged(winner, nearest);
+    if (!challenge.fit) {
+      naming.rivals.erase(naming.rivals.begin());
+      return;
+    }
+    nearest.distance -= challenge.gain;
+    if (nearest.distance > -kEven) return;
+    const std::string family = hypotheses_[result_.winners[winner].hypothesis].effect.law.family;
+    put_in_place(winner, Rival(nearest), *challenge.fit);
+    naming = name(winner);
+    for (Rival& rival : naming.rivals) {
+      if (rival.family == family) rival.distance += challenge.gain;
+    }
+  }
+
+  const EffectRecordings& train_;
+  const EffectRecordings& fitted_;
+  const EffectRecordings& heldout_;
+  EffectSignals& signals_;
+  const std::vector<Hypothesis>& hypotheses_;
+  CompetitionResult& result_;
+  const EvidenceSystem::Options& options_;
+};
 
 }  // namespace
 
@@ -259,17 +308,13 @@ std::vector<Naming> settle_names(const EffectRecordings& train, const EffectReco
                                  const std::vector<Hypothesis>& hypotheses,
                                  CompetitionResult& result, const EvidenceSystem::Options& options,
                                  const CompetitionProgress& progress) {
+  Places places(train, fitted, heldout, signals, hypotheses, result, options);
   std::vector<Naming> namings;
   for (std::size_t i = 0; i < result.winners.size(); ++i) {
     if (progress) {
       progress("names", static_cast<double>(i) / static_cast<double>(result.winners.size()));
     }
-    Naming naming = name_winner(train, signals, hypotheses, result, i, options);
-    if (!naming.rivals.empty() && naming.rivals.front().distance < kApart) {
-      settle(train, fitted, heldout, signals, hypotheses, result, i, options, naming);
-      conclude(naming);
-    }
-    namings.push_back(std::move(naming));
+    namings.push_back(places.named(i));
   }
   return namings;
 }

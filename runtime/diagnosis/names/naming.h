@@ -2,27 +2,20 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition.h"
+#include "runtime/diagnosis/names/rival_families.h"
 
 namespace dyngen::runtime {
-
-/// The best effect of another family in a winner's place.
-struct Rival {
-  std::string family, name;
-  double distance = 0;  ///< by which it is worse, in squares net of prices
-  double apart = 0;     ///< squares of the winner that it cannot imitate: what is to be expected
-  std::size_t hypothesis = 0;
-  TrialScore trial;
-  double selected = 0;  ///< share of the halves of the recordings in which it explains most
-};
 
 /// Which names a finding may have.
 struct Naming {
   std::vector<std::string> families;  ///< that these data cannot tell apart; the winner's first
-  std::vector<Rival> rivals;          ///< one of each other family, nearest first
+  std::vector<Rival> rivals;          ///< the best of each other family, nearest first
+  std::optional<Rival> kin;           ///< the best other one of the winner's family, on its joint
   std::string unnamed;                ///< what has no name and comes nearest; or empty
   double unnamed_distance = std::numeric_limits<double>::infinity();  ///< by which it is worse
   double probability = 0;  ///< of the winner's family, 0 .. 1
@@ -51,9 +44,11 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
                    const std::vector<Hypothesis>& hypotheses, const CompetitionResult& result,
                    std::size_t winner, const EvidenceSystem::Options& options);
 
-/// Names of all winners. Where the nearest rival is no more than kApart squares worse, the model is
-/// fitted with it in the winner's place, and what held-out recordings say of the two is added to
-/// their distance; a rival that is better then takes the place.
+/// Names of all winners. Another effect of the same family that explains more by now takes the
+/// winner's place, unless held-out recordings say less for it. Where the nearest rival is no more
+/// than kApart squares worse, the model is fitted with it in the winner's place, and what held-out
+/// recordings say of the two is added to their distance; a rival that is better then takes the
+/// place.
 /// @param train   what evidence is of   @param fitted  what fits are of
 /// @param result  its winners and its fit, in place
 std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& fitted,

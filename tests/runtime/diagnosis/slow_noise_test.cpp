@@ -14,8 +14,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr Index kSamples = 2000, kPeriods = 5, kRuns = 3, kLags = 41;
-constexpr double kPeriod = double{kSamples} / kPeriods;
+constexpr Index kSlowSamples = 2000, kSlowPeriods = 5, kRuns = 3, kLags = 41;
+constexpr double kSlowPeriod = double{kSlowSamples} / kSlowPeriods;
 
 using Series = std::function<VectorXd(std::mt19937_64&)>;
 
@@ -32,7 +32,7 @@ void add_first_order(double pole, double deviation, std::mt19937_64& random, Vec
 /// 1/f noise of variance 1: memories double from one process to the next, up to ten periods.
 constexpr int kProcesses = 13;
 VectorXd pink(std::mt19937_64& random) {
-  VectorXd series = VectorXd::Zero(kSamples);
+  VectorXd series = VectorXd::Zero(kSlowSamples);
   for (int k = 0; k < kProcesses; ++k) {
     add_first_order(std::exp(-1 / std::exp2(k)), std::sqrt(1.0 / kProcesses), random, series);
   }
@@ -48,7 +48,7 @@ double pink_density(double frequency) {
 }
 
 VectorXd first_order(std::mt19937_64& random) {
-  VectorXd series = VectorXd::Zero(kSamples);
+  VectorXd series = VectorXd::Zero(kSlowSamples);
   add_first_order(0.95, 1, random, series);
   return series;
 }
@@ -56,11 +56,12 @@ VectorXd first_order(std::mt19937_64& random) {
 JointDifferences differences(const Series& series, std::mt19937_64& random) {
   JointDifferences joint;
   joint.covariance = VectorXd::Zero(kLags);
-  const auto period = static_cast<Index>(kPeriod);
+  const auto period = static_cast<Index>(kSlowPeriod);
   std::vector<VectorXd> runs;
   for (int run = 0; run < kRuns; ++run) {
     const VectorXd e = series(random);
-    runs.emplace_back((e.tail(kSamples - period) - e.head(kSamples - period)) / std::sqrt(2.0));
+    runs.emplace_back((e.tail(kSlowSamples - period) - e.head(kSlowSamples - period)) /
+                      std::sqrt(2.0));
     const VectorXd& d = runs.back();
     for (Index lag = 0; lag < kLags; ++lag) {
       const Index pairs = d.size() - lag;
@@ -71,7 +72,7 @@ JointDifferences differences(const Series& series, std::mt19937_64& random) {
   }
   joint.process = fit_autoregression(joint.covariance, joint.samples);
   for (const VectorXd& d : runs) {
-    const auto lines = difference_lines(d, VectorXd::Ones(d.size()), kPeriod, joint.process);
+    const auto lines = difference_lines(d, VectorXd::Ones(d.size()), kSlowPeriod, joint.process);
     joint.lines.insert(joint.lines.end(), lines.begin(), lines.end());
   }
   return joint;
@@ -92,14 +93,14 @@ TEST(SlowNoise, DensityOfOneOverFIsFound) {
   constexpr int kDraws = 20;
   std::mt19937_64 random(20261123);
   // cycles for a period, and at the end some for a sample
-  const std::vector<double> frequencies = {0.5 / kPeriod, 1 / kPeriod, 3 / kPeriod,
-                                           10 / kPeriod,  0.1,         0.4};
+  const std::vector<double> frequencies = {
+      0.5 / kSlowPeriod, 1 / kSlowPeriod, 3 / kSlowPeriod, 10 / kSlowPeriod, 0.1, 0.4};
   VectorXd found = VectorXd::Zero(6), alone = VectorXd::Zero(6);
   for (int draw = 0; draw < kDraws; ++draw) {
     const std::vector<JointDifferences> joints = {differences(pink, random),
                                                   differences(pink, random)};
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      const JointNoise noise = noise_of_differences(joints, {kPeriod, double{kSamples}})[j];
+      const JointNoise noise = noise_of_differences(joints, {kSlowPeriod, double{kSlowSamples}})[j];
       EXPECT_FALSE(noise.slow.empty());
       const AutoregressiveNoise& process = joints[j].process;
       for (Index i = 0; i < 6; ++i) {
@@ -122,10 +123,10 @@ TEST(SlowNoise, DensityOfOneOverFIsFound) {
 constexpr double kEncoder = 20;
 void add_encoder(std::mt19937_64& random, VectorXd& series) {
   std::normal_distribution<double> normal;
-  VectorXd positions(kSamples + 2);
+  VectorXd positions(kSlowSamples + 2);
   for (double& x : positions) x = kEncoder * normal(random);
-  series +=
-      positions.head(kSamples) - 2 * positions.segment(1, kSamples) + positions.tail(kSamples);
+  series += positions.head(kSlowSamples) - 2 * positions.segment(1, kSlowSamples) +
+            positions.tail(kSlowSamples);
 }
 
 double encoder_density(double frequency) {
@@ -139,7 +140,7 @@ struct LowDensities {
 LowDensities below_encoder(const Series& series, const std::function<double(double)>& density_of,
                            std::mt19937_64& random) {
   constexpr int kDraws = 10;
-  const std::vector<double> frequencies = {1 / kPeriod, 3 / kPeriod, 8 / kPeriod};
+  const std::vector<double> frequencies = {1 / kSlowPeriod, 3 / kSlowPeriod, 8 / kSlowPeriod};
   const Series both = [&](std::mt19937_64& source) {
     VectorXd sum = series(source);
     add_encoder(source, sum);
@@ -150,7 +151,7 @@ LowDensities below_encoder(const Series& series, const std::function<double(doub
     const std::vector<JointDifferences> joints = {differences(both, random),
                                                   differences(both, random)};
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      const JointNoise noise = noise_of_differences(joints, {kPeriod, double{kSamples}})[j];
+      const JointNoise noise = noise_of_differences(joints, {kSlowPeriod, double{kSlowSamples}})[j];
       const AutoregressiveNoise& process = joints[j].process;
       for (Index i = 0; i < 3; ++i) {
         const double f = frequencies[static_cast<std::size_t>(i)];
@@ -178,7 +179,7 @@ TEST(SlowNoise, IsFoundBelowNoiseOfAccelerations) {
 TEST(SlowNoise, WhiteNoiseIsFoundBelowNoiseOfAccelerations) {
   std::mt19937_64 random(20261125);
   const Series white = [](std::mt19937_64& source) {
-    VectorXd series = VectorXd::Zero(kSamples);
+    VectorXd series = VectorXd::Zero(kSlowSamples);
     add_first_order(0, 1, source, series);
     return series;
   };
@@ -198,8 +199,8 @@ TEST(SlowNoise, OfMostJointsStaysWhereOneHasNone) {
     const std::vector<JointDifferences> joints = {
         differences(pink, random), differences(pink, random), differences(pink, random),
         differences(first_order, random)};
-    const JointNoise noise = noise_of_differences(joints, {kPeriod, double{kSamples}})[0];
-    lowest += std::log(noise.density(1 / kPeriod) / pink_density(1 / kPeriod)) / kDraws;
+    const JointNoise noise = noise_of_differences(joints, {kSlowPeriod, double{kSlowSamples}})[0];
+    lowest += std::log(noise.density(1 / kSlowPeriod) / pink_density(1 / kSlowPeriod)) / kDraws;
   }
   EXPECT_NEAR(lowest, 0, std::log(1.3));
 }
@@ -209,9 +210,10 @@ TEST(SlowNoise, OfFirstOrderThereIsHardlyAny) {
   std::mt19937_64 random(20261123);
   double slowest = 0;  // logarithm of the density at the lowest frequencies
   for (int draw = 0; draw < kDraws; ++draw) {
-    const JointNoise noise =
-        noise_of_differences({differences(first_order, random)}, {kPeriod, double{kSamples}})[0];
-    slowest += std::log(noise.density(0.5 / kPeriod) / density(SlowNoise{0.95, 1}, 0.5 / kPeriod));
+    const JointNoise noise = noise_of_differences({differences(first_order, random)},
+                                                  {kSlowPeriod, double{kSlowSamples}})[0];
+    slowest +=
+        std::log(noise.density(0.5 / kSlowPeriod) / density(SlowNoise{0.95, 1}, 0.5 / kSlowPeriod));
   }
   EXPECT_NEAR(slowest / kDraws, 0, 0.15);
 }
@@ -220,7 +222,7 @@ TEST(SlowNoise, OfOneJointAloneThatOutlastsThePeriodIsNot) {
   std::mt19937_64 random(20261123);
   const Series drifting = [](std::mt19937_64& source) {
     VectorXd series = first_order(source);
-    add_first_order(std::exp(-1 / (3 * kPeriod)), 3, source, series);
+    add_first_order(std::exp(-1 / (3 * kSlowPeriod)), 3, source, series);
     return series;
   };
   constexpr int kDraws = 40;
@@ -228,7 +230,8 @@ TEST(SlowNoise, OfOneJointAloneThatOutlastsThePeriodIsNot) {
   for (int draw = 0; draw < kDraws; ++draw) {
     const std::vector<JointDifferences> joints = {differences(drifting, random),
                                                   differences(first_order, random)};
-    const std::vector<JointNoise> noise = noise_of_differences(joints, {kPeriod, double{kSamples}});
+    const std::vector<JointNoise> noise =
+        noise_of_differences(joints, {kSlowPeriod, double{kSlowSamples}});
     first += std::pow(noise[0].deviation(), 2) / kDraws;
     second += std::pow(noise[1].deviation(), 2) / kDraws;
   }
