@@ -18,6 +18,7 @@
 #include "runtime/diagnosis/names/reference.h"
 #include "runtime/diagnosis/names/undecidable.h"
 #include "runtime/diagnosis/views/raw_residual.h"
+#include "runtime/diagnosis/views/sufficiency.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -67,8 +68,9 @@ class Diagnostician {
 
   Diagnosis run() {
     answer_.condition = conditions_of(input_);
-    answer_.sentence = search_.why_insufficient(!options_.residual_only);
+    answer_.sentence = why_too_few(search_.views().train);
     if (!answer_.sentence.empty()) return std::move(answer_);
+    const std::string too_little = why_not_clean();
     CompetitionOptions settings;
     settings.false_alarm = options_.false_alarm;
     settings.most_winners = options_.most_findings;
@@ -78,7 +80,9 @@ class Diagnostician {
     describe_noise();
     answer_.before = tests_of(result().first);
     answer_.after = tests_of(result().last);
-    answer_.sentence = why_too_slow(result());
+    if (found_nothing(result())) {
+      answer_.sentence = too_little.empty() ? why_too_slow(result()) : too_little;
+    }
     if (!answer_.sentence.empty()) return std::move(answer_);
     answer_.findings = found_effects(search_, options_.seed, !options_.residual_only, progress_);
     answer_.fit = result().fit;
@@ -97,6 +101,12 @@ class Diagnostician {
   }
 
  private:
+  /// Why recordings in which nothing is found would not be clean; empty: they are.
+  [[nodiscard]] std::string why_not_clean() const {
+    if (options_.residual_only) return {};
+    return why_too_little_motion(search_.views().train, search_.views().proof);
+  }
+
   void tell(const std::string& stage, double done) const {
     if (progress_) progress_(stage, done);
   }

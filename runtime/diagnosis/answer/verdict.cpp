@@ -30,8 +30,11 @@ double nameless_part(const Search& search, const std::vector<Finding>& findings,
 
 }  // namespace
 
+bool found_nothing(const CompetitionResult& result) {
+  return result.winners.empty() && result.nameless.empty();
+}
+
 std::string why_too_slow(const CompetitionResult& result) {
-  if (!result.winners.empty() || !result.nameless.empty()) return {};
   Eigen::Index joint = 0;
   const double least = result.noise.worth.minCoeff(&joint);
   if (least >= kLeastIndependent) return {};

@@ -14,8 +14,11 @@ struct Conclusion {
   std::string sentence;
 };
 
+/// Neither an effect nor structure without a name.
+bool found_nothing(const CompetitionResult& result);
+
 /// Why what the model leaves is too slow to call recordings clean: they are worth too few
-/// independent samples. Empty: they are worth enough, or something was found.
+/// independent samples. Empty: they are worth enough.
 std::string why_too_slow(const CompetitionResult& result);
 
 /// @param findings  of the winners, in their order, then those since the reference

@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "runtime/diagnosis/views/sufficiency.h"
-
 namespace dyngen::runtime {
 namespace {
 
@@ -26,10 +24,6 @@ Search::Search(const DiagnosisInput& input, Eigen::Index decimation)
       seen_{diagnosis_rows(parts_.train, decimation), {}},
       views_(views_of(input, parts_, seen_)),
       moving_(counted_part(views_.train)) {}
-
-std::string Search::why_insufficient(bool with_regressor) const {
-  return runtime::why_insufficient(views_.train, views_.proof, with_regressor);
-}
 
 void Search::compete(CompetitionOptions options, const CompetitionProgress& progress) {
   const ScaleTable scales(views_.train);

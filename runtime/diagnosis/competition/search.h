@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition.h"
@@ -21,9 +20,6 @@ class Search {
   /// @param input  has to outlive it  @param decimation  as RowOptions
   /// @throws std::invalid_argument  if recordings do not fit the model
   Search(const DiagnosisInput& input, Eigen::Index decimation);
-
-  /// Why recordings cannot carry a test, a sentence; empty: they can.
-  [[nodiscard]] std::string why_insufficient(bool with_regressor) const;
 
   void compete(CompetitionOptions options, const CompetitionProgress& progress);
 

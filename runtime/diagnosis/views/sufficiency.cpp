@@ -35,8 +35,7 @@ VectorXd predicted_variance(const EffectRecordings& train, const EffectRecording
   return sums.cwiseQuotient(counts.cwiseMax(1)).cwiseQuotient(squares);
 }
 
-std::string why_insufficient(const EffectRecordings& train, const EffectRecordings& heldout,
-                             bool with_regressor) {
+std::string why_too_few(const EffectRecordings& train) {
   for (int j = 0; j < train.joints(); ++j) {
     double rows = 0;
     for (const EffectRun& run : train.runs) rows += run.rows.counted.col(j).sum();
@@ -48,7 +47,10 @@ std::string why_insufficient(const EffectRecordings& train, const EffectRecordin
         "what the model leaves.",
         rows, j + 1, parameters);
   }
-  if (!with_regressor) return {};
+  return {};
+}
+
+std::string why_too_little_motion(const EffectRecordings& train, const EffectRecordings& heldout) {
   Index joint = 0;
   const VectorXd predicted = predicted_variance(train, heldout);
   const double most = predicted.maxCoeff(&joint);

@@ -14,10 +14,12 @@ namespace dyngen::runtime {
 /// worth less than none.
 Eigen::VectorXd predicted_variance(const EffectRecordings& train, const EffectRecordings& heldout);
 
-/// Why recordings cannot carry a test: too few equations for the parameters of a joint, or
-/// parameters so open that the held-out motion is not predicted; empty: they can.
-/// @param with_regressor  whether the parameters are fitted at all
-std::string why_insufficient(const EffectRecordings& train, const EffectRecordings& heldout,
-                             bool with_regressor);
+/// Why recordings cannot carry a test: too few equations for the parameters of a joint; empty: they
+/// can.
+std::string why_too_few(const EffectRecordings& train);
+
+/// Why recordings in which nothing was found cannot be called clean: what they leave open of the
+/// parameters moves the held-out torque too much; empty: they can.
+std::string why_too_little_motion(const EffectRecordings& train, const EffectRecordings& heldout);
 
 }  // namespace dyngen::runtime

@@ -179,6 +179,22 @@ TEST(Diagnosis, OfAMotionTooShortForItsParametersIsRefused) {
   }
 }
 
+/// Recordings that cannot be called clean can still hold an effect that is far above the noise.
+TEST(Diagnosis, OfAShortMotionNamesWhatIsStrong) {
+  const std::vector<EffectInstance> ripple = {test::known(test::ripple_law(), 1, {0.6, 0.5, 24})};
+  DiagnosisInput input = input_with(ripple, 9);
+  const auto brief = [](const std::vector<EffectInstance>& effects) {
+    return test::measured({test::sines(2.5, 0.01)}, test::planar_arm_values(), effects, 0.1, 0.5,
+                          1);
+  };
+  input.train = brief({});
+  EXPECT_EQ(diagnose(input, test::every_sample()).verdict, Verdict::kInsufficientData);
+  input.train = brief(ripple);
+  const Diagnosis diagnosis = diagnose(input, test::every_sample());
+  ASSERT_EQ(diagnosis.findings.size(), 1U) << diagnosis.sentence;
+  EXPECT_EQ(diagnosis.findings[0].effect.law.name, "torque_ripple");
+}
+
 TEST(Diagnosis, OfARunShorterThanTheFilterSaysSo) {
   DiagnosisOptions options;
   options.decimation = 20;
