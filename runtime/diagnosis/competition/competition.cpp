@@ -165,6 +165,13 @@ class Competition {
                 [&](double done) { tell("shapes of the strongest effects", done); });
   }
 
+  /// Structure without a name is a sketch, which leaves remnants: one event among thousands that
+  /// were tried may be one, unless it is beyond doubt.
+  [[nodiscard]] bool is_remnant(const NamedResult& named, const Screening& screening) const {
+    return hypotheses_[named.hypothesis].windowed && !result_.nameless.empty() &&
+           !nameless_.sure(screening, named.surprise);
+  }
+
   bool next_winner(const EvidenceSystem& system, Screening& screening) {
     std::vector<std::size_t> order;
     for (const NamedResult& named : screening.named) {
@@ -203,7 +210,8 @@ class Competition {
       if (conditions_.outdone(named, system, screening)) continue;
       if (attempted.contains(place)) continue;
       const Stops::Part stops = stops_.part_in(system, screening, hypotheses_[place], named);
-      if (stops == Stops::Part::kAll || conditions_.is_no_event(system, named)) {
+      if (stops == Stops::Part::kAll || conditions_.is_no_event(system, named) ||
+          is_remnant(named, screening)) {
         stopped.insert(place);
         continue;
       }

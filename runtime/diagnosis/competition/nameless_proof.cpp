@@ -44,4 +44,9 @@ HeldoutProof nameless_proof(const EffectRecordings& train, EffectSignals& signal
   return proof;
 }
 
+bool is_supported(const HeldoutProof& proof, bool beyond_doubt) {
+  if (!beyond_doubt) return proof.informs() && proof.helps();
+  return !proof.informs() || proof.agrees() || proof.helps();
+}
+
 }  // namespace dyngen::runtime

@@ -19,4 +19,9 @@ HeldoutProof nameless_proof(const EffectRecordings& train, EffectSignals& signal
                             const CompetitionResult& result, const Nameless& nameless,
                             EvidenceSystem::Options options);
 
+/// Whether that is enough to say it. They have to have it too; of what is beyond doubt in the
+/// fitted ones they must not speak against it. A form without a name is a sketch: where they have
+/// it at all, they may have less of it than was said.
+bool is_supported(const HeldoutProof& proof, bool beyond_doubt);
+
 }  // namespace dyngen::runtime

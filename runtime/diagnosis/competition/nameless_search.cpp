@@ -189,13 +189,12 @@ bool NamelessSearch::describe(const GenericResult& generic, const EvidenceSystem
   return add(std::move(nameless), system, needs_proof);
 }
 
-/// Whether held-out recordings have it too; where it is beyond doubt, whether they do not speak
-/// against it.
+/// Whether held-out recordings let it be said.
 bool NamelessSearch::is_proved(const Nameless& nameless, bool needs_proof) {
   if (!is_provable(nameless)) return !needs_proof;
-  const HeldoutProof proof =
-      nameless_proof(data_, signals_, heldout_, hypotheses_, result_, nameless, options_);
-  return needs_proof ? proof.informs() && proof.helps() : !proof.informs() || proof.agrees();
+  return is_supported(
+      nameless_proof(data_, signals_, heldout_, hypotheses_, result_, nameless, options_),
+      !needs_proof);
 }
 
 /// @param needs_proof  that held-out recordings have it too
