@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string_view>
@@ -16,6 +17,9 @@
 
 namespace dyngen {
 namespace {
+
+/// Derivatives by what may be further on.
+constexpr std::array kDisplacements = {"d_q", "d_alpha", "d_d", "d_theta", "d_r"};
 
 using GiNaC::ex;
 
@@ -100,6 +104,10 @@ class Checks {
     const std::string& name = effect_.alignment_parameter;
     if (effect_.alignment && parameter(name) == nullptr) {
       error({1, 1}, fmt::format("row 'align' names '{}', which is no parameter", name));
+    }
+    const std::string& position = effect_.midpoint;
+    if (!position.empty() && parameter(position) == nullptr) {
+      error({1, 1}, fmt::format("row 'midpoint' names '{}', which is no parameter", position));
     }
   }
 
@@ -245,6 +253,15 @@ class Checks {
     if (aligned != (effect_.kind == EffectKind::kAlignment)) {
       error(at, aligned ? "row 'align' goes with 'kind alignment'"
                         : "'kind alignment' without a row 'align'");
+    }
+    const bool displaced = std::any_of(
+        effect_.variables.begin(), effect_.variables.end(), [](const std::string& variable) {
+          return std::find(kDisplacements.begin(), kDisplacements.end(), variable) !=
+                 kDisplacements.end();
+        });
+    if (!effect_.midpoint.empty() && !(displaced && effect_.scope == EffectScope::kJoint)) {
+      error(at, fmt::format("row 'midpoint' goes with 'scope joint' and a torque of {}",
+                            fmt::join(kDisplacements, ", ")));
     }
     const bool pair = effect_.scope == EffectScope::kPair;
     const bool partner =

@@ -51,6 +51,7 @@ class Reader {
                                                    {"torque", &Reader::read_torque},
                                                    {"torque_other", &Reader::read_torque_other},
                                                    {"align", &Reader::read_align},
+                                                   {"midpoint", &Reader::read_midpoint},
                                                    {"dissipates", &Reader::read_dissipates},
                                                    {"require", &Reader::read_require, true},
                                                    {"falsifier", &Reader::read_falsifier, true},
@@ -336,6 +337,11 @@ class Reader {
       effect_.alignment = static_cast<AlignmentOperator>(*place);
     }
     if (auto name = identifier(cursor, row.keyword)) effect_.alignment_parameter = *name;
+    expect_end(cursor, row.keyword);
+  }
+
+  void read_midpoint(const EffectRowText& row, EffectRowCursor& cursor) {
+    if (auto name = identifier(cursor, row.keyword)) effect_.midpoint = *name;
     expect_end(cursor, row.keyword);
   }
 

@@ -82,6 +82,10 @@ struct EffectLaw {
   EffectScope scope = EffectScope::kJoint;
   AlignmentOperator alignment = AlignmentOperator::kNone;
   int alignment_parameter = -1;  ///< its place in parameters
+  /// A parameter's place, or -1: derivatives of the model are taken where the joint's position, or
+  /// the constant of the table, is further by half of it. What a change of it makes of the torque
+  /// is then right to the second order.
+  int midpoint = -1;
   bool acts_on_all = false;
   bool revolute_only = false;
   bool dissipates = false;

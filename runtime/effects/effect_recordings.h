@@ -17,19 +17,23 @@
 
 namespace dyngen::runtime {
 
-/// The name of a variable (d_*, payload_*, contact_*, wrench_*), and the link of the robot file, from
-/// 1, that the effect is on; 0 of scope robot.
+/// The name of a variable (d_*, payload_*, contact_*, wrench_*), and the link of the robot file,
+/// from 1, that the effect is on; 0 of scope robot.
 using TangentKey = std::pair<std::string, int>;
 using TangentColumns = std::map<TangentKey, Eigen::MatrixXd>;
 
+/// A derivative of every joint's torque, (N x n), at a motion and given parameters, and all others
+/// that come out with it. wrench_*: column j is of joint j's own wrench.
+/// @param further  rad or m: the joint's position, or the constant of the table, that is wanted by
+///                 is further than the motion or the robot says; other derivatives know no such
+///                 place
+using TangentFunction =
+    std::function<TangentColumns(const TangentKey& wanted, const JointMotion& motion,
+                                 const Eigen::VectorXd& beta, double further)>;
+
 /// What effects ask of a robot besides its linear model.
 struct EffectRobot {
-  /// A derivative of every joint's torque, (N x n), at a motion and given parameters, and all others
-  /// that come out with it. wrench_*: column j is of joint j's own wrench. May be empty: then
-  /// effects that read them are refused.
-  std::function<TangentColumns(const TangentKey& wanted, const JointMotion& motion,
-                               const Eigen::VectorXd& beta)>
-      tangents;
+  TangentFunction tangents;  ///< may be empty: then effects that read them are refused
   /// (n) kg m^2 or kg: rotor inertias that the model has joined with the links', so that they are
   /// taken off the load. May be empty: none are known.
   Eigen::VectorXd joined_rotors{};

@@ -116,6 +116,7 @@ void EffectSignals::set_beta(const VectorXd& beta) {
 
 void EffectSignals::set_tangent_beta(const VectorXd& beta) {
   tangent_beta_ = beta;
+  further_.clear();
   // those of payloads and contacts are the motion's alone
   std::erase_if(tangents_, [](const auto& entry) {
     const std::string& name = entry.first.second.first;
@@ -184,19 +185,35 @@ const MatrixXd& EffectSignals::filtered_rates(std::size_t run, int joint) {
   return place->second;
 }
 
+TangentColumns EffectSignals::tangents(std::size_t run, const TangentKey& wanted,
+                                       double further) const {
+  if (!data_.robot.tangents) {
+    throw std::invalid_argument(
+        fmt::format("effects: '{}' is a derivative of the rigid model, and this robot gives none",
+                    wanted.first));
+  }
+  const Motion& motion = data_.runs[run].motion;
+  return data_.robot.tangents(wanted, {motion.q, motion.dq, motion.ddq},
+                              tangent_beta_.size() > 0 ? tangent_beta_ : beta_, further);
+}
+
 const MatrixXd& EffectSignals::tangent(std::size_t run, const std::string& name, int link) {
   const TangentKey wanted{name, link};
   const auto place = tangents_.find({run, wanted});
   if (place != tangents_.end()) return place->second;
-  if (!data_.robot.tangents) {
-    throw std::invalid_argument(fmt::format(
-        "effects: '{}' is a derivative of the rigid model, and this robot gives none", name));
-  }
-  const Motion& motion = data_.runs[run].motion;
-  TangentColumns all = data_.robot.tangents(wanted, {motion.q, motion.dq, motion.ddq},
-                                            tangent_beta_.size() > 0 ? tangent_beta_ : beta_);
+  TangentColumns all = tangents(run, wanted, 0);
   for (auto& [key, columns] : all) tangents_.try_emplace({run, key}, std::move(columns));
   return tangents_.at({run, wanted});
+}
+
+const MatrixXd& EffectSignals::tangent_at(std::size_t run, const std::string& name, int link,
+                                          double further) {
+  if (further == 0) return tangent(run, name, link);
+  Further& kept = further_[{run, {name, link}}];
+  if (kept.columns.size() == 0 || kept.distance != further) {
+    kept = {further, tangents(run, {name, link}, further).at({name, link})};
+  }
+  return kept.columns;
 }
 
 VectorXd EffectSignals::signal(std::size_t run, const std::string& name,
@@ -216,7 +233,10 @@ VectorXd EffectSignals::signal(std::size_t run, const std::string& name,
   }
   if (of_rigid_model(name)) {
     const int column = name.starts_with("wrench_") ? joint : target;
-    return tangent(run, name, of_whole_robot(name) ? 0 : effect.link).col(column);
+    if (of_whole_robot(name)) return tangent(run, name, 0).col(column);
+    const int place = effect.law.midpoint;
+    const double further = place < 0 ? 0 : effect.parameters[place] / 2;
+    return tangent_at(run, name, effect.link, further).col(column);
   }
   if (name == "q") return motion.q.col(joint);
   if (name == "qd") return motion.dq.col(joint);

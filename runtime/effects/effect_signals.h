@@ -70,6 +70,11 @@ class EffectSignals {
 
   const RigidTorque& rigid(std::size_t run);
   const Eigen::MatrixXd& tangent(std::size_t run, const std::string& name, int link);
+  /// The same further on; the latest distance is kept.
+  const Eigen::MatrixXd& tangent_at(std::size_t run, const std::string& name, int link,
+                                    double further);
+  [[nodiscard]] TangentColumns tangents(std::size_t run, const TangentKey& wanted,
+                                        double further) const;
   Eigen::VectorXd signal(std::size_t run, const std::string& name, const EffectInstance& effect,
                          int target);
 
@@ -77,6 +82,11 @@ class EffectSignals {
   Eigen::VectorXd beta_, tangent_beta_;
   std::map<std::size_t, RigidTorque> rigid_;
   std::map<std::pair<std::size_t, TangentKey>, Eigen::MatrixXd> tangents_;  // of a run
+  struct Further {
+    double distance = 0;
+    Eigen::MatrixXd columns;
+  };
+  std::map<std::pair<std::size_t, TangentKey>, Further> further_;  // of a run
   std::size_t rows_run_ = 0;  // of regressor_rows_: one run, since they are large
   std::map<int, Eigen::MatrixXd> regressor_rows_;
   std::map<std::pair<std::size_t, int>, Eigen::MatrixXd> filtered_rates_;

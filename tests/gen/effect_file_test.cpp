@@ -134,6 +134,37 @@ INSTANTIATE_TEST_SUITE_P(
         {"Missing", 9, "", "1:1: error: there is no row 'hidden'"}}),
     [](const testing::TestParamInfo<Mistake>& own) { return std::string(own.param.name); });
 
+TEST(EffectFile, AMidpointIsAPositionThatDerivativesAreTakenBy) {
+  const auto text = [](const std::string& unit, const std::string& torque,
+                       const std::string& midpoint) {
+    std::string rows;
+    for (const std::string& row : right_rows()) {
+      if (row.starts_with("kind")) {
+        rows += "kind tangent\n";
+      } else if (row.starts_with("parameter A")) {
+        rows += "parameter A linear unit=" + unit + " typical=0.1 : its shift\n";
+      } else if (row.starts_with("parameter vs") || row.starts_with("falsifier")) {
+        continue;
+      } else if (row.starts_with("torque")) {
+        rows += torque + "\nmidpoint " + midpoint + "\n";
+      } else {
+        rows += row + "\n";
+      }
+    }
+    return rows;
+  };
+  const auto first_line = [](const std::string& rows) {
+    const std::string message = message_of(rows);
+    return message.substr(0, message.find('\n'));
+  };
+  EXPECT_EQ(parse_effect_file(text("position", "torque A*d_q", "A"), "bump.effect").midpoint, "A");
+  EXPECT_EQ(first_line(text("position", "torque A*d_q", "B")),
+            "bump.effect:1:1: error: row 'midpoint' names 'B', which is no parameter");
+  EXPECT_EQ(first_line(text("rate", "torque A*d_qd", "A")),
+            "bump.effect:1:1: error: row 'midpoint' goes with 'scope joint' and a torque of d_q, "
+            "d_alpha, d_d, d_theta, d_r");
+}
+
 std::string stateful_text(const std::string& start) {
   std::string text;
   for (const std::string& row : right_rows()) {

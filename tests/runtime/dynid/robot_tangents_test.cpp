@@ -71,8 +71,8 @@ class Tangent {
  public:
   explicit Tangent(const Case& own) : tangents_(robot_tangents(own.robot)) {}
   MatrixXd operator()(const std::string& name, int link, const JointMotion& motion,
-                      const VectorXd& beta) const {
-    return tangents_({name, link}, motion, beta).at({name, link});
+                      const VectorXd& beta, double further = 0) const {
+    return tangents_({name, link}, motion, beta, further).at({name, link});
   }
 
  private:
@@ -177,19 +177,49 @@ TEST_P(RobotTangents, ByTheMotionAreDifferencesOfTheTorque) {
   }
 }
 
+TEST_P(RobotTangents, FurtherOnAreThoseOfARobotThatIsSo) {
+  constexpr double kFurther = 0.2;
+  const Case own(GetParam());
+  const Tangent tangent(own);
+  const std::pair<const char*, double NumericJoint::*> constants[] = {
+      {"d_alpha", &NumericJoint::alpha},
+      {"d_d", &NumericJoint::d},
+      {"d_theta", &NumericJoint::theta},
+      {"d_r", &NumericJoint::r}};
+  for (int link = 1; link <= own.robot.model.size(); ++link) {
+    for (const auto& [name, constant] : constants) {
+      Case there = own;
+      there.twin.joints[static_cast<std::size_t>(link - 1)].*constant += kFurther;
+      const MatrixXd found = tangent(name, link, own.motion, own.beta, kFurther);
+      const auto step = [&, at = constant](NumericRobot& robot, double size) {
+        robot.joints[static_cast<std::size_t>(link - 1)].*at += size;
+      };
+      if (found.cwiseAbs().maxCoeff() < 1e-9) continue;
+      EXPECT_LT(error_of(there, found, step), kTolerance) << name << " of link " << link;
+    }
+    const int coordinate = own.robot.model.joint(link).coordinate;
+    if (coordinate < 0) continue;
+    JointMotion there = own.motion;
+    there.q.col(coordinate).array() += kFurther;
+    EXPECT_EQ(tangent("d_q", link, own.motion, own.beta, kFurther),
+              tangent("d_q", link, there, own.beta))
+        << link;
+  }
+}
+
 TEST_P(RobotTangents, OfOneProgramComeTogether) {
   const Case own(GetParam());
   const TangentFunction tangents = robot_tangents(own.robot);
   std::size_t moving = 0;
   for (const JointModel& joint : own.robot.model.joints) moving += joint.coordinate >= 0 ? 1 : 0;
   const int first = own.robot.model.joint(1).coordinate >= 0 ? 1 : 2;
-  EXPECT_EQ(tangents({"d_q", first}, own.motion, own.beta).size(), 3 * moving);
-  EXPECT_EQ(tangents({"d_gx", 0}, own.motion, own.beta).size(), 3u);
-  EXPECT_EQ(tangents({"payload_M", 0}, own.motion, own.beta).size(), 10u);
-  EXPECT_EQ(tangents({"contact_fx", first}, own.motion, own.beta).size(), 6u);
-  EXPECT_EQ(tangents({"wrench_nz", 0}, own.motion, own.beta).size(), 6u);
-  EXPECT_THROW(tangents({"wrench_mz", 0}, own.motion, own.beta), std::invalid_argument);
-  EXPECT_THROW(tangents({"d_q", 99}, own.motion, own.beta), std::invalid_argument);
+  EXPECT_EQ(tangents({"d_q", first}, own.motion, own.beta, 0).size(), 3 * moving);
+  EXPECT_EQ(tangents({"d_gx", 0}, own.motion, own.beta, 0).size(), 3u);
+  EXPECT_EQ(tangents({"payload_M", 0}, own.motion, own.beta, 0).size(), 10u);
+  EXPECT_EQ(tangents({"contact_fx", first}, own.motion, own.beta, 0).size(), 6u);
+  EXPECT_EQ(tangents({"wrench_nz", 0}, own.motion, own.beta, 0).size(), 6u);
+  EXPECT_THROW(tangents({"wrench_mz", 0}, own.motion, own.beta, 0), std::invalid_argument);
+  EXPECT_THROW(tangents({"d_q", 99}, own.motion, own.beta, 0), std::invalid_argument);
 }
 
 TEST_P(RobotTangents, OfAForceAreDifferencesOfItsPath) {

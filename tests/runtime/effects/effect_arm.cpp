@@ -106,8 +106,8 @@ VectorXd planar_arm_values() {
 
 EffectRobot planar_arm_tangents() {
   EffectRobot robot;
-  robot.tangents = [](const TangentKey& wanted, const JointMotion& motion,
-                      const VectorXd& beta) -> TangentColumns {
+  robot.tangents = [](const TangentKey& wanted, const JointMotion& motion, const VectorXd& beta,
+                      double) -> TangentColumns {
     const std::string& name = wanted.first;
     const ArrayXd q1 = motion.q.col(0), q12 = motion.q.col(0) + motion.q.col(1);
     MatrixXd torque(motion.q.rows(), 2);

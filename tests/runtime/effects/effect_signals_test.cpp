@@ -224,5 +224,38 @@ TEST(EffectRows, TheirJacobianIsThatOfFiniteDifferences) {
   }
 }
 
+/// A joint whose torque is a sine of its position: what a shift of it makes of that, by the
+/// derivative where the joint is and half way.
+TEST(EffectSignals, DerivativesHalfWayAreRightToTheSecondOrder) {
+  EffectRecordings data = recordings(moving());
+  data.robot.tangents = [](const TangentKey& wanted, const JointMotion& motion,
+                           const VectorXd& beta, double further) -> TangentColumns {
+    MatrixXd torque = MatrixXd::Zero(motion.q.rows(), 2);
+    torque.col(1) = beta[4] * (motion.q.col(1).array() + further).cos();
+    return {{wanted, torque}};
+  };
+  EffectLaw law =
+      test::algebraic_law("shift", {"d_q"}, {{"offset", EffectRole::kLinear, -0.5, 0.5, 0, 0.02}},
+                          [](const VectorXd& v, const VectorXd& p) { return p[0] * v[0]; });
+  law.acts_on_all = true;
+  EffectSignals signals(data);
+  const VectorXd beta = test::planar_arm_values();
+  signals.set_beta(beta);
+  const VectorXd q = data.runs[0].motion.q.col(1);
+  const auto error = [&](int midpoint, double offset) {
+    law.midpoint = midpoint;
+    EffectInstance shift = test::known(law, 1, {offset});
+    shift.link = 2;
+    const VectorXd torque = offset * signals.variables(0, shift, 1).col(0);
+    const VectorXd exact = beta[4] * ((q.array() + offset).sin() - q.array().sin()).matrix();
+    return (torque - exact).norm() / exact.norm();
+  };
+  for (const double offset : {0.3, -0.3, 0.1}) {
+    EXPECT_GT(error(-1, offset), 0.2 * std::abs(offset)) << offset;
+    EXPECT_LT(error(0, offset), offset * offset / 20) << offset;
+  }
+  EXPECT_LT(error(0, 1e-6), 1e-9);
+}
+
 }  // namespace
 }  // namespace dyngen::runtime

@@ -31,6 +31,9 @@ std::vector<std::string> equation_lines(const EffectFile& effect) {
         "{} of {}", *effect.alignment == ::dyngen::AlignmentOperator::kDelay ? "delay" : "lag",
         effect.alignment_parameter));
   }
+  if (!effect.midpoint.empty()) {
+    lines.push_back(fmt::format("derivatives further on by {}/2", effect.midpoint));
+  }
   return lines;
 }
 

@@ -338,6 +338,7 @@ EffectLaw effect_law(const EffectFile& effect) {
                           ? AlignmentOperator::kDelay
                           : AlignmentOperator::kLag;
     }
+    if (parameter.name == effect.midpoint) law.midpoint = law.size();
     law.parameters.push_back({.name = parameter.name,
                               .unit = unit_text(parameter.unit, JointUnits::kRevolute),
                               .meaning = parameter.meaning,

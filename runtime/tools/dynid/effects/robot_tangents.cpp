@@ -81,7 +81,7 @@ class Tangents {
   }
 
   TangentColumns operator()(const TangentKey& wanted, const JointMotion& motion,
-                            const VectorXd& beta) {
+                            const VectorXd& beta, double further) {
     const auto& [name, link] = wanted;
     TangentColumns result;
     if (name.starts_with("payload_")) {
@@ -93,11 +93,11 @@ class Tangents {
       if (name == "d_gx" || name == "d_gy" || name == "d_gz") {
         result = gravity(motion, standard);
       } else if (name == "d_q" || name == "d_qd" || name == "d_qdd") {
-        result = by_motion(motion, standard);
+        result = by_motion(further_of(link, motion, further), standard);
       } else if (name.starts_with("wrench_")) {
         result = wrench(motion, standard);
       } else {
-        result = geometry(name, link, motion, standard);
+        result = geometry(name, link, motion, standard, further);
       }
     }
     if (result.contains(wanted)) return result;
@@ -125,6 +125,13 @@ class Tangents {
     return result;
   }
 
+  [[nodiscard]] JointMotion further_of(int link, JointMotion motion, double further) const {
+    if (further == 0 || link < 1 || link > model_.size()) return motion;
+    const int coordinate = model_.joint(link).coordinate;
+    if (coordinate >= 0) motion.q.col(coordinate).array() += further;
+    return motion;
+  }
+
   TangentColumns by_motion(const JointMotion& motion, const VectorXd& standard) {
     const Index n = model_.coordinate_count;
     const TangentProgram& program = kept(derivatives_, [&] { return motion_derivatives(model_); });
@@ -133,8 +140,8 @@ class Tangents {
     for (int link = 1; link <= model_.size(); ++link) {
       const int coordinate = model_.joint(link).coordinate;
       if (coordinate < 0) continue;
-      for (const auto& [name, array] : {std::pair{"d_q", "D_q"}, {"d_qd", "D_dq"},
-                                        {"d_qdd", "D_ddq"}}) {
+      for (const auto& [name, array] :
+           {std::pair{"d_q", "D_q"}, {"d_qd", "D_dq"}, {"d_qdd", "D_ddq"}}) {
         result[{name, link}] = column_of(outputs.at(array), coordinate, n, n);
       }
     }
@@ -187,7 +194,7 @@ class Tangents {
   }
 
   TangentColumns geometry(const std::string& name, int link, const JointMotion& motion,
-                          const VectorXd& standard) {
+                          const VectorXd& standard, double further) {
     static const std::map<std::string, DhConstant> kConstants = {{"d_alpha", DhConstant::kAlpha},
                                                                  {"d_d", DhConstant::kD},
                                                                  {"d_theta", DhConstant::kTheta},
@@ -200,13 +207,13 @@ class Tangents {
     const TangentProgram& program =
         kept(place, [&] { return geometry_derivative(model_, link, constant->second); });
     const Index n = model_.coordinate_count, samples = motion.q.rows();
-    const auto with_one_more = [&](const MatrixXd& part) {
-      MatrixXd result = MatrixXd::Zero(samples, n + 1);
+    const auto with_one_more = [&](const MatrixXd& part, double value) {
+      MatrixXd result = MatrixXd::Constant(samples, n + 1, value);
       result.leftCols(n) = part;
       return result;
     };
-    const JointMotion more{with_one_more(motion.q), with_one_more(motion.dq),
-                           with_one_more(motion.ddq)};
+    const JointMotion more{with_one_more(motion.q, further), with_one_more(motion.dq, 0),
+                           with_one_more(motion.ddq, 0)};
     const auto outputs = run(program.program, more, values_of(program.chi, standard), gravity_);
     return {{{name, link}, column_of(outputs.at("D"), n, n + 1, n)}};
   }
@@ -225,9 +232,8 @@ class Tangents {
 
 TangentFunction robot_tangents(const DescribedRobot& robot) {
   auto tangents = std::make_shared<Tangents>(robot);
-  return [tangents](const TangentKey& wanted, const JointMotion& motion, const VectorXd& beta) {
-    return (*tangents)(wanted, motion, beta);
-  };
+  return [tangents](const TangentKey& wanted, const JointMotion& motion, const VectorXd& beta,
+                    double further) { return (*tangents)(wanted, motion, beta, further); };
 }
 
 EffectRobot effect_robot(const DescribedRobot& robot) {

@@ -21,9 +21,7 @@ namespace dyngen::runtime {
 /// Base parameters do not say all of the bodies: where the file has numbers for all of them, those
 /// nearest to the file's are taken, otherwise those of the file that dynid writes. Derivatives by
 /// q, dq and ddq do not depend on that choice, others may.
-using TangentFunction = std::function<TangentColumns(
-    const TangentKey& wanted, const JointMotion& motion, const Eigen::VectorXd& beta)>;
-
+///
 /// @throws std::invalid_argument  (the function) if there is no such name, or the link has no joint
 TangentFunction robot_tangents(const DescribedRobot& robot);
 
