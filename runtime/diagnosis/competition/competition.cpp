@@ -11,6 +11,7 @@
 #include "runtime/diagnosis/competition/effect_conditions.h"
 #include "runtime/diagnosis/competition/likely_search.h"
 #include "runtime/diagnosis/competition/nameless_search.h"
+#include "runtime/diagnosis/competition/pair_search.h"
 #include "runtime/diagnosis/competition/second_scan.h"
 #include "runtime/diagnosis/competition/stops.h"
 #include "runtime/diagnosis/competition/within_rounding.h"
@@ -28,6 +29,7 @@ constexpr double kLeastAsGood = 0.5;  // of the winner's squares: rivals that ar
 constexpr std::size_t kAttempts = 4;  // effects that are fitted in a round before it gives up
 constexpr double kTie = 0.5;          // squares that decide nothing
 constexpr std::size_t kRivals = 5;    // that are compared again once the winner is fitted
+constexpr std::size_t kPairs = 3;     // that are tried before a round gives up
 
 /// One competition's data and what was found so far.
 class Competition {
@@ -64,16 +66,13 @@ class Competition {
       acceptance_.begin_round();
       const EvidenceSystem system = model_system();
       if (round == 0 && rests_at_once(system)) return std::move(result_);
-      const std::string stage = round == 0 ? "structure beside the model"
-                                           : "structure beside the model and what was found";
-      Screening screening =
-          screen(screening_data_, system, scales_, result_.fit.point.beta, hypotheses_, structures_,
-                 round == 0 ? nullptr : &result_.first, [&](double done) { tell(stage, done); });
+      Screening screening = screen_beside(system, round == 0);
       if (round == 0) result_.first = screening;
       result_.last = screening;
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
       const bool found = result_.noise.from_periods
-                             ? next_winner(system, screening) || nameless_.next(system, screening)
+                             ? next_winner(system, screening) || next_pair(system, screening) ||
+                                   nameless_.next(system, screening)
                              : next_likely(system, screening);
       if (!found) break;
       if (options_.until_rest && !result_.resting.empty()) return std::move(result_);
@@ -135,6 +134,15 @@ class Competition {
   EvidenceSystem model_system() {
     return system_beside(train_, signals_, hypotheses_, result_, result_.fit.point, result_.noise,
                          system_options());
+  }
+
+  /// @param first  the whole grid of shapes is tried
+  Screening screen_beside(const EvidenceSystem& system, bool first) {
+    const std::string stage =
+        first ? "structure beside the model" : "structure beside the model and what was found";
+    return screen(screening_data_, system, scales_, result_.fit.point.beta, hypotheses_,
+                  structures_, first ? nullptr : &result_.first,
+                  [&](double done) { tell(stage, done); });
   }
 
   [[nodiscard]] double net(const NamedResult& result) const {
@@ -222,6 +230,48 @@ class Competition {
     }
     if (acceptance_.accept_at_bound(screening)) return true;
     return costly && keep_without_name(*costly, system, screening);
+  }
+
+  /// Two effects of which neither is found while the other is left out: each has to be found beside
+  /// the other.
+  bool next_pair(const EvidenceSystem& system, const Screening& screening) {
+    if (!stops_.strongest(system, screening).empty()) return false;
+    const std::size_t found = result_.winners.size();
+    if (static_cast<int>(found) + 2 > options_.most_winners) return false;
+    std::size_t tried = 0;
+    for (const EffectPair& pair :
+         strongest_pairs(train_, signals_, system, hypotheses_, screening, result_)) {
+      if (tried++ == kPairs) break;
+      if (pair.net <= 0 || screening.family_wise(pair.surprise) > options_.false_alarm) continue;
+      std::vector<int> joints = joints_of_hypothesis(pair.stronger);
+      const std::vector<int> others = joints_of_hypothesis(pair.weaker);
+      joints.insert(joints.end(), others.begin(), others.end());
+      if (conditions_.outdone(pair.net, joints, system, screening)) continue;
+      const auto stopped = [&](std::size_t place) {
+        return stops_.explain(system, screening, hypotheses_[place],
+                              without_conditions(screening.named[place]));
+      };
+      if (stopped(pair.weaker) || stopped(pair.stronger)) continue;
+      const CompetitionResult before = result_;
+      // one stands in until the other is found, then it has to be found itself
+      result_.winners.emplace_back().hypothesis = pair.weaker;
+      result_.fit = with(screening.named[pair.weaker].freest.effect);
+      if (next_beside(found + 2)) {
+        result_.winners.erase(result_.winners.begin() + static_cast<std::ptrdiff_t>(found));
+        result_.fit = fit(without(result_.fit.point, found).effects);
+        if (next_beside(found + 2)) return true;
+      }
+      result_ = before;
+    }
+    return false;
+  }
+
+  /// One winner more beside those that there are. @param wanted  how many there are to be
+  bool next_beside(std::size_t wanted) {
+    acceptance_.begin_round();
+    const EvidenceSystem system = model_system();
+    Screening screening = screen_beside(system, false);
+    return next_winner(system, screening) && result_.winners.size() == wanted;
   }
 
   /// An effect that is far more than noise and helps on held-out recordings, but has more

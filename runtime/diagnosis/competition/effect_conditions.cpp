@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLeastExplained = 0.7;  // part of a joint's structure that a name must explain
 constexpr double kOutdone = 9;           // squares, net, by which what has no name is better
-constexpr double kOutdonePart = 0.1;     // and of the effect's, of a function of the motion
+constexpr double kOutdonePart = 0.1;     // and of the effect's
 constexpr double kEventNet = 10;         // squares, net, of an event
 constexpr double kShortest = 3;          // equations that an event lasts
 
@@ -65,22 +65,26 @@ bool EffectConditions::is_no_event(const EvidenceSystem& system, const NamedResu
 
 bool EffectConditions::outdone(const NamedResult& named, const EvidenceSystem& system,
                                const Screening& screening) const {
-  const std::vector<int> own = joints_of_hypothesis(named.hypothesis);
+  return outdone(net(named), joints_of_hypothesis(named.hypothesis), system, screening);
+}
+
+bool EffectConditions::outdone(double explained, const std::vector<int>& own,
+                               const EvidenceSystem& system, const Screening& screening) const {
   const auto is_own = [&](int joint) {
     return std::find(own.begin(), own.end(), joint) != own.end();
   };
+  // shapes of a strong effect are not quite found yet, and its torque is not quite its derivative's
+  const double much = (1 + kOutdonePart) * explained + kOutdone;
   const bool by_form =
       std::any_of(screening.named.begin(), screening.named.end(), [&](const NamedResult& each) {
         if (!each.seen || each.freest.admissible) return false;
         const NamedResult other = without_conditions(each);
-        if (net(named) >= net(other) - kOutdone) return false;
+        if (much >= net(other)) return false;
         const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
         return std::any_of(joints.begin(), joints.end(), is_own) &&
                !stops_.hide(system, screening, hypotheses_[other.hypothesis], other);
       });
   if (by_form) return true;
-  // shapes of a strong effect are not quite found yet
-  const double much = (1 + kOutdonePart) * net(named) + kOutdone;
   return std::any_of(
       screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
         const GenericStructure& structure = structures_[generic.structure];

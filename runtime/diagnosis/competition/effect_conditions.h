@@ -34,6 +34,9 @@ class EffectConditions {
   /// since the structure is something else then, of that form; or a function of the motion.
   [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,
                              const Screening& screening) const;
+  /// The same of what explains as much, net, on some joints.
+  [[nodiscard]] bool outdone(double explained, const std::vector<int>& own,
+                             const EvidenceSystem& system, const Screening& screening) const;
 
  private:
   [[nodiscard]] double net(const NamedResult& result) const;

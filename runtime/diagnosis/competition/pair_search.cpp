@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/competition/pair_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+
+constexpr std::size_t kMembers = 24;
+
+/// An effect that may be one of a pair, and where its columns are among those of all.
+struct Member {
+  std::size_t hypothesis;
+  const TrialScore* trial;
+  std::vector<Index> columns;
+};
+
+std::vector<Member> members_of(const EffectRecordings& data,
+                               const std::vector<Hypothesis>& hypotheses,
+                               const Screening& screening, const CompetitionResult& result) {
+  std::vector<Member> members;
+  for (const NamedResult& named : screening.named) {
+    const Hypothesis& hypothesis = hypotheses[named.hypothesis];
+    if (!named.seen || hypothesis.windowed || is_winner(result, named.hypothesis)) continue;
+    if (joints_of(hypothesis.effect, data.joints()).size() < 2) continue;
+    members.push_back({named.hypothesis, &named.freest, {}});
+  }
+  std::stable_sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
+    return a.trial->score.squares > b.trial->score.squares;
+  });
+  if (members.size() > kMembers) members.resize(kMembers);
+  return members;
+}
+
+/// Columns of all members side by side.
+JointColumns columns_of(const EffectRecordings& data, EffectSignals& signals,
+                        const EvidenceSystem& system, const std::vector<Hypothesis>& hypotheses,
+                        std::vector<Member>& members) {
+  Index width = 0;
+  for (Member& member : members) {
+    member.columns.resize(hypotheses[member.hypothesis].linear.size());
+    std::iota(member.columns.begin(), member.columns.end(), width);
+    width += static_cast<Index>(member.columns.size());
+  }
+  JointColumns all;
+  for (int joint = 0; joint < data.joints(); ++joint) {
+    all.joints.push_back(joint);
+    all.parts.emplace_back(Eigen::MatrixXd::Zero(system.rows(), width));
+  }
+  for (const Member& member : members) {
+    const JointColumns own = hypothesis_columns(
+        data, signals, system, hypotheses[member.hypothesis], member.trial->effect);
+    for (std::size_t i = 0; i < own.joints.size(); ++i) {
+      all.parts[static_cast<std::size_t>(own.joints[i])](Eigen::all, member.columns) = own.parts[i];
+    }
+  }
+  return all;
+}
+
+Score score_of_columns(const Products& products, const std::vector<Index>& columns) {
+  return score_of({products.whole(columns, columns),
+                   products.left(columns, columns),
+                   products.rest(columns),
+                   {}},
+                  false);
+}
+
+}  // namespace
+
+std::vector<EffectPair> strongest_pairs(const EffectRecordings& data, EffectSignals& signals,
+                                        const EvidenceSystem& system,
+                                        const std::vector<Hypothesis>& hypotheses,
+                                        const Screening& screening,
+                                        const CompetitionResult& result) {
+  std::vector<Member> members = members_of(data, hypotheses, screening, result);
+  const Products products =
+      system.products(columns_of(data, signals, system, hypotheses, members), false);
+  const double tried = std::log(static_cast<double>(std::max<std::size_t>(members.size(), 1)));
+  std::vector<EffectPair> pairs;
+  for (std::size_t a = 0; a < members.size(); ++a) {
+    const Score alone = score_of_columns(products, members[a].columns);
+    for (std::size_t b = a + 1; b < members.size(); ++b) {
+      std::vector<Index> columns = members[a].columns;
+      columns.insert(columns.end(), members[b].columns.begin(), members[b].columns.end());
+      const Score both = score_of_columns(products, columns);
+      const Score other = score_of_columns(products, members[b].columns);
+      EffectPair pair;
+      pair.stronger = members[a].hypothesis;
+      pair.weaker = members[b].hypothesis;
+      pair.net = both.squares -
+                 price_of(hypotheses[pair.stronger], *members[a].trial, result.noise) -
+                 price_of(hypotheses[pair.weaker], *members[b].trial, result.noise);
+      const auto beside = [&](const Score& single) {
+        const int degrees = both.degrees - single.degrees;
+        return degrees > 0 ? surprise_of(both.squares - single.squares, degrees) : 0;
+      };
+      pair.surprise = std::max(std::min(beside(alone), beside(other)) - tried, 0.0);
+      pairs.push_back(pair);
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const EffectPair& a, const EffectPair& b) { return a.net > b.net; });
+  return pairs;
+}
+
+}  // namespace dyngen::runtime
