@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/diagnosis/scans/turning.h"
+#include "runtime/signals/decimation.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -73,11 +74,17 @@ JointColumns harmonic_columns(const EffectRecordings& data, int joint,
     const EffectRun& run = data.runs[r];
     const Index rows = run.rows.Y.rows(), harmonics = harmonics_of(run, repeats[r], frequency);
     if (harmonics > 0) {
+      // of the recording's time: another filter's equations begin elsewhere
       const double turn = 2 * M_PI / repeats[r];
-      Turning line(Eigen::ArrayXd::LinSpaced(rows, 0, static_cast<double>(rows - 1)),
+      const double first = run.motion.time[first_sample(run.decimator)] / row_time(run);
+      Turning line(Eigen::ArrayXd::LinSpaced(rows, first, first + static_cast<double>(rows - 1)),
                    (1 - aside) * turn, turn);
       const auto counted = run.rows.counted.col(joint).array();
       for (Index k = 1; k <= harmonics; ++k, line.next()) {
+        if (static_cast<double>(k) - aside > kOfRate * repeats[r]) {
+          column += 2;  // the parallel filter takes it away
+          continue;
+        }
         part.col(column++).segment(start, rows) = counted * line.cosine();
         part.col(column++).segment(start, rows) = counted * line.sine();
       }

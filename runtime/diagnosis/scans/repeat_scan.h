@@ -22,7 +22,8 @@ struct RepeatScan {
 RepeatScan scan_repeats(const EffectRecordings& data, const EvidenceSystem& system, int joint,
                         const std::vector<double>& repeats, bool surrogates);
 
-/// A cosine and a sine of each harmonic up to a frequency, of each run by itself.
+/// A cosine and a sine of each harmonic up to a frequency, of each run by itself; 0 where equations
+/// are too seldom for it.
 /// @param aside  of the distance from one harmonic to the next: 0 harmonics, 0.5 halfway between
 JointColumns harmonic_columns(const EffectRecordings& data, int joint,
                               const std::vector<double>& repeats, double frequency,

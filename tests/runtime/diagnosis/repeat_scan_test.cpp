@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/estimation/distributions.h"
+#include "runtime/signals/decimation.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {
@@ -83,6 +84,51 @@ TEST(RepeatScan, MeasuresTheNoiseBesideTheHarmonics) {
   }
   EXPECT_GT(least, 1e-3);
   EXPECT_NEAR(mean, 0.35, 0.2);  // the best of three bands
+}
+
+/// Sizes that are found in some equations are said of others: those of another filter.
+TEST(HarmonicColumns, AreTheSameTorqueBehindEveryFilter) {
+  constexpr double kHighest = 8;  // Hz
+  const auto equations = [](Index decimation) {
+    return effect_recordings(test::planar_arm(), test::planar_arm_tangents(),
+                             test::two_recordings({}, 4), {decimation, -1}, {true, true});
+  };
+  const auto columns = [](const EffectRecordings& data) {
+    std::vector<double> repeats;
+    for (const EffectRun& run : data.runs) {
+      repeats.push_back(kPeriodTime / run.motion.sample_time /
+                        static_cast<double>(run.decimator.factor));
+    }
+    return harmonic_columns(data, 1, repeats, kHighest).parts.front();
+  };
+  const EffectRecordings whole = equations(1);
+  const MatrixXd all = columns(whole);
+  for (const Index decimation : {2, 4, 8}) {
+    const EffectRecordings fewer = equations(decimation);
+    const MatrixXd found = columns(fewer);
+    ASSERT_EQ(found.cols(), all.cols());
+    const double rate = 1 / (0.01 * static_cast<double>(decimation));
+    Index start = 0, start_all = 0, column = 0;
+    for (std::size_t r = 0; r < whole.runs.size(); ++r) {
+      const Decimator& filter = fewer.runs[r].decimator;
+      const Index rows = fewer.runs[r].rows.Y.rows();
+      for (Index k = 1; k <= static_cast<Index>(kHighest * kPeriodTime); ++k) {
+        const double frequency = static_cast<double>(k) / kPeriodTime;
+        for (int part = 0; part < 2; ++part, ++column) {
+          const VectorXd sampled =
+              decimate(filter, all.col(column).segment(start_all, whole.runs[r].rows.Y.rows()));
+          const VectorXd own = found.col(column).segment(start, rows);
+          if (frequency <= 0.4 * rate) {
+            EXPECT_LT((own - sampled).cwiseAbs().maxCoeff(), 5e-3) << decimation << " " << k;
+          } else {
+            EXPECT_TRUE(own.isZero()) << decimation << " " << k;
+          }
+        }
+      }
+      start += rows;
+      start_all += whole.runs[r].rows.Y.rows();
+    }
+  }
 }
 
 TEST(RepeatScan, WhereNothingRepeatsThereIsNothing) {
