@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/effects/effect_law.h"
 
+#include <algorithm>
+
 namespace dyngen::runtime {
+
+bool EffectLaw::reads(std::string_view variable) const {
+  return std::find(variables.begin(), variables.end(), variable) != variables.end();
+}
 
 Eigen::VectorXd first_states(const EffectLaw& law, const Eigen::MatrixXd& variables) {
   if (!law.start || variables.rows() == 0) {

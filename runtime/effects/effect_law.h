@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dyngen::runtime {
@@ -123,6 +124,8 @@ struct EffectLaw {
       moment;
 
   [[nodiscard]] int size() const { return static_cast<int>(parameters.size()); }
+  /// Whether a variable is among those that it names.
+  [[nodiscard]] bool reads(std::string_view variable) const;
 };
 
 /// What a run of a law begins with: its start, or 0. @param variables  (N x nv) of the run

@@ -21,10 +21,6 @@ bool is_acceleration(std::string_view name) {
   return name.starts_with("qdd") || name.starts_with("tau_load");
 }
 
-bool reads(const EffectLaw& law, std::string_view name) {
-  return std::find(law.variables.begin(), law.variables.end(), name) != law.variables.end();
-}
-
 void check(const EffectInstance& instance, Index joints) {
   const EffectLaw& law = instance.law;
   if (!acts_on_plant(law)) {
@@ -168,7 +164,7 @@ double PlantEffects::dry_friction(const EffectMotion& motion, const double* z, I
   double dry = 0;
   for (std::size_t i = 0; i < instances_.size(); ++i) {
     const EffectInstance& instance = instances_[i];
-    if (instance.joint != joint || !reads(instance.law, "sign_qd")) continue;
+    if (instance.joint != joint || !instance.law.reads("sign_qd")) continue;
     const auto place = static_cast<std::size_t>(
         std::find(instance.law.variables.begin(), instance.law.variables.end(), "sign_qd") -
         instance.law.variables.begin());

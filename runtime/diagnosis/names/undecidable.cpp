@@ -15,10 +15,6 @@ constexpr double kNothingLeft = 1e-6;
 /// than 5e-4 was left of them on simulated recordings.
 constexpr double kTorqueLeft = 1e-3;
 
-bool reads_torque(const EffectLaw& law) {
-  return std::find(law.variables.begin(), law.variables.end(), "torque") != law.variables.end();
-}
-
 std::string reason(const std::string& family) {
   if (family == "torque_offset" || family == "coulomb_asymmetry") {
     return "a constant torque and friction that differs by direction are the offset of the joint: "
@@ -52,7 +48,7 @@ std::vector<Undecidable> undecidable_effects(const std::vector<Hypothesis>& hypo
     const EffectInstance& effect = hypotheses[named.hypothesis].effect;
     const auto& aliases = effect.law.aliases;
     const bool theorem = std::find(aliases.begin(), aliases.end(), "base") != aliases.end();
-    const double most = reads_torque(effect.law) ? kTorqueLeft : kNothingLeft;
+    const double most = effect.law.reads("torque") ? kTorqueLeft : kNothingLeft;
     if (!theorem || !(named.part_left < most)) continue;
     if (effect.joint >= model.joints()) continue;
     std::vector<std::string>& families = groups[{effect.joint, reason(effect.law.family)}];

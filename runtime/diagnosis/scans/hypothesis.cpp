@@ -45,10 +45,6 @@ VectorXd null_values(const JointColumns& plain, const Hypothesis& hypothesis,
   return nothing;
 }
 
-bool reads(const EffectLaw& law, const char* variable) {
-  return std::find(law.variables.begin(), law.variables.end(), variable) != law.variables.end();
-}
-
 /// Parameters of a trial, and whether they are admissible.
 /// @param nothing  linear parameters at which there is no effect
 TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score score,
@@ -106,7 +102,7 @@ Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scale
     if (parameter.role == EffectRole::kLinear && !std::isfinite(value)) value = 0;
     // a number of poles, slots or teeth: what repeats within a turn of the motor
     hypothesis.fast = hypothesis.fast || (parameter.role == EffectRole::kGiven &&
-                                          parameter.unit == "1" && reads(effect.law, "q"));
+                                          parameter.unit == "1" && effect.law.reads("q"));
     if (parameter.role == EffectRole::kLinear) {
       hypothesis.linear.push_back(p);
     } else if (parameter.role == EffectRole::kShape ||
@@ -133,8 +129,7 @@ EffectInstance with_shapes(const Hypothesis& hypothesis, const VectorXd& shapes)
 }
 
 bool is_position_error(const Hypothesis& hypothesis) {
-  const std::vector<std::string>& read = hypothesis.effect.law.variables;
-  return hypothesis.ordered && std::find(read.begin(), read.end(), "d_qdd") != read.end();
+  return hypothesis.ordered && hypothesis.effect.law.reads("d_qdd");
 }
 
 int grid_values(const EffectParameter& scanned) { return std::min(scanned.grid, kScanned); }

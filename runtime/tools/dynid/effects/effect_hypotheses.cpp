@@ -71,10 +71,7 @@ std::vector<EffectInstance> competing_effects(const DescribedRobot& robot,
   const bool temperature = std::all_of(recordings.begin(), recordings.end(), has_temperature);
   std::vector<EffectInstance> competing;
   for (EffectInstance& effect : possible_effects(robot, catalogue)) {
-    const auto& variables = effect.law.variables;
-    if (!temperature && std::find(variables.begin(), variables.end(), "temp") != variables.end()) {
-      continue;
-    }
+    if (!temperature && effect.law.reads("temp")) continue;
     if (std::optional<VectorXd> known = known_parameters(effect.law, catalogue)) {
       effect.parameters = std::move(*known);
       competing.push_back(std::move(effect));

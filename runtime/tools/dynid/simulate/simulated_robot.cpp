@@ -113,10 +113,7 @@ void add_effects(SimulatedRobot& robot, const std::vector<EffectInstance>& effec
   surroundings.warming = temperature.rate;
   std::vector<EffectInstance> acting;
   for (const EffectInstance& effect : effects) {
-    const auto& variables = effect.law.variables;
-    if (std::find(variables.begin(), variables.end(), "temp") != variables.end()) {
-      robot.reads_temperature = true;
-    }
+    if (effect.law.reads("temp")) robot.reads_temperature = true;
     (acts_on_plant(effect.law) ? acting : robot.recorded_effects).push_back(effect);
   }
   if (use == RobotUse::kPlant) {
