@@ -101,8 +101,8 @@ struct EffectFile {
   std::vector<EffectExpression> torque;
   std::optional<AlignmentOperator> alignment;
   std::string alignment_parameter;
-  std::string
-      midpoint;  ///< a position by half of which derivatives of the model are taken on; or ""
+  /// A parameter by half of which derivatives of the model are taken further on; or empty.
+  std::string midpoint;
   std::vector<EffectCondition> requirements;
   std::vector<EffectCondition> falsifiers;
   std::vector<EffectTest> tests;

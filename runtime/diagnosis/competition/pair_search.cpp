@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t kMembers = 24;
+constexpr std::size_t kMembers = 24;  // effects that are tried in pairs: 276 of them
 
 /// An effect that may be one of a pair, and where its columns are among those of all.
 struct Member {

@@ -13,8 +13,8 @@ namespace dyngen::runtime {
 struct EffectPair {
   std::size_t stronger = 0, weaker = 0;  ///< places of hypotheses, by the squares of each alone
   double net = 0;                        ///< squares of both less the price of both
-  double surprise =
-      0;  ///< -ln p of the one that is less beside the other, which was chosen among the candidates
+  /// -ln p of the one that is less beside the other, less what choosing it cost; at least 0.
+  double surprise = 0;
 };
 
 /// Pairs of effects that each act on several joints: of those only, since two effects of one joint
