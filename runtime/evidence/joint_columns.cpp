@@ -11,6 +11,35 @@ namespace dyngen::runtime {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+namespace {
+
+JointColumns columns_of(std::map<int, MatrixXd> parts) {
+  JointColumns columns;
+  for (auto& [joint, part] : parts) {
+    columns.joints.push_back(joint);
+    columns.parts.push_back(std::move(part));
+  }
+  return columns;
+}
+
+}  // namespace
+
+JointColumns side_by_side(const std::vector<JointColumns>& sets) {
+  Index width = 0;
+  for (const JointColumns& set : sets) width += set.columns();
+  std::map<int, MatrixXd> parts;
+  Index first = 0;
+  for (const JointColumns& set : sets) {
+    for (std::size_t i = 0; i < set.joints.size(); ++i) {
+      MatrixXd& part = parts[set.joints[i]];
+      if (part.size() == 0) part = MatrixXd::Zero(set.parts[i].rows(), width);
+      part.middleCols(first, set.columns()) = set.parts[i];
+    }
+    first += set.columns();
+  }
+  return columns_of(std::move(parts));
+}
+
 JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals,
                             const EffectInstance& effect, const std::vector<int>& wanted,
                             bool states_held) {
@@ -32,12 +61,7 @@ JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals
     }
     start += rows.Y.rows();
   }
-  JointColumns columns;
-  for (auto& [joint, part] : parts) {
-    columns.joints.push_back(joint);
-    columns.parts.push_back(std::move(part));
-  }
-  return columns;
+  return columns_of(std::move(parts));
 }
 
 namespace {

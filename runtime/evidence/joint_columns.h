@@ -17,6 +17,10 @@ struct JointColumns {
   [[nodiscard]] Eigen::Index columns() const { return parts.empty() ? 0 : parts.front().cols(); }
 };
 
+/// Columns of several sets, in their order, with the joints of all of them; those of joints that a
+/// set lacks are 0.
+JointColumns side_by_side(const std::vector<JointColumns>& sets);
+
 /// Torque of an effect and its derivatives by parameters, behind the parallel filter; equations
 /// that do not count are 0. Columns: 1 + np, or only those of `wanted` (0: the torque, 1 + k: by
 /// parameter k).

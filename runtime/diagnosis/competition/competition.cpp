@@ -173,17 +173,9 @@ class Competition {
                 [&](double done) { tell("shapes of the strongest effects", done); });
   }
 
-  /// Structure without a name is a sketch, which leaves remnants, and so is the course of what
-  /// changes with time: one event among thousands that were tried may be one, unless it is beyond
-  /// doubt.
+  /// What may be a remnant of what was found has to be beyond doubt.
   [[nodiscard]] bool is_remnant(const NamedResult& named, const Screening& screening) const {
-    if (!hypotheses_[named.hypothesis].windowed) return false;
-    const bool beside_drift =
-        std::any_of(result_.winners.begin(), result_.winners.end(), [&](const Winner& winner) {
-          const Hypothesis& other = hypotheses_[winner.hypothesis];
-          return !other.windowed && other.effect.law.reads("t");
-        });
-    return (beside_drift || !result_.nameless.empty()) &&
+    return may_be_remnant(result_, hypotheses_, named.hypothesis) &&
            !nameless_.sure(screening, named.surprise);
   }
 

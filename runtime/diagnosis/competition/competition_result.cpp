@@ -97,6 +97,17 @@ bool has_nameless(const CompetitionResult& result, int joint) {
                      [&](const Nameless& nameless) { return nameless.structure.joint == joint; });
 }
 
+bool may_be_remnant(const CompetitionResult& result, const std::vector<Hypothesis>& hypotheses,
+                    std::size_t hypothesis) {
+  if (!hypotheses[hypothesis].windowed) return false;
+  const auto changes_with_time = [&](const Winner& winner) {
+    const Hypothesis& other = hypotheses[winner.hypothesis];
+    return !other.windowed && other.effect.law.reads("t");
+  };
+  return !result.nameless.empty() ||
+         std::any_of(result.winners.begin(), result.winners.end(), changes_with_time);
+}
+
 EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
                          const EffectPoint& point, const std::vector<Hypothesis>& beside,
                          const TorqueNoiseModel& noise, const EvidenceSystem::Options& options) {

@@ -63,6 +63,12 @@ bool is_winner(const CompetitionResult& result, std::size_t hypothesis);
 /// Whether a joint has structure without a name already.
 bool has_nameless(const CompetitionResult& result, int joint);
 
+/// Whether a hypothesis may be a remnant of what was found. Structure without a name is a sketch,
+/// and so is the course of what changes with time: one event among thousands that were tried may
+/// explain what they leave.
+bool may_be_remnant(const CompetitionResult& result, const std::vector<Hypothesis>& hypotheses,
+                    std::size_t hypothesis);
+
 /// The model with what is given beside it: regressor, and effects at their estimates with the
 /// columns of all their unknown parameters.
 EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,

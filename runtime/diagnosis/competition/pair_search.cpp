@@ -36,29 +36,20 @@ std::vector<Member> members_of(const EffectRecordings& data,
   return members;
 }
 
-/// Columns of all members side by side.
+/// Columns of all members, which learn where theirs are.
 JointColumns columns_of(const EffectRecordings& data, EffectSignals& signals,
                         const EvidenceSystem& system, const std::vector<Hypothesis>& hypotheses,
                         std::vector<Member>& members) {
+  std::vector<JointColumns> sets;
   Index width = 0;
   for (Member& member : members) {
-    member.columns.resize(hypotheses[member.hypothesis].linear.size());
+    sets.push_back(hypothesis_columns(data, signals, system, hypotheses[member.hypothesis],
+                                      member.trial->effect));
+    member.columns.resize(static_cast<std::size_t>(sets.back().columns()));
     std::iota(member.columns.begin(), member.columns.end(), width);
-    width += static_cast<Index>(member.columns.size());
+    width += sets.back().columns();
   }
-  JointColumns all;
-  for (int joint = 0; joint < data.joints(); ++joint) {
-    all.joints.push_back(joint);
-    all.parts.emplace_back(Eigen::MatrixXd::Zero(system.rows(), width));
-  }
-  for (const Member& member : members) {
-    const JointColumns own = hypothesis_columns(
-        data, signals, system, hypotheses[member.hypothesis], member.trial->effect);
-    for (std::size_t i = 0; i < own.joints.size(); ++i) {
-      all.parts[static_cast<std::size_t>(own.joints[i])](Eigen::all, member.columns) = own.parts[i];
-    }
-  }
-  return all;
+  return side_by_side(sets);
 }
 
 Score score_of_columns(const Products& products, const std::vector<Index>& columns) {
