@@ -51,6 +51,17 @@ class Commands : public testing::Test {
   DescribedRobot robot_;
 };
 
+TEST_F(Commands, HoldsOutAllRecordingsThatFollow) {
+  const std::string call = "fit " + std::string(kRobot) + " " + record("a.csv", {.seed = 1}) +
+                           " --holdout " + record("b.csv", {.seed = 2}) + " " +
+                           record("c.csv", {.seed = 3}) + " --json " + path("fit.json");
+  const Outcome fit = dynid(call);
+  ASSERT_EQ(fit.exit_code, 0) << fit.out;
+  const auto recordings = nlohmann::json::parse(content(path("fit.json")))["recordings"];
+  ASSERT_EQ(recordings.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(recordings[i]["heldout"], i > 0) << i;
+}
+
 TEST_F(Commands, FitChecksAndSaysHowWell) {
   const std::string train = record("train.csv", {.seconds = 20, .torque_noise = 0.3});
   const std::string test = record("test.csv.gz", {.torque_noise = 0.3, .seed = 2});

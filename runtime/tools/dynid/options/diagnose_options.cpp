@@ -24,17 +24,14 @@ void add_simulation(CLI::App& command, DiagnoseOptions& options) {
       .add_option("--commanded", options.commanded,
                   "CSV: what was commanded in a --holdout, one for each in their order; default: "
                   "the motion that was recorded")
-      ->allow_extra_args(false)
       ->needs(controller);
 }
 
 }  // namespace
 
 void add_diagnose_options(CLI::App& command, DiagnoseOptions& options) {
-  command
-      .add_option("--reference", options.reference,
-                  "a recording of the same robot before it changed; may be given again")
-      ->allow_extra_args(false);
+  command.add_option("--reference", options.reference,
+                     "recordings of the same robot before it changed; may be given again");
   command.add_flag("--residual-only", options.diagnosis.residual_only,
                    "explain the torque that another simulator leaves (columns tausim1 ..): the "
                    "model's own parameters are not fitted");

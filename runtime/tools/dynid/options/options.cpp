@@ -88,8 +88,7 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
       ->required();
   add_recordings(*fit, options, "recordings, or .qr files of 'dynid accumulate'");
   fit->add_option("--holdout", options.heldout,
-                  "a recording that is not fitted but predicted; may be given again")
-      ->allow_extra_args(false);
+                  "recordings that are not fitted but predicted; may be given again");
   fit->add_option("--holdout-part", options.heldout_part,
                   "hold out the last part of every recording: 0.4 is the last 40 %")
       ->check(CLI::Range(0.0, 0.9));
@@ -153,11 +152,9 @@ void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
   diagnose->add_option("robot", options.robot, "robot file; rows that are absent or * are fitted")
       ->required();
   diagnose->add_option("recordings", options.recordings, "recordings");
-  diagnose
-      ->add_option("--holdout", options.heldout,
-                   "a recording that only proves the answer; may be given again. Else the last "
-                   "fifth of every recording")
-      ->allow_extra_args(false);
+  diagnose->add_option("--holdout", options.heldout,
+                       "recordings that only prove the answer; may be given again. Else a fifth of "
+                       "every recording: the last in which all joints move");
   add_effects(*diagnose, options);
   diagnose->add_option("-o,--output", options.output, "the robot file with what was found");
   diagnose->add_option("--json", options.json, "all results for programs");
