@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/diagnosis/answer/certificate.h"
+#include "runtime/diagnosis/answer/condition_lines.h"
 #include "runtime/diagnosis/answer/found_effects.h"
 #include "runtime/diagnosis/answer/unnamed_text.h"
 #include "runtime/diagnosis/answer/verdict.h"
@@ -25,14 +26,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-std::vector<ConditionLine> conditions_of(const DiagnosisInput& input) {
-  std::vector<ConditionLine> lines;
-  for (const MotionSource& source : input.train) {
-    lines.push_back({source.name, source.condition.messages});
-  }
-  return lines;
-}
 
 /// A point whose states begin as their laws say.
 EffectPoint from_rest(EffectPoint point) {
@@ -67,7 +60,7 @@ class Diagnostician {
         search_(input, options.decimation) {}
 
   Diagnosis run() {
-    answer_.condition = conditions_of(input_);
+    answer_.condition = condition_lines(input_, &search_.shown_train());
     answer_.sentence = why_too_few(search_.views().train);
     if (!answer_.sentence.empty()) return std::move(answer_);
     const std::string too_little = why_not_clean();
@@ -89,7 +82,8 @@ class Diagnostician {
     describe_changes();
     answer_.unexplained = described(result().nameless);
     answer_.undecidable = undecidable_effects(search_.hypotheses(), result().first, input_.model);
-    answer_.certificate = certificate_of(search_.hypotheses(), result());
+    answer_.detectable_lambda = detectable_lambda(result().last.threshold(options_.false_alarm));
+    answer_.certificate = certificate_of(search_.hypotheses(), result(), answer_.detectable_lambda);
     describe_base();
     describe_heldout();
     answer_.next = next_experiment(answer_.findings);
@@ -126,8 +120,7 @@ class Diagnostician {
     const std::vector<GenericStructure> structures =
         generic_structures(search_.views().train.joints());
     std::vector<StructureTest> tests;
-    const double threshold =
-        -std::log(-std::expm1(std::log1p(-options_.false_alarm) / screening.tests));
+    const double threshold = screening.threshold(options_.false_alarm);
     for (int j = 0; j < search_.views().train.joints(); ++j) {
       StructureTest test{j, 0, threshold, ""};
       for (const GenericResult& generic : screening.generic) {
@@ -214,7 +207,7 @@ Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,
     return Diagnostician(input, options, progress, witness).run();
   } catch (const TooShortError& error) {
     Diagnosis answer;
-    answer.condition = conditions_of(input);
+    answer.condition = condition_lines(input, nullptr);
     answer.sentence = error.what();
     return answer;
   }

@@ -85,7 +85,7 @@ ReportChart where_chart(const ResidualView& view, const Whereabouts& where, cons
            own.direction < 0,
            false});
     }
-    if (over.variable == where.variable && where.to > where.from && where.share < 1) {
+    if (over.variable == where.variable && where.to > where.from && !where.spread) {
       panel.spans.push_back(
           {where.from, where.to, fmt::format("{:.0f} % of what is left", 100 * where.share)});
     }

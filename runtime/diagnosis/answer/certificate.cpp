@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "runtime/effects/absorption.h"
-
 namespace dyngen::runtime {
 namespace {
 
@@ -15,7 +13,7 @@ constexpr double kLeastLeft = 1e-6;  // of an effect's squares beside the model
 }  // namespace
 
 std::vector<CertificateLine> certificate_of(const std::vector<Hypothesis>& hypotheses,
-                                            const CompetitionResult& result) {
+                                            const CompetitionResult& result, double detectable) {
   std::vector<CertificateLine> lines;
   for (const NamedResult& named : result.last.named) {
     if (is_winner(result, named.hypothesis) || named.typical.size() == 0) continue;
@@ -27,7 +25,7 @@ std::vector<CertificateLine> certificate_of(const std::vector<Hypothesis>& hypot
     line.parameter = hypothesis.linear[static_cast<std::size_t>(main)];
     line.smallest =
         named.typical_lambda > 0 && named.part_left > kLeastLeft
-            ? std::abs(named.typical[main]) * std::sqrt(kDetectableLambda / named.typical_lambda)
+            ? std::abs(named.typical[main]) * std::sqrt(detectable / named.typical_lambda)
             : std::numeric_limits<double>::infinity();
     lines.push_back(std::move(line));
   }

@@ -8,8 +8,9 @@
 
 namespace dyngen::runtime {
 
-/// What was not found, and the smallest size at which it would have been (kDetectableLambda).
+/// What was not found, and the smallest size at which it would have been.
+/// @param detectable  lambda that is found nine times in ten
 std::vector<CertificateLine> certificate_of(const std::vector<Hypothesis>& hypotheses,
-                                            const CompetitionResult& result);
+                                            const CompetitionResult& result, double detectable);
 
 }  // namespace dyngen::runtime

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "runtime/diagnosis/names/name_tests.h"
 #include "runtime/diagnosis/names/naming.h"
@@ -43,9 +44,9 @@ std::string why(const Finding& finding, const Naming& naming) {
   std::string text = fmt::format(
       "{} on {} explains {:.0f} squares of noise that the model cannot", finding.effect.law.family,
       where_it_acts(finding.effect) + when_it_acts(finding.where), finding.evidence.lambda);
-  if (naming.unnamed_distance < kApart) {
-    text += fmt::format("; {}, which is no effect of the catalogue, is {:.0f} squares {}",
-                        naming.unnamed, std::abs(naming.unnamed_distance),
+  if (!finding.unnamed.empty()) {
+    text += fmt::format("; {}, is {:.0f} squares {}", finding.unnamed,
+                        std::abs(naming.unnamed_distance),
                         naming.unnamed_distance < 0 ? "better" : "worse");
   } else if (naming.rivals.empty()) {
     text += "; nothing else comes near";
@@ -59,8 +60,28 @@ std::string why(const Finding& finding, const Naming& naming) {
          fmt::format("; the next name, {}, is {:.0f} squares worse", next.name, next.distance);
 }
 
-Finding finding(const Search& search, std::size_t place, const Naming& naming,
-                EffectSignals& signals, const EvidenceSystem::Options& options) {
+struct Found {
+  Finding finding;
+  LocatedEffect located;
+};
+
+/// Shares of what an effect itself has on its joint become shares of all that was found there,
+/// with a name or without.
+void share_among_all(std::vector<Found>& all_found, const std::vector<Nameless>& nameless) {
+  for (Found& found : all_found) {
+    const int joint = found.located.joint;
+    double all = 0;
+    for (const Found& own : all_found) all += own.located.squares[joint];
+    for (const Nameless& own : nameless) {
+      if (own.structure.joint != joint) continue;
+      all += std::max(0.0, own.score.squares - own.score.degrees);
+    }
+    found.finding.where.share *= found.located.squares[joint] / std::max(all, 1e-300);
+  }
+}
+
+Found found(const Search& search, std::size_t place, const Naming& naming, EffectSignals& signals,
+            const EvidenceSystem::Options& options) {
   const EffectRecordings& evidence = search.views().evidence();
   const CompetitionResult& result = search.result();
   const EffectFit& fit = result.fit;
@@ -71,13 +92,15 @@ Finding finding(const Search& search, std::size_t place, const Naming& naming,
   finding.parameters = fit.parameters[place];
   finding.aliases = naming.families;
   finding.probability = naming.probability;
+  if (naming.unnamed_distance < kApart) finding.unnamed = naming.unnamed;
   finding.absorbed = 1 - naming.part_left;
   finding.evidence = {naming.lambda, naming.delta_bic, 0};
   const EvidenceSystem system =
       system_without(evidence, signals, search.hypotheses(), result, place, options);
   finding.tests = name_tests(evidence, signals, system, finding.effect);
   if (!hypothesis.windowed) finding.tests.push_back(stability_test(naming));
-  finding.where = whereabouts_of(evidence, signals, system, hypothesis, finding.effect);
+  LocatedEffect where = located(evidence, signals, system, hypothesis, finding.effect);
+  finding.where = where.where;
   if (finding.effect.recording >= 0) {
     finding.where.recording =
         search.parts().train[static_cast<std::size_t>(finding.effect.recording)].name;
@@ -92,7 +115,7 @@ Finding finding(const Search& search, std::size_t place, const Naming& naming,
                              false, remark.text, true});
   }
   finding.why = why(finding, naming);
-  return finding;
+  return {std::move(finding), std::move(where)};
 }
 
 }  // namespace
@@ -112,10 +135,13 @@ std::vector<Finding> found_effects(Search& search, std::uint64_t seed, bool with
   const std::vector<Naming> namings =
       settle_names(search.views().evidence(), search.views().train, search.views().proof, signals,
                    search.hypotheses(), result, system, progress);
-  std::vector<Finding> findings;
+  std::vector<Found> all;
   for (std::size_t i = 0; i < namings.size(); ++i) {
-    findings.push_back(finding(search, i, namings[i], signals, system));
+    all.push_back(found(search, i, namings[i], signals, system));
   }
+  share_among_all(all, result.nameless);
+  std::vector<Finding> findings;
+  for (Found& own : all) findings.push_back(std::move(own.finding));
   return findings;
 }
 

@@ -28,6 +28,24 @@ double nameless_part(const Search& search, const std::vector<Finding>& findings,
   return left / std::max(left + named, 1e-300);
 }
 
+std::string explanation(const std::vector<Finding>& findings) {
+  const auto changes = std::count_if(findings.begin(), findings.end(),
+                                     [](const Finding& own) { return own.since_reference; });
+  const auto effects = static_cast<std::ptrdiff_t>(findings.size()) - changes;
+  std::string text;
+  if (effects > 0) {
+    text = fmt::format("{} left-out effect{} explain{} what the model leaves.", effects,
+                       effects == 1 ? "" : "s", effects == 1 ? "s" : "");
+  }
+  if (changes > 0) {
+    text += fmt::format(
+        "{}{} change{} since the reference recordings, which the model's own "
+        "parameters have taken up.",
+        text.empty() ? "" : " ", changes, changes == 1 ? "" : "s");
+  }
+  return text;
+}
+
 }  // namespace
 
 bool found_nothing(const CompetitionResult& result) {
@@ -63,12 +81,7 @@ Conclusion concluded(const Search& search, const std::vector<Finding>& findings)
             "There is structure beside the model; the effect that is nearest to it has a condition "
             "against it."};
   }
-  if (!findings.empty()) {
-    const bool one = findings.size() == 1;
-    return {Verdict::kExplained,
-            fmt::format("{} left-out effect{} explain{} what the model leaves.", findings.size(),
-                        one ? "" : "s", one ? "s" : "")};
-  }
+  if (!findings.empty()) return {Verdict::kExplained, explanation(findings)};
   return {Verdict::kClean, "Nothing above the noise: the model explains these recordings."};
 }
 

@@ -18,14 +18,17 @@ enum class Verdict {
   kInsufficientData       ///< the recordings cannot carry a test
 };
 
-/// Where an effect shows: a range of a variable that holds most of what the model alone leaves.
+/// Where an effect shows: a range of a variable that holds most of it.
 struct Whereabouts {
   std::string variable;     ///< "qd2", "q3", "tau_load2", "t", "distance2"; joints from 1
   double from = 0, to = 0;  ///< rad, rad/s, N m, s ...
   /// s: the part of the recordings in which it acts; NaN: all of it
   double t_from = std::numeric_limits<double>::quiet_NaN();
   double t_to = std::numeric_limits<double>::quiet_NaN();
-  double share = 0;       ///< of the unexplained energy of its joint that lies in the range, 0 .. 1
+  /// Of the energy that the model leaves of its joint above the noise, the part that is this effect
+  /// in this range, 0 .. 1; NaN: of a change since the reference.
+  double share = 0;
+  bool spread = false;    ///< over all of the variable: the range is what it had
   std::string recording;  ///< in which alone it acts; empty: in all
 };
 
@@ -49,7 +52,8 @@ struct Finding {
   EffectInstance effect;  ///< with its estimate; family "unknown" never stands here
   std::vector<EffectParameterFit> parameters;
   std::vector<std::string> aliases;  ///< families that these data cannot tell apart, its own first
-  double probability = 0;            ///< that the family is right, 0 .. 1
+  std::string unnamed;     ///< what has no name and is not told apart either; empty: nothing
+  double probability = 0;  ///< that the family is right, 0 .. 1
   /// A change since the reference recordings: part of the model's own parameters, no row of
   /// effects.
   bool since_reference = false;
@@ -136,6 +140,7 @@ struct Diagnosis {
   std::vector<Finding> findings;
   std::vector<Undecidable> undecidable;
   std::vector<Unexplained> unexplained;
+  double detectable_lambda = 0;  ///< that is found nine times in ten; 0: not known
   std::vector<CertificateLine> certificate;
   std::vector<BaseShift> base_parameters;
   HeldoutResidual heldout;

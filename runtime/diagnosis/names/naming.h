@@ -16,7 +16,7 @@ struct Naming {
   std::vector<std::string> families;  ///< that these data cannot tell apart; the winner's first
   std::vector<Rival> rivals;          ///< the best of each other family, nearest first
   std::optional<Rival> kin;           ///< the best other one of the winner's family, on its joint
-  std::string unnamed;                ///< what has no name and comes nearest; or empty
+  std::string unnamed;                ///< what has no name and comes nearest (UnnamedRival)
   double unnamed_distance = std::numeric_limits<double>::infinity();  ///< by which it is worse
   double probability = 0;  ///< of the winner's family, 0 .. 1
   double lambda = 0;       ///< squares of the winner beside all else, less its degrees

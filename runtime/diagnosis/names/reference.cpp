@@ -160,8 +160,7 @@ Finding finding_of(const Change& change, const std::vector<Change>& ranked,
     parameter.held = false;
     parameter.stddev = std::sqrt(std::max(0.0, change.covariance(place, place)));
   }
-  finding.where.variable = "t";
-  finding.where.share = 1;
+  finding.where.share = std::numeric_limits<double>::quiet_NaN();
   finding.why = fmt::format(
       "the parameters of the reference recordings do not fit the others: a change by {} explains "
       "{:.0f} squares of noise",

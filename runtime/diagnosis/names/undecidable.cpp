@@ -15,7 +15,8 @@ constexpr double kNothingLeft = 1e-6;
 /// than 5e-4 was left of them on simulated recordings.
 constexpr double kTorqueLeft = 1e-3;
 
-std::string reason(const std::string& family) {
+std::string reason(const EffectLaw& law) {
+  const std::string& family = law.family;
   if (family == "torque_offset" || family == "coulomb_asymmetry") {
     return "a constant torque and friction that differs by direction are the offset of the joint: "
            "identical columns on any data; a reading with the motors off would tell";
@@ -36,7 +37,7 @@ std::string reason(const std::string& family) {
     return "rotor inertia is in the model already, or in the inertia of the link it moves: "
            "identical columns on any data";
   }
-  return "the model has the same columns, on any data";
+  return law.name + ": the model has the same columns, on any data";
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ std::vector<Undecidable> undecidable_effects(const std::vector<Hypothesis>& hypo
     const double most = effect.law.reads("torque") ? kTorqueLeft : kNothingLeft;
     if (!theorem || !(named.part_left < most)) continue;
     if (effect.joint >= model.joints()) continue;
-    std::vector<std::string>& families = groups[{effect.joint, reason(effect.law.family)}];
+    std::vector<std::string>& families = groups[{effect.joint, reason(effect.law)}];
     if (std::find(families.begin(), families.end(), effect.law.family) == families.end()) {
       families.push_back(effect.law.family);
     }

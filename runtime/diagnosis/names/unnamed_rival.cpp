@@ -62,7 +62,8 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
     const GenericStructure& structure = structures[place];
     const JointColumns white = system.whitened(generic_columns(data, signals, structure));
     consider(net_of(structure, score_of(system.products(white, false), false), result.noise),
-             fmt::format("a function of {}", fmt::join(structure.names(), " and ")));
+             fmt::format("a function of {}, which is no effect of the catalogue",
+                         fmt::join(structure.names(), " and ")));
   }
 
   nets.clear();
@@ -87,7 +88,9 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
       for (Eigen::MatrixXd& part : curve.parts) part = part * trial.score.coefficients;
       const Imitation by_winner = imitation(system, curve, own);
       if (by_winner.left < kSame * by_winner.whole) continue;  // the same curve, which has a name
-      consider(net_of(hypothesis, trial, result.noise), "the form of " + short_name(trial.effect));
+      consider(net_of(hypothesis, trial, result.noise),
+               fmt::format("the form of {}, no name here since {}", short_name(trial.effect),
+                           trial.objection));
     } catch (const std::invalid_argument&) {
       continue;  // no finite torque there
     }

@@ -11,7 +11,9 @@ namespace dyngen::runtime {
 /// What has no name and comes nearest to a winner: a function of the motion, or the form of an
 /// effect that a bound or a falsifier rules out.
 struct UnnamedRival {
-  std::string what;  ///< "a function of qd1 and qd2", "the form of link_flexibility 2"
+  /// "a function of qd1 and qd2, which is no effect of the catalogue", "the form of
+  /// link_flexibility 2, no name here since ..."
+  std::string what;
   double net = -std::numeric_limits<double>::infinity();  ///< squares less their price
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "runtime/diagnosis/scans/generic_structure.h"
 
@@ -48,14 +49,15 @@ Range closest_range(const VectorXd& x, const VectorXd& energy) {
 
 }  // namespace
 
-Whereabouts whereabouts_of(const EffectRecordings& data, EffectSignals& signals,
-                           const EvidenceSystem& system, const Hypothesis& hypothesis,
-                           const EffectInstance& effect) {
+LocatedEffect located(const EffectRecordings& data, EffectSignals& signals,
+                      const EvidenceSystem& system, const Hypothesis& hypothesis,
+                      const EffectInstance& effect) {
   const JointColumns columns = system.whitened(effect_columns(data, signals, effect, {0}));
   int joint = columns.joints.front();
-  VectorXd energy;
+  VectorXd energy, squares = VectorXd::Zero(data.joints());
   for (const int j : columns.joints) {
     const VectorXd here = system.left_of(columns, j).col(0).cwiseAbs2();
+    squares[j] = here.sum();
     if (energy.size() != 0 && here.sum() <= energy.sum()) continue;
     energy = here;
     joint = j;
@@ -92,6 +94,7 @@ Whereabouts whereabouts_of(const EffectRecordings& data, EffectSignals& signals,
     where.from = x.minCoeff();
     where.to = x.maxCoeff();
     where.share = 1;
+    where.spread = true;
   }
   if (hypothesis.windowed) {
     where.t_from = effect.parameters[hypothesis.shapes.front()];
@@ -99,7 +102,7 @@ Whereabouts whereabouts_of(const EffectRecordings& data, EffectSignals& signals,
     for (const EffectRun& run : data.runs) end = std::max(end, run.time[run.time.size() - 1]);
     where.t_to = hypothesis.shapes.size() > 1 ? effect.parameters[hypothesis.shapes.back()] : end;
   }
-  return where;
+  return {std::move(where), joint, std::move(squares)};
 }
 
 }  // namespace dyngen::runtime

@@ -290,6 +290,20 @@ double Screening::family_wise(double surprise) const {
   return -std::expm1(tests * std::log1p(-std::exp(-surprise)));
 }
 
+double Screening::threshold(double false_alarm) const {
+  return -std::log(-std::expm1(std::log1p(-false_alarm) / tests));
+}
+
+double detectable_lambda(double surprise) {
+  constexpr double kNineInTen = 1.2816;  // of the standard normal distribution
+  double least = 0, most = 2 * surprise + 2;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = (least + most) / 2;
+    (surprise_of(middle, 1) < surprise ? least : most) = middle;
+  }
+  return std::pow(std::sqrt(most) + kNineInTen, 2);
+}
+
 ScreeningData::ScreeningData(const EffectRecordings& data)
     : whole_(data), coarse_(thinned(data)), repeats_(repeats_of(data)) {
   const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u);

@@ -55,7 +55,12 @@ struct Screening {
 
   /// P that noise alone gives a surprise as large, somewhere among all tests.
   [[nodiscard]] double family_wise(double surprise) const;
+  /// The surprise that has this P. @param false_alarm  in (0, 1)
+  [[nodiscard]] double threshold(double false_alarm) const;
 };
+
+/// The noncentrality at which a test of one parameter exceeds a surprise nine times in ten.
+double detectable_lambda(double surprise);
 
 /// Told how far it is, 0 .. 1; from the calling thread.
 using ScreeningProgress = std::function<void(double done)>;

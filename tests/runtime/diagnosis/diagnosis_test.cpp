@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 #include "runtime/diagnosis/views/sufficiency.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
@@ -88,6 +90,29 @@ TEST(Diagnosis, NamesWhatWasLeftOut) {
   }
 }
 
+/// Of two effects of one joint the share of each is of what both leave there.
+TEST(Diagnosis, SharesAreOfAllThatIsFoundOnTheJoint) {
+  const EffectInstance ripple = test::known(test::ripple_law(), 1, {0.1, 0.05, 21});
+  const auto shares = [&](const std::vector<EffectInstance>& truths) {
+    const Diagnosis diagnosis = diagnose(input_with(truths, 1), test::every_sample());
+    std::map<std::string, double> by_name;
+    for (const Finding& own : diagnosis.findings) {
+      by_name[own.effect.law.name] = own.where.share;
+    }
+    return by_name;
+  };
+  const std::string name = ripple.law.name;
+  const double alone = shares({ripple}).at(name);
+  EXPECT_GT(alone, 0.65);
+  EXPECT_LE(alone, 1);
+  const auto both = shares({ripple, test::known(test::spring_law(), 1, {0.4})});
+  ASSERT_EQ(both.size(), 2U);
+  const double other = both.at(test::spring_law().name);
+  EXPECT_LT(both.at(name), 0.8 * alone);
+  EXPECT_LE(both.at(name) + other, 1 + 1e-12);
+  EXPECT_GT(both.at(name) + other, 0.6);
+}
+
 TEST(Diagnosis, WhatIsAColumnOfTheModelIsUndecidable) {
   const Diagnosis diagnosis = diagnose(
       input_with({test::known(test::coulomb_asymmetry_law(), 0, {1.0})}, 3), test::every_sample());
@@ -110,6 +135,11 @@ TEST(Diagnosis, AReferenceDecidesWhatNoRecordingAloneCan) {
   EXPECT_EQ(finding.effect.law.name, "coulomb_asymmetry");
   EXPECT_EQ(finding.effect.joint, 0);
   EXPECT_NEAR(finding.effect.parameters[0], 1, 5 * finding.parameters[0].stddev);
+  EXPECT_TRUE(finding.where.variable.empty());
+  EXPECT_TRUE(std::isnan(finding.where.share));
+  EXPECT_EQ(diagnosis.sentence,
+            "1 change since the reference recordings, which the model's own parameters have taken "
+            "up.");
   input.train = input_with({}, 6).train;
   EXPECT_TRUE(diagnose(input, test::every_sample()).findings.empty());
 }
@@ -209,7 +239,7 @@ TEST(Diagnosis, OfARunShorterThanTheFilterSaysSo) {
     EXPECT_NE(diagnosis.sentence.find("is longer than the parallel filter: the longest has 0.5 s"),
               std::string::npos)
         << diagnosis.sentence;
-    EXPECT_EQ(diagnosis.condition.size(), input.train.size());
+    EXPECT_EQ(diagnosis.condition.size(), input.train.size() + input.heldout.size());
   }
 }
 

@@ -204,6 +204,20 @@ TEST(EvidenceSystem, SquaresGrowAsTheNoncentralitySays) {
 }
 
 /// Of a hundred columns the rows that they have are multiplied, of half as many all rows.
+TEST(SideBySide, HasTheJointsOfAll) {
+  const MatrixXd a = MatrixXd::Random(4, 2), b = MatrixXd::Random(4, 1), c = MatrixXd::Random(4, 1);
+  const JointColumns all = side_by_side({{{0, 2}, {a, 2 * a}}, {}, {{1, 2}, {b, c}}});
+  ASSERT_EQ(all.joints, (std::vector<int>{0, 1, 2}));
+  MatrixXd first(4, 3), second(4, 3), third(4, 3);
+  first << a, MatrixXd::Zero(4, 1);
+  second << MatrixXd::Zero(4, 2), b;
+  third << 2 * a, c;
+  EXPECT_EQ(all.parts[0], first);
+  EXPECT_EQ(all.parts[1], second);
+  EXPECT_EQ(all.parts[2], third);
+  EXPECT_EQ(side_by_side({}).columns(), 0);
+}
+
 TEST(EvidenceSystem, ProductsOfColumnsOfAFewRowsAreTheSame) {
   const EffectRecordings data = arm_recordings(20, 0.1, 3);
   const EvidenceSystem system(data, residuals_at_truth(data), white(0.1), {});
@@ -244,6 +258,27 @@ TEST(Surprise, IsTheLogarithmOfTheTailAlsoWhereItIsTooSmallForADouble) {
   EXPECT_NEAR(surprise_of(60, 2, 100), 50 * std::log(1.6), 1e-9);
   EXPECT_NEAR(surprise_of(1e6, 2, 200), 100 * std::log(1 + 1e6 / 200), 1e-3);
   EXPECT_NEAR(surprise_of(60, 2, 1e8), surprise_of(60, 2), 1e-3);
+}
+
+TEST(Surprise, OfTheThresholdIsAsLikelyAsIsAllowed) {
+  Screening screening;
+  screening.tests = 5000;
+  for (const double allowed : {0.2, 0.01, 1e-4}) {
+    EXPECT_NEAR(screening.family_wise(screening.threshold(allowed)), allowed, 1e-9 * allowed);
+  }
+}
+
+/// A normal deviate beyond the threshold of both tails, and 1.2816 further.
+TEST(DetectableLambda, IsFoundNineTimesInTen) {
+  EXPECT_NEAR(detectable_lambda(-std::log(0.01 / 200)), std::pow(4.0556 + 1.2816, 2), 0.01);
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> noise;
+  const double surprise = 12, root = std::sqrt(detectable_lambda(surprise));
+  constexpr int kCases = 20000;
+  int found = 0;
+  for (int i = 0; i < kCases; ++i)
+    found += surprise_of(std::pow(root + noise(random), 2), 1) > surprise;
+  EXPECT_NEAR(found / static_cast<double>(kCases), 0.9, 0.01);
 }
 
 TEST(Standstill, IsLeftOutAndReversalsStayIn) {

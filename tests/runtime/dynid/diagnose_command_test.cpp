@@ -2,6 +2,7 @@
 // dynid diagnose as its users call it, on recordings whose truth is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -171,6 +172,32 @@ TEST_F(Diagnose, ExplainsWhatAnotherSimulatorLeaves) {
   EXPECT_NE(content(path("d.robot")).find("\nFs       5.9  8.1  4.4\n"), std::string::npos);
 }
 
+TEST_F(Diagnose, FindsWhatChangedSinceTheReference) {
+  const std::string now = "effect coulomb_asymmetry joint=2 dF=2\n";
+  const std::string call = record("a.csv", now, 11) + " --holdout " + record("b.csv", now, 12);
+  ASSERT_EQ(diagnose(call).exit_code, 0);
+  EXPECT_EQ(json()["findings"].size(), 0u);  // no recording alone shows it
+  const Outcome run =
+      diagnose(call + " --reference " + record("c.csv", "", 13) + " " + record("d.csv", "", 14));
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
+  ASSERT_EQ(json()["findings"].size(), 1u) << run.out;
+  const Json finding = json()["findings"][0];
+  const std::vector<std::string> aliases = finding["aliases"];
+  EXPECT_NE(std::find(aliases.begin(), aliases.end(), "coulomb_asymmetry"), aliases.end());
+  EXPECT_EQ(finding["joint"], 2);
+  for (const char* key : {"variable", "from", "to", "share"}) {
+    EXPECT_TRUE(finding["where"][key].is_null()) << key;
+  }
+  EXPECT_NE(run.out.find("1 change since the reference recordings"), std::string::npos) << run.out;
+  // condition of all four
+  const std::string page = content(path("d.html"));
+  for (const char* name : {"a.csv", "b.csv", "c.csv", "d.csv"}) {
+    EXPECT_NE(page.find(path(name)), std::string::npos) << name;
+  }
+  EXPECT_NE(page.find("a sample every 5 ms (200 Hz)"), std::string::npos);
+}
+
 TEST_F(Diagnose, SaysWhatIsWrong) {
   const std::string train = record("a.csv", "", 6, 3);
   const auto expect = [](const Outcome& outcome, int code, const std::string& words) {
@@ -178,6 +205,8 @@ TEST_F(Diagnose, SaysWhatIsWrong) {
     EXPECT_NE(outcome.out.find(words), std::string::npos) << outcome.out;
   };
   expect(dynid("diagnose " + std::string(kRobot)), 2, "there is no recording");
+  // all that follows --holdout is held out
+  expect(diagnose("--holdout " + train + " " + train), 2, "there is no recording");
   expect(diagnose(train + " --false-alarm 0.7"), 2, "--false-alarm");
   expect(diagnose(path("missing.csv")), 1, "missing.csv");
   expect(dynid("diagnose " + std::string(DYNGEN_SOURCE_DIR "/robots/planar2r.robot ") + train), 1,

@@ -34,7 +34,8 @@ ReportBars rms_bars(const DiagnosisReport& report) {
   bars.title = "What is left of recordings that were not fitted, rms";
   bars.caption =
       "Of the recorded torque: less the model alone, refitted; less the model with what was found; "
-      "and the noise, below which no model comes. Each joint has its own scale.";
+      "and the noise of the recordings that were fitted. Held-out ones may have more rests, where "
+      "friction may be anything. Each joint has its own scale.";
   for (int j = 0; j < report.joints(); ++j) {
     const auto& marked = report.arm.joints;
     const bool found = std::any_of(marked.begin(), marked.end(), [&](const ReportArm::Joint& own) {
@@ -176,9 +177,13 @@ void add_base(const Diagnosis& diagnosis, std::vector<ReportSection>& sections) 
     table.rows.push_back({own.name, own.before, own.after, own.stddev, shift(own)});
   }
   sections.push_back(section_of(
-      "parameters", "What the findings changed in the model",
-      {ReportText{
-           "Base parameters that had been carrying what was left out, largest changes first."},
+      "parameters",
+      diagnosis.findings.empty() ? "Parameters of the model"
+                                 : "What the findings changed in the model",
+      {ReportText{diagnosis.findings.empty()
+                      ? "Base parameters as fitted: nothing was found that they carried."
+                      : "Base parameters, those first that had been carrying most of what was left "
+                        "out."},
        std::move(table)}));
 }
 
@@ -216,10 +221,13 @@ void add_certificate(const DiagnosisReport& report, std::vector<ReportSection>& 
     row.emplace_back(own[0]);
     table.rows.push_back(std::move(row));
   }
-  sections.push_back(section_of(
-      "certificate", "What was not found, and how large it would have had to be",
-      {ReportText{"The smallest size that is found nine times in ten on such recordings."},
-       std::move(table)}));
+  sections.push_back(
+      section_of("certificate", "What was not found, and how large it would have had to be",
+                 {ReportText{fmt::format("The smallest size that is found nine times in ten on "
+                                         "such recordings: lambda of {:.0f}, "
+                                         "by as many tests as were made.",
+                                         diagnosis.detectable_lambda)},
+                  std::move(table)}));
 }
 
 void add_structure(const Diagnosis& diagnosis, std::vector<ReportSection>& sections) {

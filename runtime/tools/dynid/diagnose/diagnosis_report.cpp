@@ -115,9 +115,13 @@ std::string variable_unit(const std::string& variable, const std::vector<bool>& 
   return unit_text(known->unit, turns ? JointUnits::kRevolute : JointUnits::kPrismatic);
 }
 
-std::string parameter_text(const EffectParameterFit& parameter, double interval) {
+std::string parameter_text(const Finding& finding, std::size_t place, double interval) {
+  const EffectParameterFit& parameter = finding.parameters[place];
   const std::string value = fmt::format("{:.4g}", parameter.value);
-  if (parameter.held) return value + " (held)";
+  if (parameter.held) {
+    const bool scanned = finding.effect.law.parameters[place].role == EffectRole::kScanned;
+    return value + (scanned ? " (scanned)" : " (held)");
+  }
   if (!parameter.seen) return value + " (not seen)";
   if (parameter.at_bound) return value + " (at its bound)";
   if (!(parameter.stddev > 0)) return value;

@@ -78,8 +78,9 @@ std::string answer_place(const EffectInstance& effect);
 /// "qd2 in rad/s": the unit of a variable of the answer, by the kind of its joint; empty: none.
 std::string variable_unit(const std::string& variable, const std::vector<bool>& revolute);
 
-/// How an effect's parameter is known: "13.2 +- 0.3", "2 (given)"; intervals of 95 %.
-std::string parameter_text(const EffectParameterFit& parameter, double interval);
+/// How a finding's parameter is known: "13.2 +- 0.3", "2 (held)", "36 (scanned)"; intervals of 95
+/// %.
+std::string parameter_text(const Finding& finding, std::size_t place, double interval);
 
 /// The command that makes a file of the next experiment, of the findings in the JSON.
 std::string next_command(const DiagnosisReport& report);

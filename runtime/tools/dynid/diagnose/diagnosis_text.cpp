@@ -29,7 +29,7 @@ std::string where_text(const DiagnosisReport& report, const Whereabouts& where) 
     if (!where.recording.empty()) text += " of " + where.recording;
   }
   if (!text.empty() && where.share > 0) {
-    text += fmt::format(" ({:.0f} % of what the model leaves)", 100 * where.share);
+    text += fmt::format(" ({:.0f} % of what the model leaves there)", 100 * where.share);
   }
   return text;
 }
@@ -45,10 +45,9 @@ std::string finding_line(const DiagnosisReport& report, std::size_t place) {
   std::vector<std::string> numbers;
   for (std::size_t p = 0; p < finding.parameters.size(); ++p) {
     const std::string& unit = words.units[p];
-    numbers.push_back(
-        fmt::format("{} = {}{}", finding.effect.law.parameters[p].name,
-                    parameter_text(finding.parameters[p], report.diagnosis.fit.interval),
-                    unit == "1" ? "" : " " + unit));
+    numbers.push_back(fmt::format("{} = {}{}", finding.effect.law.parameters[p].name,
+                                  parameter_text(finding, p, report.diagnosis.fit.interval),
+                                  unit == "1" ? "" : " " + unit));
   }
   if (!numbers.empty()) text += fmt::format("; {}", fmt::join(numbers, ", "));
   if (finding.evidence.heldout_gain > 0) {
@@ -63,6 +62,7 @@ std::string finding_line(const DiagnosisReport& report, std::size_t place) {
   for (const std::string& family : finding.aliases) {
     if (family != finding.effect.law.family) others.push_back(family);
   }
+  if (!finding.unnamed.empty()) others.push_back(finding.unnamed);
   if (!others.empty()) text += fmt::format("; or {}", fmt::join(others, ", "));
   return text + "\n";
 }

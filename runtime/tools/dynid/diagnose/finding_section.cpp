@@ -72,9 +72,9 @@ class FindingWriter {
     }
     text += ".";
     if (where.share > 0) {
-      text +=
-          fmt::format(" There lies {:.0f} % of what the model alone leaves of the joint's torque.",
-                      100 * where.share);
+      text += fmt::format(
+          " That is {:.0f} % of what the model alone leaves of the joint's torque above the noise.",
+          100 * where.share);
     }
     ReportPart part{id("where"), "Where", "", {ReportText{text}}};
     if (drawn()) {
@@ -87,12 +87,13 @@ class FindingWriter {
   ReportPart what() const {
     const EffectLaw& law = finding_.effect.law;
     ReportPart part{id("what"), "What", sentence(words_.title), {}};
-    part.blocks.emplace_back(ReportFacts{
-        {{"family", law.family, ""},
-         {"probability of the name", fmt::format("{:.2f}", finding_.probability), ""},
-         {"cannot be told from", finding_.aliases.size() < 2 ? "nothing" : others(),
-          finding_.aliases.size() < 2 ? "these recordings tell it from every other family"
-                                      : "by these recordings"}}});
+    const std::string alike = others();
+    part.blocks.emplace_back(
+        ReportFacts{{{"family", law.family, ""},
+                     {"probability of the name", fmt::format("{:.2f}", finding_.probability), ""},
+                     {"cannot be told from", alike.empty() ? "nothing" : alike,
+                      alike.empty() ? "these recordings tell it from every other family"
+                                    : "by these recordings"}}});
     part.blocks.emplace_back(ReportFormula{words_.equations});
     part.blocks.emplace_back(ReportText{sentence(finding_.why)});
     if (!finding_.tests.empty()) {
@@ -114,6 +115,7 @@ class FindingWriter {
     for (const std::string& family : finding_.aliases) {
       if (family != finding_.effect.law.family) names.push_back(family);
     }
+    if (!finding_.unnamed.empty()) names.push_back(finding_.unnamed);
     return fmt::format("{}", fmt::join(names, ", "));
   }
 
@@ -144,8 +146,9 @@ class FindingWriter {
     part.blocks.emplace_back(
         ReportTable{{"evidence", "", ""},
                     {{"lambda", finding_.evidence.lambda,
-                      "squares of noise that no refit of the model takes up; some 28 are found "
-                      "nine times in ten"},
+                      fmt::format("squares of noise that no refit of the model takes up; some "
+                                  "{:.0f} are found nine times in ten",
+                                  report_.diagnosis.detectable_lambda)},
                      {"change of BIC", finding_.evidence.delta_bic,
                       "of adding it, with the samples that the noise is worth; negative is better"},
                      {"absorbed", fmt::format("{:.1f} %", 100 * finding_.absorbed),
@@ -169,8 +172,8 @@ class FindingWriter {
       table.rows.push_back(
           {law.parameters[p].name, parameter.value,
            known ? fmt::format("{:.4g} to {:.4g}", parameter.value - half, parameter.value + half)
-           : parameter.held     ? "held"
-           : !parameter.seen    ? "not seen"
+           : parameter.held  ? (law.parameters[p].role == EffectRole::kScanned ? "scanned" : "held")
+           : !parameter.seen ? "not seen"
            : parameter.at_bound ? "at its bound"
                                 : "-",
            words_.units[p], words_.meanings[p]});
@@ -191,6 +194,12 @@ class FindingWriter {
     ReportPart part{id("proof"), "Proof", "Recordings that were not fitted", {}};
     const HeldoutResidual& rms = report_.diagnosis.heldout;
     const double before = entry(rms.before, joint_), after = entry(rms.after, joint_);
+    if (finding_.since_reference) {
+      part.blocks.emplace_back(
+          ReportText{"A change since the reference: parameters that are fitted to these recordings "
+                     "have taken it up, so that nothing of it is left of those held out."});
+      return part;
+    }
     if (std::isfinite(before) && std::isfinite(after)) {
       part.blocks.emplace_back(ReportText{fmt::format(
           "The residual of joint {} falls from {:.3g} to {:.3g} {} rms ({:+.1f} %); the noise is "

@@ -22,7 +22,7 @@ std::vector<std::string> findings_comment(const DiagnosisReport& report,
     for (std::size_t p = 0; p < finding.parameters.size(); ++p) {
       const std::string& unit = report.words[i].units[p];
       comment.push_back(fmt::format("    {} = {}{}", finding.effect.law.parameters[p].name,
-                                    parameter_text(finding.parameters[p], diagnosis.fit.interval),
+                                    parameter_text(finding, p, diagnosis.fit.interval),
                                     unit == "1" ? "" : " " + unit));
     }
   }
