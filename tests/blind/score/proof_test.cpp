@@ -55,6 +55,8 @@ Judged one(const Json& truth, const Json& found, const std::string& kind = "sing
 
 TEST(Oracle, HasTheLevelAtNothingAndRises) {
   EXPECT_NEAR(oracle_power(0, 1), 0.01 / 200, 1e-12);
+  EXPECT_NEAR(oracle_power(0, 1, 0.3), 0.3, 1e-12);
+  EXPECT_NEAR(oracle_power(5.199 * 5.199, 1, kDiagnosisLevel), 0.5, 1e-3);
   EXPECT_NEAR(oracle_power(1e-9, 3), 0.01 / 200, 1e-8);
   for (const int degrees : {1, 2, 4}) {
     for (double lambda = 1; lambda < 200; lambda *= 1.3) {
@@ -176,6 +178,28 @@ TEST(Second, LooksForTheTruthAmongSeveralFindings) {
   EXPECT_EQ(after(truths, two).outcome, Second::Outcome::kRight);
   EXPECT_TRUE(after(truths, two).too_many);
   EXPECT_FALSE(after(truths, Json::array({two[1]})).too_many);
+}
+
+/// Two truths whose families are both among the names: the one of the joint is meant.
+TEST(Second, IsAboutTheTruthOfItsJoint) {
+  const Json truths = Json::array({truth_of("stribeck", 1, 80), truth_of("presliding", 2, 80)});
+  EXPECT_EQ(after(truths, Json::array({finding("presliding", 2, {"presliding"})}), "pair").outcome,
+            Second::Outcome::kRight);
+  EXPECT_EQ(after(truths, Json::array({finding("cable", 2, {"cable"})}), "pair").outcome,
+            Second::Outcome::kWrong);
+}
+
+/// All truths have their names: a set beside them is about nothing.
+TEST(Second, IsAboutNothingBesideWhatIsNamed) {
+  const Json truths = Json::array({truth_of("base_tilt", 0, 300)});
+  const Json tilt = finding("base_tilt", 0, {"base_tilt"}),
+             names = finding("stribeck", 2, {"stribeck", "presliding"});
+  const Judged judged = judge(entry("single", truths), stored_answer(Json::array({tilt, names})));
+  const auto then = [&](const Json& findings) {
+    return judge_second(judged, stored_answer(findings), kAsked);
+  };
+  EXPECT_FALSE(then(Json::array({tilt})).nameable);
+  EXPECT_EQ(then(Json::array({tilt, names})).outcome, Second::Outcome::kOpen);
 }
 
 TEST(Second, WithdrawsWhatIsNotThere) {

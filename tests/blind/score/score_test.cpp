@@ -135,6 +135,17 @@ TEST(Score, TellsWhatIsLeftWithoutTheInstantsWhereThatWasMeasured) {
   EXPECT_THAT(tables({judged}), testing::HasSubstr("| 10 to 20 | 0 of 1, 0.0 %"));
 }
 
+TEST(Score, SaysWhatWhoKnowsTheFormWouldFindOfTheSame) {
+  Judged judged = judge(truth("single", {{"time_delay", 2}}), answer(Json::array()));
+  Judged at_rests = judged;
+  at_rests.filtered = 0;
+  const std::string text = tables({judged, at_rests});
+  // the tail beyond 4.056 - sqrt(30): 0.922, and 5e-5 of nothing
+  EXPECT_THAT(text, testing::HasSubstr("has what is below 20 Hz, away from rests | 46.1 % |"));
+  EXPECT_THAT(text, testing::ContainsRegex(
+                        "\\| 80 \\| 0 of 2, [^|]*\\| 100.0 % \\| 46.1 % \\| 30.5 % \\|"));
+}
+
 TEST(Score, SaysWhichBoundsAreBroken) {
   const Json two = truth("single", {{"stribeck", 2}});
   const std::vector<Judged> all = {

@@ -38,17 +38,31 @@ bool same_place(const Json& finding, const Json& other) {
   return joint == before || joint == 0 || before == 0;
 }
 
-/// The truth that the names are about: one of theirs, else one of the joint, else the first.
-const Json* truth_of(const Json& truths, const Json& finding,
+/// Whether another finding of the answer, which has one name, is a truth already.
+bool is_named(const Json& truth, const Json& answer, const Json& but) {
+  return std::any_of(
+      answer["findings"].begin(), answer["findings"].end(), [&](const Json& finding) {
+        return &finding != &but && names_of(finding) == std::vector<std::string>{truth["family"]} &&
+               same_place(finding, truth);
+      });
+}
+
+/// The truth that the names are about, of those that no other finding is: one of theirs and of the
+/// joint, else one of theirs, else one of the joint, else the first. Null: there is none.
+const Json* truth_of(const Json& truths, const Json& answer, const Json& finding,
                      const std::vector<std::string>& names) {
-  if (truths.empty()) return nullptr;
-  for (const Json& truth : truths) {
-    if (holds(names, truth["family"])) return &truth;
-  }
-  for (const Json& truth : truths) {
-    if (same_place(finding, truth)) return &truth;
-  }
-  return &truths[0];
+  const auto first = [&](auto&& test) -> const Json* {
+    const auto found = std::find_if(truths.begin(), truths.end(), [&](const Json& truth) {
+      return !is_named(truth, answer, finding) && test(truth);
+    });
+    return found == truths.end() ? nullptr : &*found;
+  };
+  const auto of_names = [&](const Json& truth) { return holds(names, truth["family"]); };
+  const auto of_place = [&](const Json& truth) { return same_place(finding, truth); };
+  const Json* found = first([&](const Json& truth) { return of_names(truth) && of_place(truth); });
+  if (found == nullptr) found = first(of_names);
+  if (found == nullptr) found = first(of_place);
+  return found != nullptr ? found : first([](const Json&) { return true; });
 }
 
 /// What of the second answer stands where the names were: their truth, a name of theirs, any
@@ -81,7 +95,7 @@ Second judge_second(const Judged& judged, const Json& second, const Json& asked)
   Second result;
   result.name = judged.name;
   result.before = names_of(open);
-  const Json* const truth = truth_of(judged.truth["truths"], open, result.before);
+  const Json* const truth = truth_of(judged.truth["truths"], judged.answer, open, result.before);
   result.nameable = truth != nullptr && judged.kind != "hidden" && (*truth)["family"] != "unknown";
   result.held = result.nameable && holds(result.before, (*truth)["family"]);
   if (asked.is_object() && asked.value("found", false)) {

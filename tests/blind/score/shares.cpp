@@ -13,9 +13,9 @@
 namespace blind {
 namespace {
 
-double threshold(int degrees) {
+double threshold(int degrees, double level) {
   const boost::math::chi_squared_distribution<> null(degrees);
-  return boost::math::quantile(boost::math::complement(null, kLevel / kHypotheses));
+  return boost::math::quantile(boost::math::complement(null, level));
 }
 
 }  // namespace
@@ -36,10 +36,10 @@ std::string text_of(const Share& share) {
                      100 * share.value(), 100 * share.low, 100 * share.high);
 }
 
-double oracle_power(double lambda, int degrees) {
-  if (lambda <= 0) return kLevel / kHypotheses;
+double oracle_power(double lambda, int degrees, double level) {
+  if (lambda <= 0) return level;
   const boost::math::non_central_chi_squared_distribution<> there(degrees, lambda);
-  return boost::math::cdf(boost::math::complement(there, threshold(degrees)));
+  return boost::math::cdf(boost::math::complement(there, threshold(degrees, level)));
 }
 
 double oracle_lambda(double power, int degrees) {

@@ -25,10 +25,15 @@ std::string text_of(const Share& share);
 constexpr double kLevel = 0.01;
 constexpr int kHypotheses = 200;
 
-/// Power of the likelihood-ratio test that knows the form of what was left out and the noise, at
-/// the family-wise level: a chi-square of some degrees of freedom, noncentral by lambda.
+constexpr double kOracleLevel = kLevel / kHypotheses;  ///< of each
+/// Of each test of a diagnosis: one robot in 500 accused, some 10 000 independent tests.
+constexpr double kDiagnosisLevel = 0.002 / 10000;
+
+/// Power of the likelihood-ratio test that knows the form of what was left out and the noise: a
+/// chi-square of some degrees of freedom, noncentral by lambda.
 /// @param degrees  free parameters of the form, 1 and more
-double oracle_power(double lambda, int degrees);
+/// @param level    probability of a false alarm
+double oracle_power(double lambda, int degrees, double level = kOracleLevel);
 
 /// Where that power is reached. @param power  above the level, below 1
 double oracle_lambda(double power, int degrees);

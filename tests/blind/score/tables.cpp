@@ -45,6 +45,17 @@ std::string row(const std::string& what, const std::string& value) {
   return fmt::format("| {} | {} |\n", what, value);
 }
 
+/// Share that who knows the form is expected to find. @param known  what is left of lambda
+std::string expected(const Set& of, const std::function<double(const Judged&)>& known,
+                     double level = kOracleLevel) {
+  double sum = 0;
+  for (const Judged* each : of) sum += oracle_power(known(*each), 1, level);
+  return fmt::format("{:.1f} %", 100 * sum / static_cast<double>(of.size()));
+}
+
+double whole(const Judged& each) { return each.lambda; }
+double reached(const Judged& each) { return each.filtered; }
+
 /// Of 60 and more, within the accuracy that sizes are found with.
 bool is_strong(const Judged& each) { return each.lambda >= 53; }
 
@@ -71,6 +82,20 @@ std::string single_table(const Set& singles) {
   const Set separable = part(strong, [](const Judged& e) { return e.separable; });
   std::string text = "| single effects, lambda of 60 and more | |\n|---|---|\n";
   text += row("found", rate(strong, [](const Judged& e) { return e.found; }));
+  if (!strong.empty()) {
+    text += row("found by who knows the form, and has what is below 20 Hz, away from rests",
+                expected(strong, reached));
+    text += row("the same, by as many tests and as few false alarms as a diagnosis",
+                expected(strong, reached, kDiagnosisLevel));
+    const bool measured = std::all_of(strong.begin(), strong.end(),
+                                      [](const Judged* e) { return e->instants.has_value(); });
+    if (measured) {
+      text +=
+          row("the same, of what is left without the instants of stops, turns and letting go",
+              expected(
+                  strong, [](const Judged& e) { return e.instants.value_or(0); }, kDiagnosisLevel));
+    }
+  }
   text += row("named", rate(strong, is_named));
   text += row("joint right, of those named", rate(named, [](const Judged& e) { return e.joint; }));
   text += row("family first, of separable ones that are named",
@@ -98,14 +123,17 @@ std::string single_table(const Set& singles) {
 
 std::string ladder(const Set& singles) {
   std::string text =
-      "| wanted lambda | found | family first | confident wrong |\n|---|---|---|---|\n";
+      "| wanted lambda | found | by who knows the form | and has what is below 20 Hz, away from "
+      "rests | by as many tests and as few false alarms as a diagnosis | family first | confident "
+      "wrong |\n|---|---|---|---|---|---|---|\n";
   std::set<double> steps;
   for (const Judged* each : singles) steps.insert(each->truth["wanted_lambda"].get<double>());
   for (const double step : steps) {
     const Set here =
         part(singles, [&](const Judged& e) { return e.truth["wanted_lambda"] == step; });
-    text += fmt::format("| {:g} | {} | {} | {} |\n", step,
-                        rate(here, [](const Judged& e) { return e.found; }),
+    text += fmt::format("| {:g} | {} | {} | {} | {} | {} | {} |\n", step,
+                        rate(here, [](const Judged& e) { return e.found; }), expected(here, whole),
+                        expected(here, reached), expected(here, reached, kDiagnosisLevel),
                         rate(here, [](const Judged& e) { return e.first; }),
                         rate(here, [](const Judged& e) { return e.confident_wrong; }));
   }
@@ -128,15 +156,11 @@ std::string known_ladder(const Set& singles, const std::string& what,
       return known(e) >= kEdges[i] && known(e) < kEdges[i + 1];
     });
     if (here.empty()) continue;
-    double expected = 0;
-    for (const Judged* each : here) {
-      expected += oracle_power(known(*each), 1) / static_cast<double>(here.size());
-    }
     const std::string range = i + 2 < kEdges.size()
                                   ? fmt::format("{:g} to {:g}", kEdges[i], kEdges[i + 1])
                                   : fmt::format("{:g} and more", kEdges[i]);
-    text += fmt::format("| {} | {} | {:.1f} % |\n", range,
-                        rate(here, [](const Judged& e) { return e.found; }), 100 * expected);
+    text += fmt::format("| {} | {} | {} |\n", range,
+                        rate(here, [](const Judged& e) { return e.found; }), expected(here, known));
   }
   const Set strong = part(singles, is_strong);
   return text +
@@ -146,8 +170,7 @@ std::string known_ladder(const Set& singles, const std::string& what,
 }
 
 std::string known_ladders(const Set& singles) {
-  std::string text = known_ladder(singles, "below 20 Hz, away from rests",
-                                  [](const Judged& e) { return e.filtered; });
+  std::string text = known_ladder(singles, "below 20 Hz, away from rests", reached);
   const Set measured = part(singles, [](const Judged& e) { return e.instants.has_value(); });
   if (measured.empty()) return text;
   return text + known_ladder(measured, "without the instants of stops, turns and letting go",
