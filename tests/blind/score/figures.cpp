@@ -44,12 +44,13 @@ std::string detection(const Set& singles) {
 }
 
 std::string oracle() {
-  std::string text = "lambda,one,two,four\n";
+  std::string text = "lambda,one,two,four,asked\n";
   constexpr int kSteps = 120;
   for (int i = 0; i <= kSteps; ++i) {
     const double lambda = 2 * std::pow(250, static_cast<double>(i) / kSteps);
-    text += fmt::format("{:.4g},{:.5f},{:.5f},{:.5f}\n", lambda, oracle_power(lambda, 1),
-                        oracle_power(lambda, 2), oracle_power(lambda, 4));
+    text += fmt::format("{:.4g},{:.5f},{:.5f},{:.5f},{:.5f}\n", lambda, oracle_power(lambda, 1),
+                        oracle_power(lambda, 2), oracle_power(lambda, 4),
+                        oracle_power(lambda, 1, kDiagnosisLevel));
   }
   return text;
 }

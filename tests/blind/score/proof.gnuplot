@@ -21,8 +21,9 @@ if (has("detection.csv")) {
   set xtics (5, 10, 20, 40, 80, 160, 300)
   set xlabel "lambda: squares of noise that a refit of the model leaves"
   set ylabel "share of the cases, %"
-  set key outside top center horizontal maxrows 2 Left reverse samplen 2.5
+  set key outside top center vertical maxrows 3 Left reverse samplen 2.5
   plot table("oracle.csv") using "lambda":(100 * column("one")) with lines linewidth 2 linecolor rgb grey title "who knows the form, 1 parameter", \
+    "" using "lambda":(100 * column("asked")) with lines linewidth 2 dashtype 3 linecolor rgb grey title "the same at a diagnosis's level", \
     "" using "lambda":(100 * column("four")) with lines linewidth 2 dashtype 2 linecolor rgb grey title "who knows the form, 4 parameters", \
     table("detection.csv") using (column("lambda") / 1.02):(100 * column("found")):(100 * column("found_low")):(100 * column("found_high")) with yerrorbars pointtype 7 pointsize 0.8 linewidth 1.5 linecolor rgb blue title "found", \
     "" using (column("lambda") / 1.02):(100 * column("found")) with lines linecolor rgb blue notitle, \

@@ -241,7 +241,7 @@ TEST(Figures, ShowWhatWasCounted) {
   EXPECT_EQ(files.at("heldout.csv"), "share,before,after\n1.0000,2.00000,1.10000\n");
   EXPECT_EQ(files.at("concealed.csv"),
             "absorbed,excess,lambda\n0.7500,0.004000,90.000\n0.7500,0.004000,90.000\n");
-  EXPECT_THAT(files.at("oracle.csv"), HasSubstr("lambda,one,two,four\n2,"));
+  EXPECT_THAT(files.at("oracle.csv"), HasSubstr("lambda,one,two,four,asked\n2,"));
   EXPECT_EQ(figures({null}).count("detection.csv"), 0U);
 }
 
