@@ -18,7 +18,7 @@ std::string sampling(const RecordingCondition& condition) {
   return text;
 }
 
-/// "steps of the positions of joints 1, 2: 1e-05, 2e-05"
+/// "encoder steps of joints 1, 2: 1e-05, 2e-05"; one size where all are alike.
 std::string quantisation(const std::vector<double>& steps) {
   std::vector<int> joints;
   std::vector<std::string> sizes;
@@ -28,6 +28,9 @@ std::string quantisation(const std::vector<double>& steps) {
     sizes.push_back(fmt::format("{:.3g}", steps[j]));
   }
   if (joints.empty()) return "no steps of an encoder are seen in the positions";
+  if (std::all_of(sizes.begin(), sizes.end(), [&](const auto& own) { return own == sizes[0]; })) {
+    sizes.resize(1);
+  }
   return fmt::format("encoder steps of joint{} {}: {}", joints.size() == 1 ? "" : "s",
                      fmt::join(joints, ", "), fmt::join(sizes, ", "));
 }

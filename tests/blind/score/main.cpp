@@ -94,7 +94,9 @@ int main(int argc, char** argv) {
   if (!strengths.empty()) {
     const nlohmann::json measured = read(strengths);
     for (blind::Judged& each : judged) {
-      if (measured.contains(each.name)) each.instants = measured[each.name].at("instants");
+      if (!measured.contains(each.name)) continue;
+      each.instants = measured[each.name].at("instants");
+      each.slow = measured[each.name].at("slow");
     }
   }
   fmt::print("{}", blind::tables(judged));

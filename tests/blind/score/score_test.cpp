@@ -130,9 +130,12 @@ TEST(Score, TellsWhatIsLeftWithoutTheInstantsWhereThatWasMeasured) {
   Judged judged = judge(truth("single", {{"time_delay", 2}}), answer(Json::array()));
   const auto instants = testing::HasSubstr("| lambda without the instants of stops");
   EXPECT_THAT(tables({judged}), testing::Not(instants));
-  judged.instants = 15.0;
+  judged.instants = judged.slow = 15.0;
   EXPECT_THAT(tables({judged}), instants);
   EXPECT_THAT(tables({judged}), testing::HasSubstr("| 10 to 20 | 0 of 1, 0.0 %"));
+  // at a level of 2e-7: the tail beyond 5.199 - sqrt(15)
+  EXPECT_THAT(tables({judged}),
+              testing::HasSubstr("without the instants of stops, turns and letting go | 9.2 % |"));
 }
 
 TEST(Score, SaysWhatWhoKnowsTheFormWouldFindOfTheSame) {
@@ -142,8 +145,9 @@ TEST(Score, SaysWhatWhoKnowsTheFormWouldFindOfTheSame) {
   const std::string text = tables({judged, at_rests});
   // the tail beyond 4.056 - sqrt(30): 0.922, and 5e-5 of nothing
   EXPECT_THAT(text, testing::HasSubstr("has what is below 20 Hz, away from rests | 46.1 % |"));
-  EXPECT_THAT(text, testing::ContainsRegex(
-                        "\\| 80 \\| 0 of 2, [^|]*\\| 100.0 % \\| 46.1 % \\| 30.5 % \\|"));
+  EXPECT_THAT(
+      text, testing::ContainsRegex(
+                "\\| 80 \\| 0 of 2, [^|]*\\| 100.0 % \\| 46.1 % \\| 30.5 % \\| not measured \\|"));
 }
 
 TEST(Score, SaysWhichBoundsAreBroken) {

@@ -55,6 +55,11 @@ std::string expected(const Set& of, const std::function<double(const Judged&)>& 
 
 double whole(const Judged& each) { return each.lambda; }
 double reached(const Judged& each) { return each.filtered; }
+double slow(const Judged& each) { return each.slow.value_or(0); }
+
+bool are_measured(const Set& all) {
+  return std::all_of(all.begin(), all.end(), [](const Judged* e) { return e->slow.has_value(); });
+}
 
 /// Of 60 and more, within the accuracy that sizes are found with.
 bool is_strong(const Judged& each) { return each.lambda >= 53; }
@@ -87,13 +92,10 @@ std::string single_table(const Set& singles) {
                 expected(strong, reached));
     text += row("the same, by as many tests and as few false alarms as a diagnosis",
                 expected(strong, reached, kDiagnosisLevel));
-    const bool measured = std::all_of(strong.begin(), strong.end(),
-                                      [](const Judged* e) { return e->instants.has_value(); });
-    if (measured) {
-      text +=
-          row("the same, of what is left without the instants of stops, turns and letting go",
-              expected(
-                  strong, [](const Judged& e) { return e.instants.value_or(0); }, kDiagnosisLevel));
+    if (are_measured(strong)) {
+      text += row(
+          "the same, of what is below 40 Hz without the instants of stops, turns and letting go",
+          expected(strong, slow, kDiagnosisLevel));
     }
   }
   text += row("named", rate(strong, is_named));
@@ -124,16 +126,18 @@ std::string single_table(const Set& singles) {
 std::string ladder(const Set& singles) {
   std::string text =
       "| wanted lambda | found | by who knows the form | and has what is below 20 Hz, away from "
-      "rests | by as many tests and as few false alarms as a diagnosis | family first | confident "
-      "wrong |\n|---|---|---|---|---|---|---|\n";
+      "rests | by as many tests and as few false alarms as a diagnosis | and has what is below 40 "
+      "Hz without the instants | family first | confident wrong "
+      "|\n|---|---|---|---|---|---|---|---|\n";
   std::set<double> steps;
   for (const Judged* each : singles) steps.insert(each->truth["wanted_lambda"].get<double>());
   for (const double step : steps) {
     const Set here =
         part(singles, [&](const Judged& e) { return e.truth["wanted_lambda"] == step; });
-    text += fmt::format("| {:g} | {} | {} | {} | {} | {} | {} |\n", step,
+    text += fmt::format("| {:g} | {} | {} | {} | {} | {} | {} | {} |\n", step,
                         rate(here, [](const Judged& e) { return e.found; }), expected(here, whole),
                         expected(here, reached), expected(here, reached, kDiagnosisLevel),
+                        are_measured(here) ? expected(here, slow, kDiagnosisLevel) : "not measured",
                         rate(here, [](const Judged& e) { return e.first; }),
                         rate(here, [](const Judged& e) { return e.confident_wrong; }));
   }

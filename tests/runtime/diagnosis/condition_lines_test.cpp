@@ -29,6 +29,7 @@ DiagnosisInput two_and_one() {
   input.train[0].condition.repairs = {{"first.csv", 17, 5, "a value twice"}};
   input.train[1].condition.messages = {"torque of joint 2 stands at its limit"};
   input.heldout[0].name = "last.csv";
+  input.train[1].condition.position_step = {2e-5, 2e-5};
   input.heldout[0].condition.position_step = {0, 0};
   return input;
 }
@@ -41,6 +42,7 @@ TEST(ConditionLines, SayWhatWasFoundAndRepaired) {
   EXPECT_THAT(lines[0].sentences, Contains("a sample every 10 ms (100 Hz), jitter 2 %"));
   EXPECT_THAT(lines[0].sentences, Contains("encoder steps of joint 1: 1e-05"));
   EXPECT_THAT(lines[0].sentences, Contains(HasSubstr("first.csv:17:5: warning: a value twice")));
+  EXPECT_THAT(lines[1].sentences, Contains("encoder steps of joints 1, 2: 2e-05"));
   EXPECT_THAT(lines[1].sentences, Contains("torque of joint 2 stands at its limit"));
   EXPECT_EQ(lines[2].recording, "last.csv");
   EXPECT_THAT(lines[2].sentences, Contains("no steps of an encoder are seen in the positions"));
