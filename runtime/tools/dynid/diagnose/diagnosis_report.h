@@ -78,8 +78,8 @@ std::string answer_place(const EffectInstance& effect);
 /// "qd2 in rad/s": the unit of a variable of the answer, by the kind of its joint; empty: none.
 std::string variable_unit(const std::string& variable, const std::vector<bool>& revolute);
 
-/// How a finding's parameter is known: "13.2 +- 0.3", "2 (held)", "36 (scanned)"; intervals of 95
-/// %.
+/// How a finding's parameter is known, with its interval of 95 %: "13.2 +- 0.3", "2 (held)",
+/// "36 (scanned)".
 std::string parameter_text(const Finding& finding, std::size_t place, double interval);
 
 /// The command that makes a file of the next experiment, of the findings in the JSON.
