@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "runtime/diagnosis/scans/in_parallel.h"
@@ -30,13 +32,22 @@ TEST(InParallel, DoesEachPieceOnce) {
 }
 
 TEST(InParallel, PassesOnWhatAPieceThrows) {
-  std::atomic<std::size_t> done = 0;
-  const auto work = [&](std::size_t piece, std::size_t) {
-    ++done;
-    if (piece == 3) throw std::invalid_argument("piece 3");
-  };
-  EXPECT_THROW(in_parallel(100000, 2, work), std::invalid_argument);
-  EXPECT_LT(done, 100000u);  // nobody begins what nobody will read
+  // Alone, a thread begins nothing after the piece that throws. Another one may begin some before
+  // it is told, which takes as long as it takes: its pieces are slow, so that all of them would
+  // last 10 s.
+  for (const std::size_t threads : {1u, 2u}) {
+    std::atomic<std::size_t> done = 0;
+    const auto work = [&](std::size_t piece, std::size_t) {
+      ++done;
+      if (piece == 3) throw std::invalid_argument("piece 3");
+      if (piece > 3) std::this_thread::sleep_for(std::chrono::microseconds(100));
+    };
+    EXPECT_THROW(in_parallel(100000, threads, work), std::invalid_argument);
+    EXPECT_LT(done, 100000u) << threads;
+    if (threads == 1) {
+      EXPECT_EQ(done, 4u);
+    }
+  }
 }
 
 TEST(Turning, IsCosineAndSineOfRisingMultiples) {
