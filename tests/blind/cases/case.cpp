@@ -38,9 +38,9 @@ constexpr Reach kFiltered{20, 0.04};
 
 /// Training recordings in the coordinates in which noise is white.
 struct Whitened {
-  explicit Whitened(const Machine& machine, const std::vector<Recording>& training,
-                    const Reach& reach = {})
-      : whitener(training) {
+  Whitened(const Machine& machine, const std::vector<Recording>& training, const Whitener& noise,
+           const Reach& reach = {})
+      : whitener(noise) {
     if (reach.hz > 0) whitener.stop_above(reach.hz, training.front().log.rate);
     std::vector<MatrixXd> columns;
     for (const Recording& each : training) {
@@ -67,12 +67,10 @@ struct Sized {
 
 /// The size at which one truth alone has the wanted strength, within a third: sought on one
 /// recording, then measured on all.
-std::optional<Sized> find_size(const Draft& draft, const Truth& truth, const VectorXd& deviation,
+std::optional<Sized> find_size(const Draft& draft, const Truth& truth, const Whitener& noise,
                                double wanted) {
   const auto strength = [&](double size, std::size_t first, std::size_t last) {
-    std::vector<Recording> training = record_all(draft, {truth}, {size}, first, last);
-    add_noise(draft, deviation, training);
-    const Whitened whitened(draft.machine, training);
+    const Whitened whitened(draft.machine, record_all(draft, {truth}, {size}, first, last), noise);
     return Sized{size, whitened.lambda(), whitened.absorbed()};
   };
   const auto run = truth.numbers.find("run");
@@ -110,8 +108,8 @@ Log as_seen(Log log) {
 
 /// Held-out rms by joint of a fit to the noisy training torque. with_truth: knows what is left out
 std::vector<double> heldout_rms(const Draft& draft, const std::vector<Recording>& training,
-                                const std::vector<Recording>& heldout, bool with_truth) {
-  const Whitener whitener(training);
+                                const std::vector<Recording>& heldout, const Whitener& noise,
+                                bool with_truth) {
   const auto columns_of = [&](const Recording& each, const Log& log) {
     MatrixXd columns = base_columns(draft.machine, log);
     if (with_truth) {
@@ -125,7 +123,7 @@ std::vector<double> heldout_rms(const Draft& draft, const std::vector<Recording>
   for (const Recording& each : training) {
     const MatrixXd own = columns_of(each, each.log);
     const MatrixXd tau = torque_rows(each.log.recorded + each.torque_noise);
-    const RestWhitener white(whitener, each.log);
+    const RestWhitener white(noise, each.log);
     columns.push_back(white(own));
     torque.emplace_back(white(tau));
   }
@@ -164,6 +162,7 @@ std::optional<Case> make_case(const CaseOptions& options, const std::string& arm
   made.truths = draft.truths;
   const VectorXd deviation = noise_deviation(draft);
   made.noise.deviation = deviation;
+  const Whitener noise = whitener_of(draft, deviation);
   for (const Truth& truth : draft.truths) {
     if (options.kind == "hidden") {  // nothing of it is left: it has its usual size
       made.sizes.push_back(truth.typical);
@@ -171,7 +170,7 @@ std::optional<Case> make_case(const CaseOptions& options, const std::string& arm
       made.absorbed.push_back(1);
       continue;
     }
-    const auto sized = find_size(draft, truth, deviation, options.lambda);
+    const auto sized = find_size(draft, truth, noise, options.lambda);
     if (!sized) return {};
     made.sizes.push_back(sized->size);
     made.lambdas.push_back(sized->lambda);
@@ -184,17 +183,18 @@ std::optional<Case> make_case(const CaseOptions& options, const std::string& arm
   made.training.assign(recordings.begin(), first_heldout);
   made.heldout.assign(first_heldout, recordings.end());
   if (!options.noisy) return made;
-  const Whitened whitened(draft.machine, made.training);
+  const Whitened whitened(draft.machine, made.training, noise);
   double rows = 0;
   for (const VectorXd& each : whitened.left) rows += static_cast<double>(each.size());
   made.excess = std::sqrt(1 + whitened.lambda() / rows) - 1;
-  made.filtered = Whitened(draft.machine, made.training, kFiltered).lambda();
+  made.filtered = Whitened(draft.machine, made.training, noise, kFiltered).lambda();
   if (options.kind == "single") {
     made.imitated = imitated_shares(draft.machine, made.truths.front(), made.training,
                                     whitened.whitener, *whitened.refit, whitened.left);
   }
-  made.heldout_oracle = heldout_rms(draft, made.training, made.heldout, !made.truths.empty());
-  made.heldout_base = heldout_rms(draft, made.training, made.heldout, false);
+  made.heldout_oracle =
+      heldout_rms(draft, made.training, made.heldout, noise, !made.truths.empty());
+  made.heldout_base = heldout_rms(draft, made.training, made.heldout, noise, false);
   return made;
 }
 

@@ -31,6 +31,16 @@ Plant plant_of(const Draft& draft, const std::vector<Truth>& truths,
   return plant;
 }
 
+constexpr std::uint64_t kOfDraws = 1000000;  // the first part of other draws
+constexpr double kReadingNoise = 0.5;        // of an encoder's last digit
+
+/// What encoders show less where the motors are.
+VectorXd reading_error(const VectorXd& q, double digit, Random& random) {
+  VectorXd shown = q;
+  for (double& x : shown) x = std::round(x / digit + kReadingNoise * random.normal()) * digit;
+  return shown - q;
+}
+
 /// What the encoders show less where the motors are: their last digit, and noise of half of it, so
 /// that no two periods are read alike. The controller takes it in
 /// through a low-pass of 12 Hz, and between samples in a line from the value before to this one:
@@ -61,14 +71,11 @@ class Encoders {
   VectorXd error(const VectorXd& q, double t) const {
     Random random =
         Random(random_).part(static_cast<std::uint64_t>(std::llround(t * rate_) + kEarlier));
-    VectorXd shown = q;
-    for (double& x : shown) x = std::round(x / digit_ + kNoise * random.normal()) * digit_;
-    return shown - q;
+    return reading_error(q, digit_, random);
   }
 
  private:
   static constexpr double kPass = 12;               // Hz
-  static constexpr double kNoise = 0.5;             // of the last digit
   static constexpr long long kEarlier = 1LL << 40;  // samples: no place is negative
   double digit_, rate_;
   Random random_;
@@ -148,6 +155,27 @@ void add_noise_at(const Draft& draft, const VectorXd& deviation, std::size_t pla
   Random random(draft.noise_seed);
   for (std::size_t i = 0; i < place; ++i) random.part(i);  // a part moves the generator on
   recording.torque_noise = noise_of(draft, deviation, recording.log.q.rows(), random.part(place));
+}
+
+DrawNoise noise_draws(const Draft& draft, const VectorXd& deviation) {
+  return [&draft, deviation](std::size_t place, std::size_t draw, Recording& recording) {
+    Random random = Random(draft.noise_seed).part(kOfDraws + place);
+    random = random.part(draw);
+    const MatrixXd& q = recording.log.q;
+    recording.torque_noise = noise_of(draft, deviation, q.rows(), random.part(0));
+    const double digit = draft.noise.digit();
+    for (Index k = 0; k < q.rows(); ++k) {
+      recording.encoder_error.row(k) = reading_error(q.row(k), digit, random).transpose();
+    }
+  };
+}
+
+Whitener whitener_of(const Draft& draft, const VectorXd& deviation) {
+  std::vector<Recording> training;
+  for (std::size_t place = 0; place < draft.training; ++place) {
+    training.push_back(record(draft, {}, {}, ride_of(draft, place)));
+  }
+  return Whitener(training, noise_draws(draft, deviation));
 }
 
 }  // namespace blind

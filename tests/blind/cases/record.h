@@ -33,4 +33,11 @@ void add_noise(const Draft& draft, const Eigen::VectorXd& deviation, std::vector
 void add_noise_at(const Draft& draft, const Eigen::VectorXd& deviation, std::size_t place,
                   Recording& recording);
 
+/// Noise of the recordings from the first place on, of any draw.
+DrawNoise noise_draws(const Draft& draft, const Eigen::VectorXd& deviation);
+
+/// Makes the noise of a case's equations white: by its training motions of the machine as its model
+/// has it, and many draws of its noise.
+Whitener whitener_of(const Draft& draft, const Eigen::VectorXd& deviation);
+
 }  // namespace blind

@@ -23,8 +23,9 @@ using Eigen::VectorXd;
 
 constexpr double kSlow = 40;  // Hz: about what equations of filtered positions reach
 
-double lambda_of(const Redrawn& redrawn, const std::vector<Recording>& training, double below) {
-  Whitener whitener(training);
+double lambda_of(const Redrawn& redrawn, const std::vector<Recording>& training,
+                 const Whitener& noise, double below) {
+  Whitener whitener = noise;
   if (below > 0) whitener.stop_above(below, redrawn.draft.rate);
   std::vector<MatrixXd> columns;
   std::vector<VectorXd> left_out;
@@ -44,8 +45,9 @@ nlohmann::json strength_of(const nlohmann::json& entry, const std::string& arms)
   for (std::size_t place = 0; place < redrawn.draft.training; ++place) {
     training.push_back(record_again(redrawn, place));
   }
-  return {{"instants", lambda_of(redrawn, training, 0)},
-          {"slow", lambda_of(redrawn, training, kSlow)}};
+  const Whitener noise = whitener_of(redrawn.draft, redrawn.deviation);
+  return {{"instants", lambda_of(redrawn, training, noise, 0)},
+          {"slow", lambda_of(redrawn, training, noise, kSlow)}};
 }
 
 int measure(const fs::path& manifest, const fs::path& arms, const fs::path& out, unsigned jobs) {

@@ -14,7 +14,9 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr double kSmooth = 0.12;  // of a frequency: lines on each side whose mean is its power
+constexpr double kSmooth = 0.12;   // of a frequency: lines on each side whose mean is its power
+constexpr double kLeastLines = 2;  // and so many, of one draw
+constexpr std::size_t kDraws = 32;
 // of the weight of unknown values, so that those which a stopped band cannot show have one too
 constexpr double kLeast = 1e-9;
 
@@ -73,32 +75,50 @@ void leave_out_rest(const Log& log, Eigen::Ref<MatrixXd> rows) {
   }
 }
 
-Whitener::Whitener(const std::vector<Recording>& training) {
-  const Index joints = training.front().log.q.cols(), samples = training.front().log.q.rows();
-  MatrixXd power = MatrixXd::Zero(samples / 2 + 1, joints);
-  Eigen::FFT<double> fft;
+/// Power of its noise's lines, behind Hann's window, on top of what is there.
+void Whitener::add(const Recording& recording, MatrixXd& power) const {
+  const MatrixXd error = equation_error(recording);
+  const Index samples = error.rows();
   VectorXd window(samples);
   for (Index k = 0; k < samples; ++k) {
     const double turn = 2 * kPi * static_cast<double>(k) / static_cast<double>(samples);
     window[k] = 0.5 - 0.5 * std::cos(turn);
   }
-  const double scale = window.squaredNorm() * static_cast<double>(training.size());
-  for (const Recording& recording : training) {
-    const MatrixXd error = equation_error(recording);
-    for (Index j = 0; j < joints; ++j) {
-      const VectorXd part = error.col(j).cwiseProduct(window);
-      std::vector<double> time(part.begin(), part.end());
-      std::vector<std::complex<double>> lines;
-      fft.fwd(lines, time);
-      for (Index k = 0; k < power.rows(); ++k) power(k, j) += std::norm(lines[at(k)]) / scale;
+  Eigen::FFT<double> fft;
+  for (Index j = 0; j < error.cols(); ++j) {
+    const VectorXd part = error.col(j).cwiseProduct(window);
+    std::vector<double> time(part.begin(), part.end());
+    std::vector<std::complex<double>> lines;
+    fft.fwd(lines, time);
+    for (Index k = 0; k < power.rows(); ++k) {
+      power(k, j) += std::norm(lines[at(k)]) / window.squaredNorm();
     }
   }
+}
+
+Whitener::Whitener(const std::vector<Recording>& training, const DrawNoise& draw) {
+  MatrixXd power =
+      MatrixXd::Zero(training.front().log.q.rows() / 2 + 1, training.front().log.q.cols());
+  const std::size_t draws = draw ? kDraws : 1;
+  for (std::size_t place = 0; place < training.size(); ++place) {
+    if (!draw) {
+      add(training[place], power);
+      continue;
+    }
+    Recording other = training[place];
+    for (std::size_t i = 0; i < draws; ++i) {
+      draw(place, i, other);
+      add(other, power);
+    }
+  }
+  power /= static_cast<double>(training.size() * draws);
   // the mean over lines near in their logarithm: what is slow has few of them
-  MatrixXd sum = MatrixXd::Zero(power.rows() + 1, joints);
+  const double least = draw ? 0 : kLeastLines;
+  MatrixXd sum = MatrixXd::Zero(power.rows() + 1, power.cols());
   for (Index k = 0; k < power.rows(); ++k) sum.row(k + 1) = sum.row(k) + power.row(k);
-  deviation_.resize(power.rows(), joints);
+  deviation_.resize(power.rows(), power.cols());
   for (Index k = 0; k < power.rows(); ++k) {
-    const auto reach = static_cast<Index>(2 + kSmooth * static_cast<double>(k));
+    const auto reach = static_cast<Index>(least + kSmooth * static_cast<double>(k));
     const Index from = std::max<Index>(0, k - reach);
     const Index to = std::min<Index>(power.rows(), k + reach + 1);
     deviation_.row(k) =

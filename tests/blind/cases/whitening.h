@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "tests/blind/simulation/machine.h"
@@ -26,12 +27,17 @@ std::vector<std::vector<Eigen::Index>> rests_of(const Log& log, double reach = 0
 /// @param rows   (N j x k), in place
 void leave_out_rest(const Log& log, Eigen::Ref<Eigen::MatrixXd> rows);
 
+/// Gives a recording noise of another draw. @param place  of the recording
+using DrawNoise = std::function<void(std::size_t place, std::size_t draw, Recording& recording)>;
+
 /// The noise of the equations: of the torque, and what encoders add through the accelerations.
-/// Spectra of all training recordings, smoothed over near lines. Dividing by their root makes it
-/// white, of variance 1.
+/// Mean spectra of recordings and, where noise can be drawn anew, of many draws of it: the noise
+/// that three recordings happen to have is another one, at the lines of slow motion by half of its
+/// power and more. Smoothed over near lines. Dividing by their root makes it white, of variance 1.
 class Whitener {
  public:
-  explicit Whitener(const std::vector<Recording>& training);
+  /// @param draw  empty: of the noise that the recordings have
+  explicit Whitener(const std::vector<Recording>& training, const DrawNoise& draw = {});
   /// One joint's values, (N). Symmetric in time.
   Eigen::VectorXd column(Eigen::Index joint, const Eigen::VectorXd& values) const;
   /// Takes away what is faster.
@@ -39,6 +45,8 @@ class Whitener {
   Eigen::Index joints() const { return deviation_.cols(); }
 
  private:
+  void add(const Recording& recording, Eigen::MatrixXd& power) const;
+
   Eigen::MatrixXd deviation_;  // (lines x j) root of the spectrum, from 0 to half of the rate
 };
 

@@ -84,6 +84,27 @@ TEST(RestWhitener, LeavesAsManySquaresAsThereAreKnownSamples) {
   EXPECT_NEAR(sum / known, 1, 0.05);
 }
 
+/// A constant torque in noise with memory is told by the density at 0, which one recording hardly
+/// knows.
+TEST(Whitener, IsOfAllThatNoiseMayBe) {
+  constexpr double kMemory = 0.9;
+  const DrawNoise draw = [](std::size_t place, std::size_t number, Recording& recording) {
+    const auto seed = static_cast<unsigned>(1000 * (place + 1) + number);
+    recording.torque_noise = noisy(kMemory, seed).torque_noise;
+  };
+  const std::vector<Recording> recordings = training(kMemory);
+  const VectorXd constant = VectorXd::Ones(kSamples);
+  const double expected = kSamples * (1 - kMemory) * (1 - kMemory);
+  double worst = 0;
+  for (const Recording& each : recordings) {
+    EXPECT_NEAR(Whitener({each}, draw).column(0, constant).squaredNorm() / expected, 1, 0.35);
+    const double alone = Whitener({each}).column(0, constant).squaredNorm() / expected;
+    worst = std::max(worst, std::abs(std::log(alone)));
+  }
+  EXPECT_GT(worst, std::log(1.5));
+  EXPECT_NEAR(Whitener(recordings, draw).column(0, constant).squaredNorm() / expected, 1, 0.12);
+}
+
 TEST(RestWhitener, StopsWhatIsFaster) {
   const std::vector<Recording> recordings = training(0.5);
   Whitener whitener(recordings);
