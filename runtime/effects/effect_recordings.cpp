@@ -114,7 +114,7 @@ EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
     for (Index j = 0; j < plan.still_speed.size() && options.still_speed < 0; ++j) {
       if (remembering.empty() || remembering[static_cast<std::size_t>(j)]) plan.still_speed[j] = -1;
     }
-    const Decimator decimator = design_decimator(plan.decimation, plan.pass, plan.attenuation_db);
+    const Decimator decimator = design_decimator(plan.decimation, plan.filter);
     for (Motion& motion : runs_of(source)) {
       EffectRun run;
       run.recording = static_cast<int>(place);

@@ -70,8 +70,7 @@ namespace {
 void thin(EffectRun& run, Index stride) {
   if (stride <= 1) return;
   const Index factor = run.decimator.factor / stride;
-  const Decimator decimator =
-      design_decimator(factor, run.decimator.pass, run.decimator.attenuation_db);
+  const Decimator decimator = design_decimator(factor, run.decimator.shape);
   const Index origin = first_sample(run.decimator) - first_sample(decimator) * stride;
   const Index count =
       first_sample(decimator) + (run.rows.Y.rows() - 1) * factor + decimator.taps.size() / 2 + 1;

@@ -123,8 +123,7 @@ void check_joints(const LinearModel& model, const MotionSource& source) {
 RowPlan plan_rows(const MotionSource& source, const RowOptions& options) {
   RowPlan plan;
   plan.decimation = options.decimation;
-  plan.pass = options.pass;
-  plan.attenuation_db = options.attenuation_db;
+  plan.filter = options.filter;
   if (plan.decimation <= 0) {
     const double wanted =
         source.cutoff.hz > 0 ? 0.5 / (options.band * source.cutoff.hz * source.sample_time) : 1;
@@ -155,7 +154,7 @@ RowSource rows_of(const LinearModel& model, const MotionSource& source, const Ro
 
 RowSource planned_rows(const LinearModel& model, const MotionSource& source, const RowPlan& plan) {
   check_joints(model, source);
-  const Decimator decimator = design_decimator(plan.decimation, plan.pass, plan.attenuation_db);
+  const Decimator decimator = design_decimator(plan.decimation, plan.filter);
   return [&model, pieces = source.pieces, decimator,
           still = plan.still_speed](const std::function<void(const RowBlock&)>& visit) {
     RowBuffer buffer(model, decimator, still);

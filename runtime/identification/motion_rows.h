@@ -7,6 +7,7 @@
 #include "runtime/estimation/rows.h"
 #include "runtime/identification/motion_source.h"
 #include "runtime/model/linear_model.h"
+#include "runtime/signals/decimation.h"
 
 namespace dyngen::runtime {
 
@@ -19,17 +20,15 @@ struct RowOptions {
   /// three standard deviations of the velocity's noise.
   double still_speed = -1;
   double band = 1.25;  ///< > 0; the joint state is damped near 1 and above, and equations with it
-  Eigen::Index multiple = 1;   ///< a decimation that is chosen and larger is a multiple of this
-  double pass = 0.8;           ///< of the parallel filter, as design_decimator()
-  double attenuation_db = 60;  ///< of its stop band
-  double row_time = 0;         ///< s, between equations: a decimation that is chosen gives no less
+  Eigen::Index multiple = 1;  ///< a decimation that is chosen and larger is a multiple of this
+  FilterShape filter;         ///< the parallel filter
+  double row_time = 0;        ///< s, between equations: a decimation that is chosen gives no less
 };
 
 /// How the equations of a recording are made.
 struct RowPlan {
   Eigen::Index decimation = 1;
-  double pass = 0.8;                   ///< of the parallel filter
-  double attenuation_db = 60;          ///< of its stop band
+  FilterShape filter;                  ///< the parallel filter
   double row_time = 0;                 ///< s, between equations of a run
   Eigen::VectorXd still_speed;         ///< (n) negative: joints that stand still keep equations
   Eigen::VectorXd acceleration_noise;  ///< (n) standard deviation behind all filters

@@ -5,25 +5,34 @@
 
 namespace dyngen::runtime {
 
+/// What a parallel filter of some samples for one is like.
+struct FilterShape {
+  /// Of the new Nyquist frequency, 0.5 .. 0.95: up to there the gain is 1 within a thousandth, and
+  /// nothing above folds onto it: the stop band, of 60 dB, begins at (2 - pass) times the new
+  /// Nyquist frequency.
+  double pass = 0.8;
+  /// Instead of that so many moving averages over the samples for one, one behind another; 0, or an
+  /// even number up to 8. Short, and with zeros of that order wherever something folds onto what is
+  /// slow: for noise of accelerations, which grows with the square of frequency, and for equations
+  /// beside which nothing is known.
+  int averages = 0;
+};
+
 /// A symmetric (so without phase) low-pass FIR filter that keeps one sample of `factor`: the
 /// parallel filter. Torque and every column of the regressor pass the same linear operator, so tau
 /// = W beta holds after it as it did before, whatever the filter takes away (Gautier 1997).
 struct Decimator {
-  Eigen::VectorXd taps;        ///< odd number, symmetric, sum 1
-  Eigen::Index factor = 1;     ///< samples in for one out
-  double pass = 0.8;           ///< of the new Nyquist frequency: up to there the gain is 1
-  double attenuation_db = 60;  ///< of the stop band
+  Eigen::VectorXd taps;     ///< odd number, symmetric, sum 1
+  Eigen::Index factor = 1;  ///< samples in for one out
+  FilterShape shape;
 };
 
-/// Windowed sinc (Kaiser's window), -6 dB at the new Nyquist frequency.
-///
-/// @param factor          >= 1; 1 passes everything as it is
-/// @param pass            in [0.5, 0.95]: up to pass times the new Nyquist frequency the gain is 1
-///                        within the ripple, and nothing above folds onto it: the stop band begins
-///                        at (2 - pass) times the new Nyquist frequency
-/// @param attenuation_db  30..120: of the stop band; the ripple of the pass band is as small
-/// @throws std::invalid_argument  if one of them is out of its range
-Decimator design_decimator(Eigen::Index factor, double pass = 0.8, double attenuation_db = 60);
+/// Windowed sinc (Kaiser's window), -6 dB at the new Nyquist frequency; or moving averages.
+/// @param factor  >= 1; 1 passes everything as it is
+/// @throws std::invalid_argument  if the factor or a number of the shape is out of its range
+/// Source: Kaiser 1974 (length and window); Hogenauer, "An economical class of digital filters for
+/// decimation and interpolation", IEEE ASSP 1981 (moving averages).
+Decimator design_decimator(Eigen::Index factor, const FilterShape& shape = {});
 
 /// The input sample that output 0 belongs to, a whole multiple of factor; output k belongs to
 /// first_sample + k factor.

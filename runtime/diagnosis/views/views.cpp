@@ -22,12 +22,12 @@ constexpr double kPass =
     0.5;  // of the parallel filter: a short one, that standstill cuts less from
 constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
 constexpr double kJolts = 80;  // Hz, of jolts: a joint state of at least this cut-off has them
-constexpr double kHighest = 1.0 / 3;     // of the sampling frequency: a cut-off
-constexpr int kSteep = 8;                // order of that low-pass
-constexpr double kBesideJolts = 0.5;     // of its cut-off: what is slower is not damped at all
-constexpr double kBesideRests = 0.4;     // of that of the joint state as it is
-constexpr double kWidened = 0.5;         // over the cut-off: what the low-pass makes of a rest
-constexpr double kBesideJoltsStop = 30;  // dB, of a parallel filter that is shorter still
+constexpr double kHighest = 1.0 / 3;  // of the sampling frequency: a cut-off
+constexpr int kSteep = 8;             // order of that low-pass
+constexpr double kBesideJolts = 0.5;  // of its cut-off: what is slower is not damped at all
+constexpr double kBesideRests = 0.4;  // of that of the joint state as it is
+constexpr double kWidened = 0.5;      // over the cut-off: what the low-pass makes of a rest
+constexpr int kAverages = 4;          // of the parallel filter beside rests, which is shorter still
 constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
 
 RowOptions slower(RowOptions rows) {
@@ -154,7 +154,7 @@ RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Index decimati
   rows.decimation = decimation;
   rows.band = kBand;
   rows.multiple = kThinnedSamples;
-  rows.pass = kPass;
+  rows.filter.pass = kPass;
   std::vector<double> times;
   for (const MotionSource& source : train) times.push_back(plan_rows(source, rows).row_time);
   rows.row_time = median(std::move(times));
@@ -174,7 +174,7 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
   beside.highest = of_halves ? kHighestOfHalf : kHighest;
   beside.rows.band = beside.quick ? kBesideJolts : kBesideRests;
   beside.rows.multiple = 1;
-  beside.rows.attenuation_db = kBesideJoltsStop;
+  beside.rows.filter.averages = kAverages;
   std::vector<double> times;
   for (const MotionSource& source : train) {
     const double cutoff = beside.quick ? quick_cutoff(source, beside.highest) : source.cutoff.hz;

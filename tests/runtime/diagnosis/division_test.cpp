@@ -77,11 +77,10 @@ TEST(RowPlan, GivesNoMoreEquationsThanAskedFor) {
 TEST(Thinned, ColumnsAreThoseOfAllSamples) {
   // equations of 20 samples: columns of a spring
   const EffectInstance spring = test::known(test::spring_law(), 1, {0.2});
-  for (const double attenuation : {60.0, 30.0}) {
+  for (const int averages : {0, 4}) {
     RowOptions rows;
     rows.decimation = 20;
-    rows.pass = 0.5;
-    rows.attenuation_db = attenuation;
+    rows.filter = {.pass = 0.5, .averages = averages};
     const EffectRecordings data = effect_recordings(
         test::planar_arm(), test::planar_arm_tangents(),
         test::measured({test::sines(20, 0.002)}, test::planar_arm_values(), {spring}, 0, 0, 1),

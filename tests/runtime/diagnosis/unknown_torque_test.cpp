@@ -24,8 +24,7 @@ constexpr int kJoint = 1;
 EffectRecordings recordings() {
   RowOptions rows;
   rows.decimation = 4;
-  rows.pass = 0.5;
-  rows.attenuation_db = 30;
+  rows.filter.averages = 4;
   return effect_recordings(
       test::planar_arm(), test::planar_arm_tangents(),
       test::measured({test::sines(30, 0.004)}, test::planar_arm_values(), {}, kDeviation, 0, 1),
@@ -100,8 +99,8 @@ TEST(UnknownTorque, LeavesWhatIsBesideThem) {
   const EffectRecordings data = with_rests();
   const EffectRun& run = data.runs.front();
   MatrixXd torque = MatrixXd::Zero(run.motion.samples(), 1);
-  for (const SampleRange& range : run.unknown[kJoint]) {  // for 32 ms after each
-    for (Index k = range.to + 1; k < std::min(range.to + 9, torque.rows()); ++k) torque(k, 0) = 1;
+  for (const SampleRange& range : run.unknown[kJoint]) {  // for 20 ms after each
+    for (Index k = range.to + 1; k < std::min(range.to + 6, torque.rows()); ++k) torque(k, 0) = 1;
   }
   const JointColumns column{{kJoint}, {decimate(run.decimator, torque)}};
   const auto squares = [&](const EffectRecordings& seen) {
