@@ -10,15 +10,16 @@
 #                                   it, and has it answered again
 #   suite.sh BUILD SET strength     what of the single effects is left where friction may do anything in the
 #                                   instants in which joints stop, turn and let go
+#   suite.sh BUILD SET reach        what of the single effects is in the equations that dynid makes
 #   suite.sh BUILD SET score        holds the answers against the truth
 #   suite.sh BUILD real [STEP]      make, diagnose, score of real recordings with something added
 #   suite.sh BUILD case KIND LAMBDA SEED [FAMILY]    one case, told in full
 #
 # BUILD is a build folder with the targets blind_make, blind_answer, blind_sealed_run, blind_baselines,
-# blind_strength, blind_score and dynid, for real recordings blind_spoil too. These lie in DYNGEN_SHARED_DATA, else in
-# ../shared/data beside the project; where they are absent nothing is done. With UNSEALED=allowed a kernel that
-# cannot seal is no error: a comparison, but no proof. Everything is written to
-# BUILD/blind/SET, pictures to PICTURES where that is set. JOBS processes work at once.
+# blind_strength, blind_reach, blind_score and dynid, for real recordings blind_spoil too. These lie in
+# DYNGEN_SHARED_DATA, else in ../shared/data beside the project; where they are absent nothing is done.
+# With UNSEALED=allowed a kernel that cannot seal is no error: a comparison, but no proof. Everything is
+# written to BUILD/blind/SET, pictures to PICTURES where that is set. JOBS processes work at once.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
@@ -154,6 +155,11 @@ measure_strength() {
   "$tools/blind_strength" "$out/sealed/manifest.json" --arms "$here/arms" --jobs "$jobs" --out "$out/strengths.json"
 }
 
+measure_reach() {
+  check_seal
+  "$tools/blind_reach" "$out/sealed/manifest.json" --arms "$here/arms" --cases "$out/cases" --out "$out/reach.json"
+}
+
 score_cases() {
   code=0
   check_seal
@@ -166,6 +172,7 @@ score_cases() {
     more="--baselines $out/baselines"
   fi
   if [ -f "$out/strengths.json" ]; then more="$more --strengths $out/strengths.json"; fi
+  if [ -f "$out/reach.json" ]; then more="$more --reach $out/reach.json"; fi
   if [ -d "$out/second" ]; then more="$more --asked $out/asked --second $out/second"; fi
   # shellcheck disable=SC2046,SC2086  # options, in words
   "$tools/blind_score" "$out/sealed/manifest.json" "$out/answers" --lines "$out/lines.txt" \
@@ -216,6 +223,7 @@ case "$set_name/$step" in
   */active) active_cases ;;
   */baselines) answer_simply ;;
   */strength) measure_strength ;;
+  */reach) measure_reach ;;
   */score) score_cases ;;
   *) sed -n '2,22p' "$0"; exit 2 ;;
 esac

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // blind_strength: what of the single effects of a set is left to who does not know what friction
-// does in the instants in which joints stop, turn and let go. A JSON object by case: "instants",
-// and of that "slow", below 40 Hz.
+// does in the instants in which joints stop, turn and let go. A JSON object by case: "lambda", all
+// of it, which the manifests up to the set thaw have by the noise of three recordings alone;
+// "instants", and of that "slow", below 40 Hz.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -23,14 +24,16 @@ using Eigen::VectorXd;
 
 constexpr double kSlow = 40;  // Hz: about what equations of filtered positions reach
 
+/// @tparam White  whitens the equations of a recording, less what is not known of them
+template <class White>
 double lambda_of(const Redrawn& redrawn, const std::vector<Recording>& training,
-                 const Whitener& noise, double below) {
+                 const Whitener& noise, double below = 0) {
   Whitener whitener = noise;
   if (below > 0) whitener.stop_above(below, redrawn.draft.rate);
   std::vector<MatrixXd> columns;
   std::vector<VectorXd> left_out;
   for (const Recording& each : training) {
-    const InstantWhitener white(whitener, each.log);
+    const White white(whitener, each.log);
     columns.push_back(white(base_columns(redrawn.draft.machine, each.log)));
     const MatrixXd left =
         torque_rows(each.log.recorded) - base_torque(redrawn.draft.machine, each.log);
@@ -46,8 +49,9 @@ nlohmann::json strength_of(const nlohmann::json& entry, const std::string& arms)
     training.push_back(record_again(redrawn, place));
   }
   const Whitener noise = whitener_of(redrawn.draft, redrawn.deviation);
-  return {{"instants", lambda_of(redrawn, training, noise, 0)},
-          {"slow", lambda_of(redrawn, training, noise, kSlow)}};
+  return {{"lambda", lambda_of<RestWhitener>(redrawn, training, noise)},
+          {"instants", lambda_of<InstantWhitener>(redrawn, training, noise)},
+          {"slow", lambda_of<InstantWhitener>(redrawn, training, noise, kSlow)}};
 }
 
 int measure(const fs::path& manifest, const fs::path& arms, const fs::path& out, unsigned jobs) {
@@ -62,9 +66,9 @@ int measure(const fs::path& manifest, const fs::path& arms, const fs::path& out,
       const std::string name = entries[i]["case"];
       try {
         strengths[i] = strength_of(entries[i], arms);
-        fmt::print(stderr, "{}: {:.1f}, below {:.0f} Hz {:.1f}\n", name,
-                   strengths[i]["instants"].get<double>(), kSlow,
-                   strengths[i]["slow"].get<double>());
+        fmt::print(stderr, "{}: {:.1f}, {:.1f} without instants, below {:.0f} Hz {:.1f}\n", name,
+                   strengths[i]["lambda"].get<double>(), strengths[i]["instants"].get<double>(),
+                   kSlow, strengths[i]["slow"].get<double>());
       } catch (const std::runtime_error& error) {
         fmt::print(stderr, "{}: {}\n", name, error.what());
         ++failed;

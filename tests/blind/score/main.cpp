@@ -52,7 +52,8 @@ int score_changes(const nlohmann::json& entries, const std::filesystem::path& an
 
 int main(int argc, char** argv) {
   CLI::App app{"Holds answers of the blind suite against the truth."};
-  std::filesystem::path manifest, answers, cases, pictures, asked, second, baselines, strengths;
+  std::filesystem::path manifest, answers, cases, pictures, asked, second, baselines, strengths,
+      reach;
   app.add_option("manifest", manifest, "JSON array of all cases")
       ->required()
       ->check(CLI::ExistingFile);
@@ -69,6 +70,7 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   app.add_option("--strengths", strengths, "what blind_strength measured")
       ->check(CLI::ExistingFile);
+  app.add_option("--reach", reach, "what blind_reach measured")->check(CLI::ExistingFile);
   bool real = false;
   app.add_flag("--real", real,
                "cases are real recordings with something added: how answers change");
@@ -97,6 +99,13 @@ int main(int argc, char** argv) {
       if (!measured.contains(each.name)) continue;
       each.instants = measured[each.name].at("instants");
       each.slow = measured[each.name].at("slow");
+      each.again = measured[each.name].at("lambda");
+    }
+  }
+  if (!reach.empty()) {
+    const nlohmann::json measured = read(reach);
+    for (blind::Judged& each : judged) {
+      if (measured.contains(each.name)) each.reach = measured[each.name].at("lambda");
     }
   }
   fmt::print("{}", blind::tables(judged));

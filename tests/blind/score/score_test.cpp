@@ -138,6 +138,22 @@ TEST(Score, TellsWhatIsLeftWithoutTheInstantsWhereThatWasMeasured) {
               testing::HasSubstr("without the instants of stops, turns and letting go | 9.2 % |"));
 }
 
+TEST(Score, TellsWhatTheEquationsHoldWhereThatWasMeasured) {
+  Judged judged = judge(truth("single", {{"time_delay", 2}}), answer(Json::array()));
+  const auto reach = testing::HasSubstr("own equations");
+  const auto again = testing::HasSubstr("measured again");
+  EXPECT_THAT(tables({judged}), testing::AllOf(testing::Not(reach), testing::Not(again)));
+  judged.reach = 15.0;
+  EXPECT_THAT(tables({judged}), testing::HasSubstr("in dynid's own equations | 9.2 % |"));
+  EXPECT_THAT(tables({judged}), testing::HasSubstr("| lambda in dynid's own equations | found"));
+  Judged weak = judged;
+  judged.again = 61.0;
+  judged.found = true;
+  weak.again = 41.0;
+  EXPECT_THAT(tables({judged, weak}),
+              testing::HasSubstr("when lambda is measured again | 1 of 1, 100.0 % "));
+}
+
 TEST(Score, SaysWhatWhoKnowsTheFormWouldFindOfTheSame) {
   Judged judged = judge(truth("single", {{"time_delay", 2}}), answer(Json::array()));
   Judged at_rests = judged;

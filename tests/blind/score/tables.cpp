@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "tests/blind/score/estimates.h"
@@ -57,12 +58,16 @@ double whole(const Judged& each) { return each.lambda; }
 double reached(const Judged& each) { return each.filtered; }
 double slow(const Judged& each) { return each.slow.value_or(0); }
 
-bool are_measured(const Set& all) {
-  return std::all_of(all.begin(), all.end(), [](const Judged* e) { return e->slow.has_value(); });
+double in_equations(const Judged& each) { return each.reach.value_or(0); }
+
+bool are_measured(const Set& all, std::optional<double> Judged::*what = &Judged::slow) {
+  return std::all_of(all.begin(), all.end(),
+                     [&](const Judged* e) { return (e->*what).has_value(); });
 }
 
 /// Of 60 and more, within the accuracy that sizes are found with.
-bool is_strong(const Judged& each) { return each.lambda >= 53; }
+constexpr double kStrong = 53;
+bool is_strong(const Judged& each) { return each.lambda >= kStrong; }
 
 std::string concealment(const Set& singles) {
   std::string text = "| concealment of the single effects | |\n|---|---|\n";
@@ -96,6 +101,15 @@ std::string single_table(const Set& singles) {
       text += row(
           "the same, of what is below 40 Hz without the instants of stops, turns and letting go",
           expected(strong, slow, kDiagnosisLevel));
+    }
+    if (are_measured(strong, &Judged::reach)) {
+      text += row("the same, of what is in dynid's own equations",
+                  expected(strong, in_equations, kDiagnosisLevel));
+    }
+    if (are_measured(singles, &Judged::again)) {
+      text += row("found, of those that are of 60 and more when lambda is measured again",
+                  rate(part(singles, [](const Judged& e) { return *e.again >= kStrong; }),
+                       [](const Judged& e) { return e.found; }));
     }
   }
   text += row("named", rate(strong, is_named));
@@ -176,9 +190,14 @@ std::string known_ladder(const Set& singles, const std::string& what,
 std::string known_ladders(const Set& singles) {
   std::string text = known_ladder(singles, "below 20 Hz, away from rests", reached);
   const Set measured = part(singles, [](const Judged& e) { return e.instants.has_value(); });
-  if (measured.empty()) return text;
-  return text + known_ladder(measured, "without the instants of stops, turns and letting go",
-                             [](const Judged& e) { return e.instants.value_or(0); });
+  if (!measured.empty()) {
+    text += known_ladder(measured, "without the instants of stops, turns and letting go",
+                         [](const Judged& e) { return e.instants.value_or(0); });
+  }
+  if (!singles.empty() && are_measured(singles, &Judged::reach)) {
+    text += known_ladder(singles, "in dynid's own equations", in_equations);
+  }
+  return text;
 }
 
 std::string confusion(const Set& all) {
