@@ -99,8 +99,8 @@ TEST(UnknownTorque, LeavesWhatIsBesideThem) {
   const EffectRecordings data = with_rests();
   const EffectRun& run = data.runs.front();
   MatrixXd torque = MatrixXd::Zero(run.motion.samples(), 1);
-  for (const SampleRange& range : run.unknown[kJoint]) {  // for 20 ms after each
-    for (Index k = range.to + 1; k < std::min(range.to + 6, torque.rows()); ++k) torque(k, 0) = 1;
+  for (const SampleRange& range : run.unknown[kJoint]) {  // for 24 ms after each
+    for (Index k = range.to + 1; k < std::min(range.to + 7, torque.rows()); ++k) torque(k, 0) = 1;
   }
   const JointColumns column{{kJoint}, {decimate(run.decimator, torque)}};
   const auto squares = [&](const EffectRecordings& seen) {
