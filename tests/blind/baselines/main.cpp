@@ -6,45 +6,19 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "runtime/diagnosis/views/views.h"
-#include "runtime/tools/dynid/effects/effect_hypotheses.h"
-#include "runtime/tools/dynid/effects/effect_laws.h"
-#include "runtime/tools/dynid/effects/robot_tangents.h"
 #include "tests/baselines/baselines.h"
+#include "tests/blind/dynid/case_input.h"
 
 namespace dyngen::test {
 namespace {
 
-using Paths = std::vector<std::string>;
-
-std::vector<runtime::MotionSource> read(const Paths& paths) {
-  runtime::MotionOptions options;
-  options.stream_above = std::numeric_limits<std::size_t>::max();
-  options.average_periods = false;
-  std::vector<runtime::MotionSource> sources;
-  for (const std::string& path : paths) sources.push_back(runtime::motion_of_file(path, options));
-  return sources;
-}
-
-std::vector<BaselineResult> results(const std::string& robot_path, const Paths& train,
-                                    const Paths& heldout) {
-  const EffectCatalogue catalogue = runtime::effect_catalogue({});
-  const runtime::DescribedRobot robot =
-      runtime::describe_robot(robot_path, runtime::OpenParameters::kAbsentRows);
-  runtime::DiagnosisInput input;
-  input.model = robot.linear;
-  input.robot = runtime::effect_robot(robot);
-  input.train = read(train);
-  input.heldout = read(heldout);
-  std::vector<runtime::MotionSource> all = input.train;
-  all.insert(all.end(), input.heldout.begin(), input.heldout.end());
+std::vector<BaselineResult> results(const runtime::DiagnosisInput& input) {
   const runtime::ViewOptions view{runtime::diagnosis_rows(input.train, 0), {}};
   return baseline_results(runtime::equations_of(input, input.train, view),
-                          runtime::equations_of(input, input.heldout, view),
-                          runtime::competing_effects(robot, catalogue, all));
+                          runtime::equations_of(input, input.heldout, view), input.hypotheses);
 }
 
 std::string json_of(const std::vector<BaselineResult>& all) {
@@ -84,7 +58,8 @@ int main(int argc, char** argv) {
   app.add_option("--json", json, "the answer")->required();
   CLI11_PARSE(app, argc, argv);
   try {
-    dyngen::test::write(json, dyngen::test::json_of(dyngen::test::results(robot, train, heldout)));
+    dyngen::test::write(json, dyngen::test::json_of(
+                                  dyngen::test::results(blind::case_input(robot, train, heldout))));
   } catch (const std::exception& error) {
     fmt::print(stderr, "blind_baselines: {}\n", error.what());
     return 1;

@@ -5,16 +5,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <limits>
 
-#include "runtime/tools/dynid/effects/effect_hypotheses.h"
-#include "runtime/tools/dynid/effects/effect_laws.h"
-#include "runtime/tools/dynid/effects/robot_tangents.h"
 #include "tests/blind/cases/asked.h"
 #include "tests/blind/cases/case.h"
+#include "tests/blind/cases/measured_singles.h"
+#include "tests/blind/dynid/case_input.h"
 #include "tests/blind/reach/reach.h"
 
 namespace blind {
@@ -22,17 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace runtime = dyngen::runtime;
-
-std::vector<runtime::MotionSource> read(const std::vector<fs::path>& paths) {
-  runtime::MotionOptions options;
-  options.stream_above = std::numeric_limits<std::size_t>::max();
-  options.average_periods = false;
-  std::vector<runtime::MotionSource> sources;
-  for (const fs::path& path : paths) {
-    sources.push_back(runtime::motion_of_file(path.string(), options));
-  }
-  return sources;
-}
 
 /// What of the left-out torque a refit of all base parameters leaves, (N x j) of each recording. A
 /// refit absorbs the rest in the equations too, but by estimates that noise of positions moves.
@@ -69,67 +55,41 @@ std::vector<runtime::MotionSource> without_truth(const nlohmann::json& entry,
   const std::vector<Eigen::MatrixXd> left =
       left_by_refit(redrawn.draft.machine, whitener_of(redrawn.draft, redrawn.deviation), training);
   fs::create_directories(folder);
-  std::vector<fs::path> paths;
+  std::vector<std::string> paths;
   for (std::size_t i = 0; i < training.size(); ++i) {
     training[i].log.recorded -= left[i];
-    paths.push_back(folder / fmt::format("train{}.csv", i + 1));
-    write_recording(training[i], false, paths.back().string());
+    paths.push_back((folder / fmt::format("train{}.csv", i + 1)).string());
+    write_recording(training[i], false, paths.back());
   }
-  auto sources = read(paths);
+  auto sources = read_recordings(paths);
   fs::remove_all(folder);
   return sources;
 }
 
-Reach reach_of_case(const nlohmann::json& entry, const std::string& arms, const fs::path& folder,
-                    const fs::path& scratch) {
-  std::vector<fs::path> training, heldout;
+/// Files of a case that begin with a word, in their order, without the one that was asked for
+/// later.
+std::vector<std::string> files_of(const fs::path& folder, const std::string& word) {
+  std::vector<std::string> files;
   for (const auto& file : fs::directory_iterator(folder)) {
     const std::string name = file.path().filename().string();
-    if (name.starts_with("train") && name != "train4.csv") training.push_back(file.path());
-    if (name.starts_with("held")) heldout.push_back(file.path());
+    if (name.starts_with(word) && name != "train4.csv") files.push_back(file.path().string());
   }
-  std::sort(training.begin(), training.end());
-  std::sort(heldout.begin(), heldout.end());
-  const dyngen::EffectCatalogue catalogue = runtime::effect_catalogue({});
-  const runtime::DescribedRobot robot = runtime::describe_robot(
-      (folder / "robot.robot").string(), runtime::OpenParameters::kAbsentRows);
-  runtime::DiagnosisInput input;
-  input.model = robot.linear;
-  input.robot = runtime::effect_robot(robot);
-  input.train = read(training);
-  input.heldout = read(heldout);
-  std::vector<runtime::MotionSource> all = input.train;
-  all.insert(all.end(), input.heldout.begin(), input.heldout.end());
-  input.hypotheses = runtime::competing_effects(robot, catalogue, all);
-  return reach_of(input, without_truth(entry, arms, scratch));
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
-int measure(const fs::path& manifest, const fs::path& arms, const fs::path& cases,
-            const fs::path& out) {
-  std::ifstream file(manifest);
-  nlohmann::json all = nlohmann::json::object();
-  int failed = 0;
-  for (const auto& entry : nlohmann::json::parse(file)) {
-    if (entry["kind"] != "single") continue;
-    const std::string name = entry["case"];
-    try {
-      const Reach reach =
-          reach_of_case(entry, arms.string(), cases / name, out.string() + "." + name);
-      all[name] = {{"lambda", reach.lambda},
-                   {"seen", reach.seen},
-                   {"found", reach.found},
-                   {"needed", reach.needed}};
-      fmt::print(stderr, "{}: {:.1f}, by the noise that is seen {:.1f}, found {:.1f} of {:.1f}\n",
-                 name, reach.lambda, reach.seen, reach.found, reach.needed);
-    } catch (const std::exception& error) {
-      fmt::print(stderr, "{}: {}\n", name, error.what());
-      ++failed;
-    }
-  }
-  const fs::path unfinished = out.string() + "~";
-  std::ofstream(unfinished) << all.dump(1) << '\n';
-  fs::rename(unfinished, out);
-  return failed;
+nlohmann::json measured(const nlohmann::json& entry, const MeasuredSet& set,
+                        const fs::path& cases) {
+  const std::string name = entry["case"];
+  const fs::path folder = cases / name;
+  const auto input = case_input((folder / "robot.robot").string(), files_of(folder, "train"),
+                                files_of(folder, "held"));
+  const Reach reach =
+      reach_of(input, without_truth(entry, set.arms.string(), set.out.string() + "." + name));
+  return {{"lambda", reach.lambda},
+          {"seen", reach.seen},
+          {"found", reach.found},
+          {"needed", reach.needed}};
 }
 
 }  // namespace
@@ -137,13 +97,13 @@ int measure(const fs::path& manifest, const fs::path& arms, const fs::path& case
 
 int main(int argc, char** argv) {
   CLI::App app{"What of single effects is in the equations of a diagnosis."};
-  std::filesystem::path manifest, arms, cases, out;
-  app.add_option("manifest", manifest, "JSON array of all cases")
-      ->required()
-      ->check(CLI::ExistingFile);
-  app.add_option("--arms", arms, "folder of the arms")->required();
+  blind::MeasuredSet set;
+  set.add_to(app);
+  std::filesystem::path cases;
   app.add_option("--cases", cases, "folder of the cases")->required();
-  app.add_option("--out", out, "JSON file to write")->required();
   CLI11_PARSE(app, argc, argv);
-  return blind::measure(manifest, arms, cases, out) == 0 ? 0 : 1;
+  const auto measure = [&](const nlohmann::json& entry) {
+    return blind::measured(entry, set, cases);
+  };
+  return blind::write_measured(set, 1, measure) == 0 ? 0 : 1;  // a diagnosis has threads of its own
 }
