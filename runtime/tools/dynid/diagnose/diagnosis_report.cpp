@@ -115,16 +115,22 @@ std::string variable_unit(const std::string& variable, const std::vector<bool>& 
   return unit_text(known->unit, turns ? JointUnits::kRevolute : JointUnits::kPrismatic);
 }
 
+std::string why_no_interval(const Finding& finding, std::size_t place) {
+  const EffectParameterFit& parameter = finding.parameters[place];
+  if (parameter.held) {
+    const bool scanned = finding.effect.law.parameters[place].role == EffectRole::kScanned;
+    return scanned ? "scanned" : "held";
+  }
+  if (!parameter.seen) return "not seen";
+  if (parameter.at_bound) return "at its bound";
+  return parameter.stddev > 0 ? "" : "not known";
+}
+
 std::string parameter_text(const Finding& finding, std::size_t place, double interval) {
   const EffectParameterFit& parameter = finding.parameters[place];
   const std::string value = fmt::format("{:.4g}", parameter.value);
-  if (parameter.held) {
-    const bool scanned = finding.effect.law.parameters[place].role == EffectRole::kScanned;
-    return value + (scanned ? " (scanned)" : " (held)");
-  }
-  if (!parameter.seen) return value + " (not seen)";
-  if (parameter.at_bound) return value + " (at its bound)";
-  if (!(parameter.stddev > 0)) return value;
+  const std::string why = why_no_interval(finding, place);
+  if (!why.empty()) return fmt::format("{} ({})", value, why);
   return fmt::format("{} +- {:.2g}", value, interval * parameter.stddev);
 }
 

@@ -78,6 +78,10 @@ std::string answer_place(const EffectInstance& effect);
 /// "qd2 in rad/s": the unit of a variable of the answer, by the kind of its joint; empty: none.
 std::string variable_unit(const std::string& variable, const std::vector<bool>& revolute);
 
+/// Why a finding's parameter has no interval: "scanned", "held", "not seen", "at its bound", "not
+/// known"; empty: it has one.
+std::string why_no_interval(const Finding& finding, std::size_t place);
+
 /// How a finding's parameter is known, with its interval of 95 %: "13.2 +- 0.3", "2 (held)",
 /// "36 (scanned)".
 std::string parameter_text(const Finding& finding, std::size_t place, double interval);

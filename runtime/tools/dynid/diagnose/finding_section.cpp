@@ -167,16 +167,13 @@ class FindingWriter {
     ReportTable table{{"parameter", "value", "95 % interval", "unit", ""}, {}, 0};
     for (std::size_t p = 0; p < finding_.parameters.size(); ++p) {
       const EffectParameterFit& parameter = finding_.parameters[p];
-      const bool known = !parameter.held && parameter.seen && parameter.stddev > 0;
+      const std::string why = why_no_interval(finding_, p);
       const double half = report_.diagnosis.fit.interval * parameter.stddev;
-      table.rows.push_back(
-          {law.parameters[p].name, parameter.value,
-           known ? fmt::format("{:.4g} to {:.4g}", parameter.value - half, parameter.value + half)
-           : parameter.held  ? (law.parameters[p].role == EffectRole::kScanned ? "scanned" : "held")
-           : !parameter.seen ? "not seen"
-           : parameter.at_bound ? "at its bound"
-                                : "-",
-           words_.units[p], words_.meanings[p]});
+      table.rows.push_back({law.parameters[p].name, parameter.value,
+                            !why.empty() ? why
+                                         : fmt::format("{:.4g} to {:.4g}", parameter.value - half,
+                                                       parameter.value + half),
+                            words_.units[p], words_.meanings[p]});
     }
     part.blocks.emplace_back(std::move(table));
     if (!words_.code.empty()) {
