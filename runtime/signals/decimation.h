@@ -14,7 +14,7 @@ struct FilterShape {
   /// Instead of that so many moving averages over the samples for one, one behind another; 0, or an
   /// even number up to 8. Short, and with zeros of that order wherever something folds onto what is
   /// slow: for noise of accelerations, which grows with the square of frequency, and for equations
-  /// beside which nothing is known.
+  /// near stretches that are left out.
   int averages = 0;
 };
 

@@ -148,4 +148,12 @@ Recording record_along(const Redrawn& redrawn, const Motion& motion) {
   return recording;
 }
 
+std::vector<Recording> training_again(const Redrawn& redrawn) {
+  std::vector<Recording> training;
+  for (std::size_t place = 0; place < redrawn.draft.training; ++place) {
+    training.push_back(record_again(redrawn, place));
+  }
+  return training;
+}
+
 }  // namespace blind

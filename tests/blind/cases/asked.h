@@ -28,6 +28,9 @@ Redrawn redraw(const nlohmann::json& entry, const std::string& arms);
 /// A recording at one place of those that were made, byte for byte the same.
 Recording record_again(const Redrawn& redrawn, std::size_t place);
 
+/// All that were fitted.
+std::vector<Recording> training_again(const Redrawn& redrawn);
+
 /// A recording along another motion, with noise of its own. What happens once in a recording of
 /// the case does not happen here.
 Recording record_along(const Redrawn& redrawn, const Motion& motion);

@@ -38,10 +38,7 @@ double lambda_of(const Redrawn& redrawn, const std::vector<Recording>& training,
 
 nlohmann::json strength_of(const nlohmann::json& entry, const std::string& arms) {
   const Redrawn redrawn = redraw(entry, arms);
-  std::vector<Recording> training;
-  for (std::size_t place = 0; place < redrawn.draft.training; ++place) {
-    training.push_back(record_again(redrawn, place));
-  }
+  const std::vector<Recording> training = training_again(redrawn);
   const Whitener noise = whitener_of(redrawn.draft, redrawn.deviation);
   return {{"lambda", lambda_of<RestWhitener>(redrawn, training, noise)},
           {"instants", lambda_of<InstantWhitener>(redrawn, training, noise)},

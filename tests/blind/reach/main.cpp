@@ -48,10 +48,7 @@ std::vector<Eigen::MatrixXd> left_by_refit(const Machine& machine, const Whitene
 std::vector<runtime::MotionSource> without_truth(const nlohmann::json& entry,
                                                  const std::string& arms, const fs::path& folder) {
   const Redrawn redrawn = redraw(entry, arms);
-  std::vector<Recording> training;
-  for (std::size_t place = 0; place < redrawn.draft.training; ++place) {
-    training.push_back(record_again(redrawn, place));
-  }
+  std::vector<Recording> training = training_again(redrawn);
   const std::vector<Eigen::MatrixXd> left =
       left_by_refit(redrawn.draft.machine, whitener_of(redrawn.draft, redrawn.deviation), training);
   fs::create_directories(folder);
