@@ -21,14 +21,14 @@ struct RowOptions {
   double still_speed = -1;
   double band = 1.25;  ///< > 0; the joint state is damped near 1 and above, and equations with it
   Eigen::Index multiple = 1;  ///< a decimation that is chosen and larger is a multiple of this
-  FilterShape filter;         ///< the parallel filter
+  FilterShape filter = {};    ///< the parallel filter
   double row_time = 0;        ///< s, between equations: a decimation that is chosen gives no less
 };
 
 /// How the equations of a recording are made.
 struct RowPlan {
   Eigen::Index decimation = 1;
-  FilterShape filter;                  ///< the parallel filter
+  FilterShape filter = {};             ///< the parallel filter
   double row_time = 0;                 ///< s, between equations of a run
   Eigen::VectorXd still_speed;         ///< (n) negative: joints that stand still keep equations
   Eigen::VectorXd acceleration_noise;  ///< (n) standard deviation behind all filters
