@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "gen/effect_file/effect_equations.h"
@@ -65,10 +66,11 @@ class Writer {
   explicit Writer(const Symbols& symbols) : trace_(&symbols.table()) {}
 
   void output(const std::string& array, const std::vector<ex>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      trace_.output(array, static_cast<int>(i),
-                    assign_calls(trace_, fmt::format("{}{}", array, i + 1), values[i]));
-    }
+    for (std::size_t i = 0; i < values.size(); ++i) output(array, i, values[i]);
+  }
+  void output(const std::string& array, std::size_t place, const ex& value) {
+    trace_.output(array, static_cast<int>(place),
+                  assign_calls(trace_, fmt::format("{}{}", array, place + 1), value));
   }
   Program program() {
     trace_.drop_dead_code();
@@ -94,6 +96,34 @@ std::vector<ex> slopes(const std::vector<ex>& values, const std::vector<GiNaC::s
   return result;
 }
 
+bool is_linear(const EffectParameter& parameter) {
+  return parameter.role == ParameterRole::kLinear;
+}
+
+/// Slopes by linear parameters, each where it stands among those by all.
+Program by_linear(const EffectFile& effect, const Symbols& symbols, const std::vector<ex>& torque) {
+  Writer writer(symbols);
+  const std::size_t count = effect.parameters.size();
+  for (std::size_t o = 0; o < torque.size(); ++o) {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!is_linear(effect.parameters[k])) continue;
+      writer.output("slope", o * count + k, derivative_of(torque[o], symbols.parameters()[k]));
+    }
+  }
+  return writer.program();
+}
+
+bool is_proportional(const EffectFile& effect, const Symbols& symbols,
+                     const std::vector<ex>& torque) {
+  GiNaC::exmap nothing;
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    if (is_linear(effect.parameters[k])) nothing[symbols.parameters()[k]] = 0;
+  }
+  return !nothing.empty() && std::all_of(torque.begin(), torque.end(), [&](const ex& value) {
+    return value.subs(nothing).expand().is_zero();
+  });
+}
+
 /// sign(x) becomes a function without a step.
 struct SmoothSign : public GiNaC::map_function {
   ex operator()(const ex& value) override {
@@ -110,6 +140,8 @@ EffectPrograms effect_programs(const EffectFile& effect) {
   const std::vector<ex> torque = effect_torque(effect, now.values());
   programs.torque = program_of(now, "torque", torque);
   programs.by_parameter = program_of(now, "slope", slopes(torque, now.parameters()));
+  programs.by_linear = by_linear(effect, now, torque);
+  programs.proportional = is_proportional(effect, now, torque);
   programs.by_variable = program_of(now, "slope", slopes(torque, now.variables()));
   programs.by_state = program_of(now, "slope", slopes(torque, now.states()));
 

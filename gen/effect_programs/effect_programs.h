@@ -16,6 +16,7 @@ namespace dyngen {
 struct EffectPrograms {
   Program torque;        ///< v p z -> torque
   Program by_parameter;  ///< v p z -> slope: output o by parameter k at o * np + k
+  Program by_linear;     ///< the same of parameters of role kLinear alone
   Program by_variable;   ///< v p z -> slope, by variables
   Program by_state;      ///< v p z -> slope, by states
   Program step;          ///< m p z h -> z
@@ -26,6 +27,7 @@ struct EffectPrograms {
   /// joint's own velocity is tanh(1000 x). min and max hold the limits of states that have them.
   Program moment;
   std::vector<bool> has_min, has_max;  ///< of each state
+  bool proportional = false;  ///< where all parameters of role kLinear are 0 there is no torque
 };
 
 EffectPrograms effect_programs(const EffectFile& effect);

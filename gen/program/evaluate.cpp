@@ -55,24 +55,29 @@ void run(const Instruction& instruction, double* registers, std::size_t count) {
   double* target = registers + static_cast<std::size_t>(instruction.target) * kBlock;
   const double* a = registers + static_cast<std::size_t>(instruction.a) * kBlock;
   const double* b = registers + static_cast<std::size_t>(instruction.b) * kBlock;
-  const auto each = [&](auto operation) {
+  const auto each = [&](auto function) {
+    for (std::size_t k = 0; k < count; ++k) target[k] = function(a[k], b[k]);
+  };
+  // what a processor does to several numbers at once; a target may be an operand of its own
+  const auto together = [&](auto operation) {
+#pragma omp simd
     for (std::size_t k = 0; k < count; ++k) target[k] = operation(a[k], b[k]);
   };
   switch (instruction.op) {
     case Op::kAdd:
-      each([](double x, double y) { return x + y; });
+      together([](double x, double y) { return x + y; });
       break;
     case Op::kSubtract:
-      each([](double x, double y) { return x - y; });
+      together([](double x, double y) { return x - y; });
       break;
     case Op::kMultiply:
-      each([](double x, double y) { return x * y; });
+      together([](double x, double y) { return x * y; });
       break;
     case Op::kDivide:
-      each([](double x, double y) { return x / y; });
+      together([](double x, double y) { return x / y; });
       break;
     case Op::kNegate:
-      each([](double x, double) { return -x; });
+      together([](double x, double) { return -x; });
       break;
     case Op::kSin:
       each([](double x, double) { return std::sin(x); });
@@ -102,7 +107,7 @@ void run(const Instruction& instruction, double* registers, std::size_t count) {
       each([](double x, double) { return std::tanh(x); });
       break;
     case Op::kAbs:
-      each([](double x, double) { return std::abs(x); });
+      together([](double x, double) { return std::abs(x); });
       break;
     case Op::kSqrt:
       each([](double x, double) { return std::sqrt(x); });

@@ -162,6 +162,9 @@ class Diagnostician {
     answer_.noise.deviation = without_nameless(
         raw_floor(train, raw_residuals(train, after), repeats_of(train)), result());
     answer_.heldout.floor = answer_.noise.deviation;
+    const Eigen::ArrayXd judged = counted_part(search_.views().proof).array();
+    const Eigen::ArrayXd all = counted_part(search_.views().heldout).array();
+    answer_.heldout.visited = (all > 0).select(judged / all.max(1e-300), 0.0).matrix();
   }
 
   void show() const {

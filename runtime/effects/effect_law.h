@@ -68,6 +68,9 @@ struct EffectTorque {
 
 struct EffectWanted {
   bool by_parameter = false, by_variable = false, by_initial = false;
+  bool torque = true;
+  /// With by_parameter: derivatives by parameters of role kLinear; those by others are 0.
+  bool linear_only = false;
   /// Derivatives by parameters with the states as they are. Exact for those of role kLinear, on
   /// which no state of a catalogue's effect depends, and several times as fast.
   bool states_held = false;
@@ -90,6 +93,7 @@ struct EffectLaw {
   bool acts_on_all = false;
   bool revolute_only = false;
   bool dissipates = false;
+  bool proportional = false;  ///< no torque where all parameters of role kLinear are 0
   std::vector<EffectParameter> parameters;
   std::vector<std::string> variables;  ///< "qd", "tau_load", ...: columns of what evaluate() reads
   std::vector<std::string> states;     ///< names

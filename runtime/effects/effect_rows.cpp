@@ -383,22 +383,40 @@ EffectEquations linearised(const EffectRecordings& data, EffectSignals& signals,
 }
 
 EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signals, std::size_t run,
-                             const EffectInstance& effect, bool states_held) {
+                             const EffectInstance& effect, const std::vector<int>& wanted,
+                             bool states_held) {
   const EffectRun& here = data.runs[run];
   const Index np = effect.law.size();
+  EffectWanted parts;
+  parts.states_held = states_held;
+  parts.torque = false;
+  parts.linear_only = true;
+  for (const int column : wanted) {
+    if (column == 0) {
+      parts.torque = true;
+      continue;
+    }
+    const EffectParameter& by = effect.law.parameters[static_cast<std::size_t>(column - 1)];
+    parts.by_parameter = true;
+    parts.linear_only = parts.linear_only && by.role == EffectRole::kLinear;
+  }
   EffectSignature signature;
   for (const Application& application : applications(effect, data.joints())) {
     const MatrixXd variables = signals.variables(run, effect, application.target);
     VectorXd state = first_states(effect.law, variables);
-    EffectWanted wanted;
-    wanted.by_parameter = true;
-    wanted.states_held = states_held;
     const EffectTorque torque =
-        effect.law.evaluate(variables, effect.parameters, here.motion.sample_time, state, wanted);
+        effect.law.evaluate(variables, effect.parameters, here.motion.sample_time, state, parts);
     for (std::size_t o = 0; o < application.outputs.size(); ++o) {
-      MatrixXd columns(here.motion.samples(), 1 + np);
-      columns << torque.torque.col(static_cast<Index>(o)),
-          torque.by_parameter.middleCols(static_cast<Index>(o) * np, np);
+      const auto out = static_cast<Index>(o);
+      MatrixXd columns(here.motion.samples(), static_cast<Index>(wanted.size()));
+      for (Index c = 0; c < columns.cols(); ++c) {
+        const int column = wanted[static_cast<std::size_t>(c)];
+        if (column == 0) {
+          columns.col(c) = torque.torque.col(out);
+        } else {
+          columns.col(c) = torque.by_parameter.col(out * np + column - 1);
+        }
+      }
       if (!data.acts_in(effect, run)) columns.setZero();
       signature.joints.push_back(application.outputs[o]);
       signature.columns.push_back(decimate(here.decimator, columns));

@@ -76,15 +76,16 @@ struct EffectEquations {
 EffectEquations linearised(const EffectRecordings& data, EffectSignals& signals,
                            const EffectPoint& point, const EffectUnknowns& unknowns);
 
-/// Torque of one effect with its derivatives by parameters, behind the filter.
+/// Torque of one effect and its derivatives by parameters, behind the filter.
 struct EffectSignature {
-  std::vector<int> joints;  ///< on which it acts
-  /// Of each of these joints, (equations x 1 + np): torque, then its derivatives.
-  std::vector<Eigen::MatrixXd> columns;
+  std::vector<int> joints;               ///< on which it acts
+  std::vector<Eigen::MatrixXd> columns;  ///< of each of these joints, (equations x wanted)
 };
 /// @param run          its states begin as first_states() says
+/// @param wanted       0: the torque, 1 + p: its derivative by parameter p
 /// @param states_held  as of EffectWanted
 EffectSignature signature_of(const EffectRecordings& data, EffectSignals& signals, std::size_t run,
-                             const EffectInstance& effect, bool states_held = false);
+                             const EffectInstance& effect, const std::vector<int>& wanted,
+                             bool states_held = false);
 
 }  // namespace dyngen::runtime

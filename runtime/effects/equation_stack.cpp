@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/effects/equation_stack.h"
 
+#include <numeric>
+
 #include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
@@ -52,9 +54,11 @@ MatrixXd EquationStack::stacked(const EffectEquations& equations) const {
 }
 
 MatrixXd EquationStack::plain(EffectSignals& signals, const EffectInstance& effect) const {
+  std::vector<int> wanted(static_cast<std::size_t>(1 + effect.law.size()));
+  std::iota(wanted.begin(), wanted.end(), 0);
   MatrixXd all = MatrixXd::Zero(rows_, 1 + effect.law.size());
   for (std::size_t run = 0; run < data_.runs.size(); ++run) {
-    const EffectSignature signature = signature_of(data_, signals, run, effect);
+    const EffectSignature signature = signature_of(data_, signals, run, effect, wanted);
     for (std::size_t i = 0; i < signature.joints.size(); ++i) {
       const int j = signature.joints[i];
       const auto counted = data_.runs[run].rows.counted.col(j);

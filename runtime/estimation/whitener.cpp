@@ -2,7 +2,6 @@
 #include "runtime/estimation/whitener.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace dyngen::runtime {
@@ -132,31 +131,28 @@ class Whitener::Columns {
   Columns(const Whitener& whitener, std::vector<double*> columns)
       : whitener_(whitener),
         columns_(std::move(columns)),
-        past_(static_cast<std::size_t>(whitener.coefficients_.size())),
-        slow_(static_cast<std::size_t>(whitener.poles_.size())) {}
+        past_(static_cast<std::size_t>(whitener.coefficients_.size()), Lane::Zero()),
+        slow_(static_cast<std::size_t>(whitener.poles_.size()), Lane::Zero()) {}
 
   void run() {
     const Index m = whitener_.coefficients_.size();
     Index newest = 0;  // place of the last sample in past_, a ring
     for (std::size_t t = 0; t < whitener_.steps_.size(); ++t) {
-      Lane next{};
-      for (Index k = 0; k < m; ++k) add(next, whitener_.coefficients_[k], at(newest, k));
+      Lane next = Lane::Zero();
+      for (Index k = 0; k < m; ++k) next += whitener_.coefficients_[k] * at(newest, k);
       newest = newest == 0 ? m - 1 : newest - 1;
       past_[static_cast<std::size_t>(newest)] = next;
       for (std::size_t k = 0; k < slow_.size(); ++k) {
-        for (double& s : slow_[k]) s *= whitener_.poles_[static_cast<Index>(k)];
-        add(next, 1, slow_[k]);
+        slow_[k] *= whitener_.poles_[static_cast<Index>(k)];
+        next += slow_[k];
       }
       step(whitener_.steps_[t], t, newest, next);
     }
   }
 
  private:
-  using Lane = std::array<double, kTogether>;
+  using Lane = Eigen::Array<double, kTogether, 1>;
 
-  static void add(Lane& sum, double factor, const Lane& lane) {
-    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += factor * lane[c];
-  }
   /// A sample `k` before the newest of the ring.
   Lane& at(Index newest, Index k) {
     const Index m = whitener_.coefficients_.size();
@@ -168,15 +164,16 @@ class Whitener::Columns {
       for (double* column : columns_) column[t] = 0;
       return;
     }
-    Lane missed{};
+    Lane missed = Lane::Zero();
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      missed[c] = columns_[c][t] - predicted[c];
-      columns_[c][t] = missed[c] / step.deviation;
+      const auto lane = static_cast<Index>(c);
+      missed[lane] = columns_[c][t] - predicted[lane];
+      columns_[c][t] = missed[lane] / step.deviation;
     }
     const double* gain = whitener_.gains_.data() + step.gain;
-    for (Index k = 0; k < whitener_.reach_; ++k) add(at(newest, k), gain[k], missed);
+    for (Index k = 0; k < whitener_.reach_; ++k) at(newest, k) += gain[k] * missed;
     gain += whitener_.coefficients_.size();
-    for (std::size_t k = 0; k < slow_.size(); ++k) add(slow_[k], gain[k], missed);
+    for (std::size_t k = 0; k < slow_.size(); ++k) slow_[k] += gain[k] * missed;
   }
 
   const Whitener& whitener_;

@@ -48,15 +48,14 @@ JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals
   const auto width = static_cast<Index>(wanted.size());
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     const RowBlock& rows = data.runs[run].rows;
-    const EffectSignature signature = signature_of(data, signals, run, effect, states_held);
+    const EffectSignature signature = signature_of(data, signals, run, effect, wanted, states_held);
     for (std::size_t i = 0; i < signature.joints.size(); ++i) {
       const int joint = signature.joints[i];
       MatrixXd& part = parts[joint];
       if (part.size() == 0) part = MatrixXd::Zero(data.equations(), width);
       for (Index c = 0; c < width; ++c) {
-        part.col(c).segment(start, rows.Y.rows()) = signature.columns[i]
-                                                        .col(wanted[static_cast<std::size_t>(c)])
-                                                        .cwiseProduct(rows.counted.col(joint));
+        part.col(c).segment(start, rows.Y.rows()) =
+            signature.columns[i].col(c).cwiseProduct(rows.counted.col(joint));
       }
     }
     start += rows.Y.rows();

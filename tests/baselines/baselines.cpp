@@ -159,7 +159,7 @@ Column effect_column(const EffectInstance& effect, const VectorXd& beta) {
     signals.set_tangent_beta(beta);
     RunResiduals torque;
     for (std::size_t run = 0; run < raw.runs.size(); ++run) {
-      const runtime::EffectSignature own = runtime::signature_of(raw, signals, run, effect);
+      const runtime::EffectSignature own = runtime::signature_of(raw, signals, run, effect, {0});
       const EffectRun& here = data.runs[run];
       torque.push_back(MatrixXd::Zero(here.motion.samples(), data.joints()));
       for (std::size_t i = 0; i < own.joints.size(); ++i) {

@@ -29,7 +29,6 @@ constexpr double kLeastAsGood = 0.5;  // of the winner's squares: rivals that ar
 constexpr std::size_t kAttempts = 4;  // effects that are fitted in a round before it gives up
 constexpr double kTie = 0.5;          // squares that decide nothing
 constexpr std::size_t kRivals = 5;    // that are compared again once the winner is fitted
-constexpr std::size_t kPairs = 3;     // that are tried before a round gives up
 
 /// One competition's data and what was found so far.
 class Competition {
@@ -55,6 +54,12 @@ class Competition {
                   system_options(), options_.false_alarm, result_),
         likely_(train_, signals_, hypotheses_, scales_, result_,
                 [this](const EffectInstance& effect) { return with(effect); }),
+        pairs_(train_, signals_, hypotheses_, stops_, conditions_, options_.false_alarm, result_,
+               {[this](const std::vector<EffectInstance>& all) {
+                  tell("pairs of effects", 0);
+                  return fit(all);
+                },
+                [this](std::size_t wanted) { return next_beside(wanted); }}),
         acceptance_(train_, signals_, fitted_, heldout_, hypotheses_, witness_, system_options(),
                     result_) {}
 
@@ -65,8 +70,12 @@ class Competition {
       measure_noise();
       acceptance_.begin_round();
       const EvidenceSystem system = model_system();
-      if (round == 0 && rests_at_once(system)) return std::move(result_);
-      Screening screening = screen_beside(system, round == 0);
+      std::vector<GenericResult> structure;
+      if (round == 0 && asks_for_rests()) {
+        structure = screen_structures(system);
+        if (!result_.resting.empty()) return std::move(result_);
+      }
+      Screening screening = screen_beside(system, round == 0, structure);
       if (round == 0) result_.first = screening;
       result_.last = screening;
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
@@ -119,16 +128,19 @@ class Competition {
     return options;
   }
 
-  /// Whether joints rest, asked before any effect is looked at.
-  bool rests_at_once(const EvidenceSystem& system) {
+  /// Whether it is asked at once which joints rest, before any effect is looked at.
+  [[nodiscard]] bool asks_for_rests() const {
     // where nothing repeats, what rests leave is taken for noise, in which nothing is seen
-    const bool ask = options_.rests || !result_.noise.from_periods;
-    if (!ask || !options_.until_rest) return false;
-    const Screening structure =
+    return options_.until_rest && (options_.rests || !result_.noise.from_periods);
+  }
+
+  /// Structures alone, and which joints rest by them.
+  std::vector<GenericResult> screen_structures(const EvidenceSystem& system) {
+    Screening structure =
         screen(screening_data_, system, scales_, result_.fit.point.beta, {}, structures_, nullptr,
                [&](double done) { tell("joints that rest", done); });
     result_.resting = stops_.strongest(system, structure);
-    return !result_.resting.empty();
+    return std::move(structure.generic);
   }
 
   EvidenceSystem model_system() {
@@ -137,12 +149,14 @@ class Competition {
   }
 
   /// @param first  the whole grid of shapes is tried
-  Screening screen_beside(const EvidenceSystem& system, bool first) {
+  /// @param known  as of screen()
+  Screening screen_beside(const EvidenceSystem& system, bool first,
+                          const std::vector<GenericResult>& known = {}) {
     const std::string stage =
         first ? "structure beside the model" : "structure beside the model and what was found";
-    return screen(screening_data_, system, scales_, result_.fit.point.beta, hypotheses_,
-                  structures_, first ? nullptr : &result_.first,
-                  [&](double done) { tell(stage, done); });
+    return screen(
+        screening_data_, system, scales_, result_.fit.point.beta, hypotheses_, structures_,
+        first ? nullptr : &result_.first, [&](double done) { tell(stage, done); }, known);
   }
 
   [[nodiscard]] double net(const NamedResult& result) const {
@@ -231,38 +245,9 @@ class Competition {
     return costly && keep_without_name(*costly, system, screening);
   }
 
-  /// Two effects of which neither is found while the other is left out: each has to be found beside
-  /// the other.
   bool next_pair(const EvidenceSystem& system, const Screening& screening) {
-    if (!stops_.strongest(system, screening).empty()) return false;
-    const std::size_t found = result_.winners.size();
-    if (static_cast<int>(found) + 2 > options_.most_winners) return false;
-    std::size_t tried = 0;
-    for (const EffectPair& pair :
-         strongest_pairs(train_, signals_, system, hypotheses_, screening, result_)) {
-      if (tried++ == kPairs) break;
-      if (pair.net <= 0 || screening.family_wise(pair.surprise) > options_.false_alarm) continue;
-      std::vector<int> joints = joints_of_hypothesis(pair.stronger);
-      const std::vector<int> others = joints_of_hypothesis(pair.weaker);
-      joints.insert(joints.end(), others.begin(), others.end());
-      if (conditions_.outdone(pair.net, joints, system, screening)) continue;
-      const auto stopped = [&](std::size_t place) {
-        return stops_.explain(system, screening, hypotheses_[place],
-                              without_conditions(screening.named[place]));
-      };
-      if (stopped(pair.weaker) || stopped(pair.stronger)) continue;
-      const CompetitionResult before = result_;
-      // one stands in until the other is found, then it has to be found itself
-      result_.winners.emplace_back().hypothesis = pair.weaker;
-      result_.fit = with(screening.named[pair.weaker].freest.effect);
-      if (next_beside(found + 2)) {
-        result_.winners.erase(result_.winners.begin() + static_cast<std::ptrdiff_t>(found));
-        result_.fit = fit(without(result_.fit.point, found).effects);
-        if (next_beside(found + 2)) return true;
-      }
-      result_ = before;
-    }
-    return false;
+    return static_cast<int>(result_.winners.size()) + 2 <= options_.most_winners &&
+           pairs_.next(system, screening);
   }
 
   /// One winner more beside those that there are. @param wanted  how many there are to be
@@ -414,6 +399,7 @@ class Competition {
   EffectConditions conditions_;
   NamelessSearch nameless_;
   LikelySearch likely_;
+  PairSearch pairs_;
   Acceptance acceptance_;
 };
 

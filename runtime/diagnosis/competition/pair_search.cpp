@@ -11,6 +11,7 @@ namespace {
 using Eigen::Index;
 
 constexpr std::size_t kMembers = 24;  // effects that are tried in pairs: 276 of them
+constexpr std::size_t kPairs = 3;     // that are tried before a round gives up
 
 /// An effect that may be one of a pair, and where its columns are among those of all.
 struct Member {
@@ -96,6 +97,48 @@ std::vector<EffectPair> strongest_pairs(const EffectRecordings& data, EffectSign
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const EffectPair& a, const EffectPair& b) { return a.net > b.net; });
   return pairs;
+}
+
+bool PairSearch::next(const EvidenceSystem& system, const Screening& screening) {
+  if (!stops_.strongest(system, screening).empty()) return false;
+  std::size_t tried = 0;
+  for (const EffectPair& pair :
+       strongest_pairs(data_, signals_, system, hypotheses_, screening, result_)) {
+    if (tried++ == kPairs) break;
+    if (promising(pair, system, screening) && find(pair, screening)) return true;
+  }
+  return false;
+}
+
+bool PairSearch::promising(const EffectPair& pair, const EvidenceSystem& system,
+                           const Screening& screening) const {
+  if (pair.net <= 0 || screening.family_wise(pair.surprise) > false_alarm_) return false;
+  std::vector<int> joints = joints_of(hypotheses_[pair.stronger].effect, data_.joints());
+  const std::vector<int> others = joints_of(hypotheses_[pair.weaker].effect, data_.joints());
+  joints.insert(joints.end(), others.begin(), others.end());
+  if (conditions_.outdone(pair.net, joints, system, screening)) return false;
+  const auto stopped = [&](std::size_t place) {
+    return stops_.explain(system, screening, hypotheses_[place],
+                          without_conditions(screening.named[place]));
+  };
+  return !stopped(pair.weaker) && !stopped(pair.stronger);
+}
+
+bool PairSearch::find(const EffectPair& pair, const Screening& screening) {
+  const std::size_t found = result_.winners.size();
+  const CompetitionResult before = result_;
+  // one stands in until the other is found, then it has to be found itself
+  result_.winners.emplace_back().hypothesis = pair.weaker;
+  std::vector<EffectInstance> effects = result_.fit.point.effects;
+  effects.push_back(screening.named[pair.weaker].freest.effect);
+  result_.fit = steps_.fit(effects);
+  if (steps_.next_beside(found + 2)) {
+    result_.winners.erase(result_.winners.begin() + static_cast<std::ptrdiff_t>(found));
+    result_.fit = steps_.fit(without(result_.fit.point, found).effects);
+    if (steps_.next_beside(found + 2)) return true;
+  }
+  result_ = before;
+  return false;
 }
 
 }  // namespace dyngen::runtime

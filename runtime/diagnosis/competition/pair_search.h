@@ -2,9 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition_result.h"
+#include "runtime/diagnosis/competition/effect_conditions.h"
+#include "runtime/diagnosis/competition/stops.h"
 
 namespace dyngen::runtime {
 
@@ -27,5 +31,48 @@ std::vector<EffectPair> strongest_pairs(const EffectRecordings& data, EffectSign
                                         const std::vector<Hypothesis>& hypotheses,
                                         const Screening& screening,
                                         const CompetitionResult& result);
+
+/// Two effects of which neither is found while the other is left out: each has to be found beside
+/// the other.
+class PairSearch {
+ public:
+  /// How a competition fits, and finds.
+  struct Steps {
+    std::function<EffectFit(const std::vector<EffectInstance>&)> fit;  ///< the model with effects
+    /// One winner more, by a round of its own. @param wanted  how many there are to be
+    std::function<bool(std::size_t wanted)> next_beside;
+  };
+
+  /// All must outlive it. @param false_alarm  as in CompetitionOptions
+  PairSearch(const EffectRecordings& data, EffectSignals& signals,
+             const std::vector<Hypothesis>& hypotheses, const Stops& stops,
+             const EffectConditions& conditions, double false_alarm, CompetitionResult& result,
+             Steps steps)
+      : data_(data),
+        signals_(signals),
+        hypotheses_(hypotheses),
+        stops_(stops),
+        conditions_(conditions),
+        false_alarm_(false_alarm),
+        result_(result),
+        steps_(std::move(steps)) {}
+
+  /// Tries the strongest pairs. @return whether two winners more are in the result
+  bool next(const EvidenceSystem& system, const Screening& screening);
+
+ private:
+  [[nodiscard]] bool promising(const EffectPair& pair, const EvidenceSystem& system,
+                               const Screening& screening) const;
+  bool find(const EffectPair& pair, const Screening& screening);
+
+  const EffectRecordings& data_;
+  EffectSignals& signals_;
+  const std::vector<Hypothesis>& hypotheses_;
+  const Stops& stops_;
+  const EffectConditions& conditions_;
+  double false_alarm_;
+  CompetitionResult& result_;
+  Steps steps_;
+};
 
 }  // namespace dyngen::runtime

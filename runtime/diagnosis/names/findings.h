@@ -98,6 +98,9 @@ struct BaseShift {
 /// rms of the recorded torque less the model, of recordings that no parameter was fitted to.
 struct HeldoutResidual {
   Eigen::VectorXd before, after, floor;  ///< (n) N m or N
+  /// (n) 0 .. 1: part of each joint's equations where it is within the positions of the fitted
+  /// recordings. Findings are judged there alone.
+  Eigen::VectorXd visited;
 };
 
 /// How large the noise of the torque is, and how that is known.

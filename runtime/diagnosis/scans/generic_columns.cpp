@@ -14,6 +14,7 @@
 namespace dyngen::runtime {
 namespace {
 
+using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -153,37 +154,45 @@ std::vector<MatrixXd> shapes_of(const Arguments& arguments, const StructureKnots
   return shapes;
 }
 
-/// Cosines and sines of a position times each of some frequencies.
+/// Cosines and sines of a position times each of some frequencies, of any sign.
 class Turns {
  public:
   Turns(const VectorXd& q, const Eigen::RowVectorXd& frequencies) {
     for (const double frequency : frequencies) {
-      const auto [place, added] = turns_.try_emplace(frequency);
+      const auto [place, added] = turns_.try_emplace(std::abs(frequency));
       if (!added) continue;
-      const Eigen::ArrayXd angle = frequency * q.array();
-      place->second = {angle.cos(), angle.sin()};
+      auto& [cosines, sines] = place->second;
+      cosines.resize(q.size());
+      sines.resize(q.size());
+      for (Index k = 0; k < q.size(); ++k) {  // both at once, which is little more than one
+        const double angle = place->first * q[k];
+        cosines[k] = std::cos(angle);
+        sines[k] = std::sin(angle);
+      }
     }
   }
-  [[nodiscard]] const std::pair<Eigen::ArrayXd, Eigen::ArrayXd>& of(double frequency) const {
-    return turns_.at(frequency);
+  [[nodiscard]] const ArrayXd& cosines(double frequency) const {
+    return turns_.at(std::abs(frequency)).first;
+  }
+  /// Of the frequency without its sign.
+  [[nodiscard]] const ArrayXd& sines(double frequency) const {
+    return turns_.at(std::abs(frequency)).second;
   }
 
  private:
-  std::map<double, std::pair<Eigen::ArrayXd, Eigen::ArrayXd>> turns_;
+  std::map<double, std::pair<ArrayXd, ArrayXd>> turns_;
 };
 
-/// The equations' columns of what is given at all samples of each run.
-JointColumns columns_of(const EffectRecordings& data, int joint,
-                        const std::vector<MatrixXd>& shapes) {
-  MatrixXd part = MatrixXd::Zero(data.equations(), shapes.front().cols());
+/// The equations of what is given at all samples of each run.
+MatrixXd behind_filter(const EffectRecordings& data, const std::vector<MatrixXd>& shapes) {
+  MatrixXd all(data.equations(), shapes.front().cols());
   Index start = 0;
   for (std::size_t run = 0; run < shapes.size(); ++run) {
-    const RowBlock& rows = data.runs[run].rows;
-    part.middleRows(start, rows.Y.rows()) =
-        rows.counted.col(joint).asDiagonal() * decimate(data.runs[run].decimator, shapes[run]);
-    start += rows.Y.rows();
+    const Index rows = data.runs[run].rows.Y.rows();
+    all.middleRows(start, rows) = decimate(data.runs[run].decimator, shapes[run]);
+    start += rows;
   }
-  return {{joint}, {std::move(part)}};
+  return all;
 }
 
 }  // namespace
@@ -193,22 +202,41 @@ bool is_function(const GenericStructure& structure) {
          structure.form == Form::kSpeeds;
 }
 
-JointColumns wave_columns(const EffectRecordings& data, const GenericStructure& structure,
-                          const Eigen::Matrix2Xd& frequencies) {
+JointColumns counted_columns(const EffectRecordings& data, int joint, MatrixXd shapes) {
+  Index start = 0;
+  for (const EffectRun& run : data.runs) {
+    auto part = shapes.middleRows(start, run.rows.Y.rows());
+    part = (run.rows.counted.col(joint).asDiagonal() * part).eval();
+    start += part.rows();
+  }
+  return {{joint}, {std::move(shapes)}};
+}
+
+MatrixXd function_shapes(const EffectRecordings& data, EffectSignals& signals,
+                         const GenericStructure& structure) {
+  const Arguments arguments = arguments_of(data, signals, structure);
+  return behind_filter(data, shapes_of(arguments, knots_of(arguments)));
+}
+
+MatrixXd wave_shapes(const EffectRecordings& data, int first, int second,
+                     const Eigen::Matrix2Xd& frequencies) {
   std::vector<MatrixXd> shapes;
   for (const EffectRun& run : data.runs) {
-    const Turns first(run.motion.q.col(structure.variables[0].joint), frequencies.row(0));
-    const Turns second(run.motion.q.col(structure.variables[1].joint), frequencies.row(1));
+    const Turns own(run.motion.q.col(first), frequencies.row(0));
+    const Turns other(run.motion.q.col(second), frequencies.row(1));
     MatrixXd both(run.motion.samples(), 2 * frequencies.cols());
     for (Index i = 0; i < frequencies.cols(); ++i) {
-      const auto& [c, s] = first.of(frequencies(0, i));
-      const auto& [other_c, other_s] = second.of(frequencies(1, i));
-      both.col(2 * i) = c * other_c - s * other_s;  // of the sum of both angles
-      both.col(2 * i + 1) = s * other_c + c * other_s;
+      const double f = frequencies(0, i), g = frequencies(1, i);
+      const double sign = (f < 0) == (g < 0) ? 1 : -1, turned = f < 0 ? -1 : 1;
+      const ArrayXd &c = own.cosines(f), &s = own.sines(f);
+      const ArrayXd &other_c = other.cosines(g), &other_s = other.sines(g);
+      // of the sum of both angles
+      both.col(2 * i) = c * other_c - sign * (s * other_s);
+      both.col(2 * i + 1) = turned * (s * other_c + sign * (c * other_s));
     }
     shapes.push_back(std::move(both));
   }
-  return columns_of(data, structure.joint, shapes);
+  return behind_filter(data, shapes);
 }
 
 StructureKnots structure_knots(const EffectRecordings& data, EffectSignals& signals,
@@ -220,8 +248,9 @@ StructureKnots structure_knots(const EffectRecordings& data, EffectSignals& sign
 JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
                              const GenericStructure& structure, const StructureKnots& knots) {
   if (!is_function(structure)) return generic_columns(data, signals, structure);
-  return columns_of(data, structure.joint,
-                    shapes_of(arguments_of(data, signals, structure), knots));
+  return counted_columns(
+      data, structure.joint,
+      behind_filter(data, shapes_of(arguments_of(data, signals, structure), knots)));
 }
 
 JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
@@ -234,14 +263,15 @@ JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signal
     case Form::kRepeats:
       return harmonic_columns(data, structure.joint, repeats_of(data), structure.frequency[0]);
     case Form::kWave:
-      return wave_columns(data, structure, structure.frequency);
+      return counted_columns(data, structure.joint,
+                             wave_shapes(data, structure.variables[0].joint,
+                                         structure.variables[1].joint, structure.frequency));
     case Form::kFunction:
     case Form::kFriction:
     case Form::kSpeeds:
       break;
   }
-  const Arguments arguments = arguments_of(data, signals, structure);
-  return columns_of(data, structure.joint, shapes_of(arguments, knots_of(arguments)));
+  return counted_columns(data, structure.joint, function_shapes(data, signals, structure));
 }
 
 }  // namespace dyngen::runtime

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "runtime/diagnosis/scans/generic_structure.h"
@@ -24,9 +25,17 @@ JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signal
 JointColumns generic_columns(const EffectRecordings& data, EffectSignals& signals,
                              const GenericStructure& structure, const StructureKnots& knots);
 
-/// Cosines and sines of a sum of two positions, two columns for each pair of frequencies.
+/// What a function of the motion may be made of, behind the parallel filter.
+/// @return (equations x any)
+Eigen::MatrixXd function_shapes(const EffectRecordings& data, EffectSignals& signals,
+                                const GenericStructure& structure);
+/// Cosines and sines of a sum of two joints' positions, behind the parallel filter.
 /// @param frequencies  (2 x m) 1/rad or 1/m
-JointColumns wave_columns(const EffectRecordings& data, const GenericStructure& structure,
-                          const Eigen::Matrix2Xd& frequencies);
+/// @return             (equations x 2m), two columns for each pair of frequencies
+Eigen::MatrixXd wave_shapes(const EffectRecordings& data, int first, int second,
+                            const Eigen::Matrix2Xd& frequencies);
+/// Columns of one joint, without the equations of it that do not count.
+/// @param shapes  (equations x any)
+JointColumns counted_columns(const EffectRecordings& data, int joint, Eigen::MatrixXd shapes);
 
 }  // namespace dyngen::runtime

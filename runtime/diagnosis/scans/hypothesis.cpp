@@ -15,11 +15,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kOrders = 1000;  // values of a scan that is one over orders
-constexpr int kScanned = 40;   // values of any other, at most
-constexpr double kWide = 8;    // times the typical shape, both ways, where there are no bounds
+constexpr int kOrders = 1000;     // values of a scan that is one over orders
+constexpr int kScanned = 40;      // values of any other, at most
+constexpr double kShown = 1e-12;  // of an effect's squares: less is rounding
+constexpr double kWide = 8;       // times the typical shape, both ways, where there are no bounds
 
 /// Linear parameters at which the effect has no torque: torque = C (p - nothing).
+/// @param plain  torque, then C
 VectorXd null_values(const JointColumns& plain, const Hypothesis& hypothesis,
                      const VectorXd& parameters) {
   const auto k = static_cast<Index>(hypothesis.linear.size());
@@ -57,6 +59,11 @@ TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score s
     double& value = trial.parameters[hypothesis.linear[static_cast<std::size_t>(i)]];
     result.typical[i] = value - nothing[i];
     value = nothing[i] + score.coefficients[i];
+  }
+  // what moves nothing here has no size that counts
+  const VectorXd shown = products.whole.diagonal().cwiseProduct(result.typical.cwiseAbs2());
+  for (Index i = 0; i < k; ++i) {
+    if (!(shown[i] > kShown * shown.sum())) result.typical[i] = 0;
   }
   // of friction that the machine does not have no size is typical: one that would just be seen
   if (k > 0 && result.typical.isZero() && products.left(0, 0) > 0) {
@@ -197,14 +204,18 @@ std::vector<TrialScore> try_shapes(const EffectRecordings& data, EffectSignals& 
                                    const std::vector<EffectInstance>& trials,
                                    const EffectScales& scales, bool surrogates) {
   const auto k = static_cast<Index>(hypothesis.linear.size());
-  std::vector<int> wanted = {0};
+  // torque that is proportional to them is none where they are 0
+  const bool proportional = hypothesis.held && hypothesis.effect.law.proportional;
+  std::vector<int> wanted;
+  if (!proportional) wanted.push_back(0);
   for (const int p : hypothesis.linear) wanted.push_back(1 + p);
   JointColumns all;
   std::vector<VectorXd> nothing;
   std::vector<double> acting;  // parts of the equations
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const JointColumns plain = effect_columns(data, signals, trials[i], wanted, hypothesis.held);
-    nothing.push_back(null_values(plain, hypothesis, trials[i].parameters));
+    nothing.push_back(proportional ? VectorXd::Zero(k).eval()
+                                   : null_values(plain, hypothesis, trials[i].parameters));
     acting.push_back(hypothesis.windowed ? part_of(plain, data.joints()) : 1);
     if (i == 0) {
       all.joints = plain.joints;

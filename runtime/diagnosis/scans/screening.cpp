@@ -5,14 +5,12 @@
 #include <cmath>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
-#include "runtime/diagnosis/scans/generic_columns.h"
 #include "runtime/diagnosis/scans/in_parallel.h"
-#include "runtime/diagnosis/scans/line_scan.h"
 #include "runtime/diagnosis/scans/order_scan.h"
-#include "runtime/diagnosis/scans/repeat_scan.h"
+#include "runtime/diagnosis/scans/structure_screening.h"
 #include "runtime/diagnosis/scans/time_windows.h"
-#include "runtime/diagnosis/scans/wave_scan.h"
 #include "runtime/estimation/distributions.h"
 
 namespace dyngen::runtime {
@@ -84,14 +82,16 @@ class Screener {
  public:
   Screener(ScreeningData& data, const EvidenceSystem& system, const ScaleTable& scales,
            const VectorXd& beta, const std::vector<Hypothesis>& hypotheses,
-           const std::vector<GenericStructure>& structures, const Screening* before)
+           const std::vector<GenericStructure>& structures, const Screening* before,
+           const std::vector<GenericResult>& known)
       : data_(data),
         system_(system),
         scales_(scales),
         beta_(beta),
         hypotheses_(hypotheses),
         structures_(structures),
-        before_(before) {}
+        before_(before),
+        known_(known) {}
 
   Screening run(const ScreeningProgress& progress) {
     Screening screening;
@@ -107,16 +107,24 @@ class Screener {
       orders_[joint] = scan_orders(data_.whole(), system_, static_cast<int>(joint), !before_);
       if (!before_) noise[thread].add(orders_[joint].surrogates, 2);
     });
+    const auto groups = structure_groups(structures_);
     const auto piece = [&](std::size_t place, std::size_t thread) {
       ScreeningData::Reader& reader = data_.readers()[thread];
       if (place < hypotheses_.size()) {
         screening.named[place] = named(place, reader, noise[thread]);
-      } else {
-        const std::size_t structure = place - hypotheses_.size();
-        screening.generic[structure] = generic(structure, reader, noise[thread]);
+        return;
+      }
+      for (GenericResult& result : screen_structures(
+               data_, reader, system_, structures_, groups[place - hypotheses_.size()], !before_)) {
+        screening.generic[result.structure] = std::move(result);
       }
     };
-    in_parallel(hypotheses_.size() + structures_.size(), threads, piece, progress);
+    in_parallel(hypotheses_.size() + (known_.empty() ? groups.size() : 0), threads, piece,
+                progress);
+    if (!known_.empty()) screening.generic = known_;
+    for (const GenericResult& result : screening.generic) {
+      if (!before_) noise.front().add(result.score.surrogates, result.score.degrees);
+    }
     if (before_) {
       screening.tests = before_->tests;
     } else {
@@ -203,36 +211,6 @@ class Screener {
     return result;
   }
 
-  GenericResult generic(std::size_t place, ScreeningData::Reader& reader,
-                        NoiseSurprises& noise) const {
-    GenericResult result;
-    result.structure = place;
-    const GenericStructure& structure = structures_[place];
-    if (structure.form == GenericStructure::Form::kLine) {
-      LineScan scan = scan_lines(data_.whole(), system_, structure.joint, !before_);
-      result.frequency[0] = scan.frequency;
-      result.score = std::move(scan.score);
-    } else if (structure.form == GenericStructure::Form::kRepeats) {
-      RepeatScan scan =
-          scan_repeats(data_.coarse(), system_, structure.joint, data_.repeats(), !before_);
-      result.frequency[0] = scan.frequency;
-      result.score = std::move(scan.score);
-    } else if (structure.form == GenericStructure::Form::kWave) {
-      WaveScan scan = scan_waves(data_.coarse(), system_, structure, !before_);
-      result.frequency = scan.frequency;
-      result.score = std::move(scan.score);
-    } else {
-      const bool whole = structure.form == GenericStructure::Form::kImpulses;
-      const JointColumns columns = generic_columns(whole ? data_.whole() : data_.coarse(),
-                                                   whole ? reader.whole : reader.coarse, structure);
-      result.score = score_of(system_.products(system_.whitened(columns), !before_), !before_);
-    }
-    if (!before_) noise.add(result.score.surrogates, result.score.degrees);
-    result.surprise =
-        surprise_of(result.score.squares, result.score.degrees, system_.worth(structure.joint));
-    return result;
-  }
-
   ScreeningData& data_;
   const EvidenceSystem& system_;
   const ScaleTable& scales_;
@@ -240,6 +218,7 @@ class Screener {
   const std::vector<Hypothesis>& hypotheses_;
   const std::vector<GenericStructure>& structures_;
   const Screening* before_;
+  const std::vector<GenericResult>& known_;
   std::vector<OrderScan> orders_;
 };
 
@@ -324,9 +303,9 @@ void ScreeningData::set_beta(const VectorXd& beta) {
 Screening screen(ScreeningData& data, const EvidenceSystem& system, const ScaleTable& scales,
                  const VectorXd& beta, const std::vector<Hypothesis>& hypotheses,
                  const std::vector<GenericStructure>& structures, const Screening* before,
-                 const ScreeningProgress& progress) {
+                 const ScreeningProgress& progress, const std::vector<GenericResult>& known) {
   data.set_beta(beta);
-  return Screener(data, system, scales, beta, hypotheses, structures, before).run(progress);
+  return Screener(data, system, scales, beta, hypotheses, structures, before, known).run(progress);
 }
 
 TrialScore refined(const EffectRecordings& data, EffectSignals& signals,

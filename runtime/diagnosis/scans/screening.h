@@ -98,10 +98,13 @@ class ScreeningData {
 /// it gives does not depend on how many there are.
 /// @param before  an earlier screening of the same hypotheses: then the shapes that were best there
 ///                are tried again, not the whole grid, and the number of tests is taken from it
+/// @param known   results of all structures beside this system, with surrogates, where they are
+///                known already
 Screening screen(ScreeningData& data, const EvidenceSystem& system, const ScaleTable& scales,
                  const Eigen::VectorXd& beta, const std::vector<Hypothesis>& hypotheses,
                  const std::vector<GenericStructure>& structures, const Screening* before,
-                 const ScreeningProgress& progress = {});
+                 const ScreeningProgress& progress = {},
+                 const std::vector<GenericResult>& known = {});
 
 /// Shapes between the grid's, by a search that halves its steps.
 TrialScore refined(const EffectRecordings& data, EffectSignals& signals,

@@ -24,29 +24,35 @@ double range_of(const EffectRecordings& data, int joint) {
 
 }  // namespace
 
-WaveScan scan_waves(const EffectRecordings& data, const EvidenceSystem& system,
-                    const GenericStructure& structure, bool surrogates) {
-  WaveScan scan;
-  if (surrogates) scan.score.surrogates = Eigen::VectorXd::Zero(system.surrogates());
-  const double first = range_of(data, structure.variables[0].joint);
-  const double second = range_of(data, structure.variables[1].joint);
-  if (!(first > 0) || !(second > 0)) return scan;
-  Eigen::Matrix2Xd frequencies(2, 2 * kMostWaves * kMostWaves);
+Waves waves_of(const EffectRecordings& data, int first, int second) {
+  const double range = range_of(data, first), other = range_of(data, second);
+  Waves waves;
+  if (!(range > 0) || !(other > 0)) return waves;
+  waves.frequencies.resize(2, 2 * kMostWaves * kMostWaves);
   Index column = 0;
   for (int i = 1; i <= kMostWaves; ++i) {
     for (int k = -kMostWaves; k <= kMostWaves; ++k) {
-      if (k != 0) frequencies.col(column++) << i / first, k / second;
+      if (k != 0) waves.frequencies.col(column++) << i / range, k / other;
     }
   }
-  frequencies *= std::numbers::pi;
+  waves.frequencies *= std::numbers::pi;
+  waves.shapes = wave_shapes(data, first, second, waves.frequencies);
+  return waves;
+}
+
+WaveScan scan_waves(const EffectRecordings& data, const EvidenceSystem& system, int joint,
+                    const Waves& waves, bool surrogates) {
+  WaveScan scan;
+  if (surrogates) scan.score.surrogates = Eigen::VectorXd::Zero(system.surrogates());
+  if (waves.frequencies.cols() == 0) return scan;
   const auto groups = system.products_of_groups(
-      system.whitened(wave_columns(data, structure, frequencies)), 2, surrogates);
+      system.whitened(counted_columns(data, joint, waves.shapes)), 2, surrogates);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     Score score = score_of(groups[i], surrogates);
     if (surrogates) score.surrogates = score.surrogates.cwiseMax(scan.score.surrogates);
     const bool better = score.squares > scan.score.squares;
     if (better) {
-      scan.frequency = frequencies.col(static_cast<Index>(i));
+      scan.frequency = waves.frequencies.col(static_cast<Index>(i));
       scan.score = std::move(score);
     } else if (surrogates) {
       scan.score.surrogates = std::move(score.surrogates);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+
 #include "runtime/diagnosis/scans/generic_structure.h"
 #include "runtime/evidence/evidence_system.h"
 
@@ -12,9 +14,15 @@ struct WaveScan {
   Score score;  ///< surrogates: the largest of all waves that were looked at
 };
 
-/// Whole numbers of half waves over the range of each position, both ways.
-/// @param structure  of the form kWave
-WaveScan scan_waves(const EffectRecordings& data, const EvidenceSystem& system,
-                    const GenericStructure& structure, bool surrogates);
+/// Whole numbers of half waves over the range of each of two positions, both ways; behind the
+/// parallel filter, the same for every joint on which they may act.
+struct Waves {
+  Eigen::Matrix2Xd frequencies;  ///< (2 x m) 1/rad or 1/m; none where a position does not move
+  Eigen::MatrixXd shapes;        ///< (equations x 2m) as of wave_shapes()
+};
+Waves waves_of(const EffectRecordings& data, int first, int second);
+
+WaveScan scan_waves(const EffectRecordings& data, const EvidenceSystem& system, int joint,
+                    const Waves& waves, bool surrogates);
 
 }  // namespace dyngen::runtime

@@ -69,7 +69,7 @@ RunResiduals torques(const EffectRecordings& data, const EffectPoint& point, dou
     MatrixXd torque = signals.torque(run);
     for (const EffectInstance& effect : point.effects) {
       if (effect.law.kind == EffectKind::kAlignment) continue;
-      const EffectSignature signature = signature_of(raw, signals, run, effect);
+      const EffectSignature signature = signature_of(raw, signals, run, effect, {0});
       for (std::size_t i = 0; i < signature.joints.size(); ++i) {
         torque.col(signature.joints[i]) += signature.columns[i].col(0);
       }

@@ -76,6 +76,8 @@ TEST(Diagnosis, NamesWhatWasLeftOut) {
       EXPECT_GT(finding.evidence.lambda, 20);
       EXPECT_LT(finding.evidence.delta_bic, 0);
       EXPECT_GT(finding.evidence.heldout_gain, 0);
+      EXPECT_GT(diagnosis.heldout.visited.minCoeff(), 0.1);
+      EXPECT_LE(diagnosis.heldout.visited.maxCoeff(), 1);
       EXPECT_GT(finding.where.share, 0.5);
       EXPECT_FALSE(finding.why.empty());
       for (int p = 0; p < truth.effect.law.size(); ++p) {

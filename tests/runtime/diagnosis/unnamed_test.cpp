@@ -44,16 +44,35 @@ EffectInstance product(double size) {
 TEST(WaveScan, FindsWhatAWaveTurnsByWithEachPosition) {
   const EffectRecordings data = test::arm_recordings(test::two_recordings({wave(0.05)}, 1));
   const EvidenceSystem system = test::arm_system(data);
-  GenericStructure structure{1, {{Kind::kPosition, 0}, {Kind::kPosition, 1}}, Form::kWave};
-  const WaveScan there = scan_waves(data, system, structure, true);
-  structure.joint = 0;
-  const WaveScan other = scan_waves(data, system, structure, true);
+  const Waves waves = waves_of(data, 0, 1);
+  const WaveScan there = scan_waves(data, system, 1, waves, true);
+  const WaveScan other = scan_waves(data, system, 0, waves, true);
   // one of the grid, which is half a wave over the range of a position
   EXPECT_NEAR(there.frequency[0], 2, 0.8);
   EXPECT_NEAR(there.frequency[1], 3, 0.8);
   EXPECT_GT(there.score.squares, 3 * there.score.surrogates.maxCoeff());
   EXPECT_EQ(there.score.degrees, 2);
   EXPECT_LT(other.score.squares, 2 * other.score.surrogates.maxCoeff());
+}
+
+TEST(WaveScan, HasTheColumnsOfAWaveWhateverItsFrequenciesSigns) {
+  const EffectRecordings data = test::arm_recordings(test::two_recordings({}, 1));
+  Eigen::Matrix2Xd frequencies(2, 3);
+  frequencies << 2, -2, 1.5, 3, -3, -0.5;
+  const Eigen::MatrixXd shapes = wave_shapes(data, 0, 1, frequencies);
+  Eigen::Index start = 0;
+  for (const EffectRun& run : data.runs) {  // one equation a sample
+    const Eigen::Index rows = run.rows.Y.rows();
+    for (Eigen::Index i = 0; i < frequencies.cols(); ++i) {
+      const Eigen::ArrayXd angle = frequencies(0, i) * run.motion.q.col(0).array() +
+                                   frequencies(1, i) * run.motion.q.col(1).array();
+      EXPECT_LT((shapes.col(2 * i).segment(start, rows).array() - angle.cos()).abs().maxCoeff(),
+                1e-12);
+      EXPECT_LT((shapes.col(2 * i + 1).segment(start, rows).array() - angle.sin()).abs().maxCoeff(),
+                1e-12);
+    }
+    start += rows;
+  }
 }
 
 TEST(GenericStructure, ProductOfVelocitiesIsWithinItsColumns) {

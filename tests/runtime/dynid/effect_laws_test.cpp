@@ -160,6 +160,43 @@ TEST_P(EveryEffect, HasDerivativesThatDifferencesAgreeWith) {
   }
 }
 
+TEST_P(EveryEffect, SaysByLinearParametersAloneWhatItSaysByAll) {
+  const EffectLaw law = law_of(GetParam());
+  const VectorXd parameters = sizes(law);
+  const MatrixXd motion = motion_of(law, 240, 0.4);
+  for (const bool held : {false, true}) {
+    VectorXd state = still(law), again = still(law);
+    const EffectTorque all = law.evaluate(motion, parameters, kSampleTime, state,
+                                          {.by_parameter = true, .states_held = held});
+    const EffectTorque some = law.evaluate(
+        motion, parameters, kSampleTime, again,
+        {.by_parameter = true, .torque = false, .linear_only = true, .states_held = held});
+    EXPECT_EQ(some.torque.size(), 0);
+    ASSERT_EQ(some.by_parameter.cols(), all.by_parameter.cols());
+    for (Index c = 0; c < all.by_parameter.cols(); ++c) {
+      const auto& parameter = law.parameters[static_cast<std::size_t>(c % law.size())];
+      VectorXd expected = VectorXd::Zero(motion.rows());
+      if (parameter.role == EffectRole::kLinear) expected = all.by_parameter.col(c);
+      EXPECT_LE((some.by_parameter.col(c) - expected).cwiseAbs().maxCoeff(),
+                1e-13 * expected.cwiseAbs().maxCoeff())
+          << parameter.name;
+    }
+  }
+}
+
+TEST_P(EveryEffect, SaysWhetherItsTorqueIsProportionalToItsLinearParameters) {
+  const EffectLaw law = law_of(GetParam());
+  VectorXd parameters = sizes(law);
+  bool linear = false;
+  for (Index k = 0; k < law.size(); ++k) {
+    if (law.parameters[static_cast<std::size_t>(k)].role != EffectRole::kLinear) continue;
+    parameters[k] = 0;
+    linear = true;
+  }
+  const MatrixXd torque = torque_of(law, motion_of(law, 240, 0.4), parameters, still(law));
+  EXPECT_EQ(law.proportional, linear && torque.isZero(0));
+}
+
 TEST_P(EveryEffect, IsLinearInWhatItsFileCallsLinear) {
   const EffectLaw law = law_of(GetParam());
   const VectorXd parameters = sizes(law);

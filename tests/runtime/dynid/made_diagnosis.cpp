@@ -54,6 +54,7 @@ Diagnosis made_diagnosis() {
                     std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::quiet_NaN(),
                     0.75,
+                    false,
                     ""};
   stribeck.evidence = {130, -95, 0.21};
   stribeck.tests = {{"vs <= 0.25*v90", true, "narrow enough", true},

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "runtime/diagnosis/answer/heldout_remarks.h"
 #include "runtime/report/residual_charts.h"
 #include "runtime/tools/dynid/page/page_parts.h"
 
@@ -93,6 +94,9 @@ void add_heldout(const DiagnosisReport& report, std::vector<ReportSection>& sect
   }
   ReportSection section =
       section_of("heldout", "Recordings that were not fitted", {std::move(table)});
+  for (const std::string& remark : heldout_remarks(rms)) {
+    section.parts.front().blocks.emplace_back(ReportText{remark});
+  }
   if (!report.views.heldout.empty()) {
     for (int j = 0; j < report.joints(); ++j) {
       section.parts.front().blocks.emplace_back(

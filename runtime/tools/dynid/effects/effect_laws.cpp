@@ -39,6 +39,7 @@ class EffectEvaluation {
  public:
   explicit EffectEvaluation(const EffectFile& effect)
       : programs_(std::make_shared<const EffectPrograms>(effect_programs(effect))),
+        linear_(is_linear(effect)),
         variables_(static_cast<Index>(effect.variables.size())),
         parameters_(static_cast<Index>(effect.parameters.size())),
         states_(static_cast<Index>(effect.states.size())),
@@ -67,7 +68,7 @@ class EffectEvaluation {
       return result;
     };
     EffectTorque result;
-    result.torque = run(programs_->torque, "torque", outputs_);
+    if (wanted.torque) result.torque = run(programs_->torque, "torque", outputs_);
     MatrixXd by_state;
     if (states_ > 0 && !wanted.states_held &&
         (wanted.by_parameter || wanted.by_variable || wanted.by_initial)) {
@@ -75,9 +76,17 @@ class EffectEvaluation {
       make_finite(by_state);
     }
     if (wanted.by_parameter) {
-      result.by_parameter = run(programs_->by_parameter, "slope", outputs_ * parameters_);
+      const auto left_out = [&](Index k) {
+        return wanted.linear_only && !linear_[static_cast<std::size_t>(k)];
+      };
+      result.by_parameter = run(wanted.linear_only ? programs_->by_linear : programs_->by_parameter,
+                                "slope", outputs_ * parameters_);
+      for (Index c = 0; c < result.by_parameter.cols(); ++c) {
+        if (left_out(c % parameters_)) result.by_parameter.col(c).setZero();
+      }
       make_finite(result.by_parameter);
       for (Index k = 0; k < parameters_; ++k) {
+        if (left_out(k)) continue;
         add_memory(by_state, history.by_parameter, k, parameters_, result.by_parameter, k);
       }
     }
@@ -99,7 +108,17 @@ class EffectEvaluation {
     return result;
   }
 
+  [[nodiscard]] bool is_proportional() const { return programs_->proportional; }
+
  private:
+  static std::vector<bool> is_linear(const EffectFile& effect) {
+    std::vector<bool> linear;
+    for (const auto& parameter : effect.parameters) {
+      linear.push_back(parameter.role == ParameterRole::kLinear);
+    }
+    return linear;
+  }
+
   /// States at every sample, and their derivatives: element (state s, by k) in column s * count +
   /// k.
   struct History {
@@ -188,6 +207,7 @@ class EffectEvaluation {
   }
 
   std::shared_ptr<const EffectPrograms> programs_;
+  std::vector<bool> linear_;  // of each parameter
   Index variables_, parameters_, states_, outputs_;
   std::vector<Index> constants_;  // Fc, Fv, Ia: their places among the variables
 };
@@ -360,7 +380,9 @@ EffectLaw effect_law(const EffectFile& effect) {
                    effect.parameters)](const EffectScales& scales) {
     return sizes_of(*parameters, scales);
   };
-  law.evaluate = EffectEvaluation(effect);
+  const EffectEvaluation evaluation(effect);
+  law.proportional = evaluation.is_proportional();
+  law.evaluate = evaluation;
   law.moment = EffectMoment(effect);
   if (has_start(effect)) law.start = EffectStart(effect);
   return law;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/diagnosis/answer/heldout_remarks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+using testing::Not;
+
+HeldoutResidual residual(const Vector3d& after, const Vector3d& visited) {
+  return {Vector3d(1, 1, 1), after, Vector3d(0.5, 0.5, 0.5), visited};
+}
+
+TEST(HeldoutRemarks, AreOfJointsThatArePredictedWorse) {
+  const auto remarks = heldout_remarks(residual({1.3, 0.9, 1.01}, {0.4, 0.4, 0.4}));
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_THAT(remarks.front(), HasSubstr("joint 1: held-out"));
+  EXPECT_THAT(remarks.front(), HasSubstr("40 % of them are within"));
+}
+
+TEST(HeldoutRemarks, BlameNoPositionsWhereAllWereVisited) {
+  const auto remarks = heldout_remarks(residual({0.9, 1.3, 0.9}, {1, 1, 1}));
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_THAT(remarks.front(), HasSubstr("joint 2"));
+  EXPECT_THAT(remarks.front(), Not(HasSubstr("within")));
+}
+
+TEST(HeldoutRemarks, OfABetterModelAreNone) {
+  EXPECT_TRUE(heldout_remarks(residual({0.9, 0.9, 0.9}, {0.4, 1, 1})).empty());
+  EXPECT_TRUE(heldout_remarks({}).empty());
+}
+
+}  // namespace
+}  // namespace dyngen::runtime
