@@ -4,6 +4,7 @@ set(effect_files
   asymmetric_viscous.effect
   backlash.effect
   base_tilt.effect
+  base_tilt_hidden.effect
   bouc_wen.effect
   cable_bending.effect
   cable_hysteresis.effect

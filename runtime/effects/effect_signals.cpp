@@ -48,7 +48,7 @@ std::optional<ParameterKind> parameter_variable(std::string_view name) {
 }
 
 bool of_rigid_model(std::string_view name) {
-  for (const std::string_view group : {"d_", "payload_", "contact_", "wrench_"}) {
+  for (const std::string_view group : {"d_", "hidden_", "payload_", "contact_", "wrench_"}) {
     if (name.starts_with(group)) return true;
   }
   return false;
@@ -56,7 +56,8 @@ bool of_rigid_model(std::string_view name) {
 
 /// Whether there is one of it for all links.
 bool of_whole_robot(std::string_view name) {
-  return name.starts_with("d_g") || name.starts_with("payload_") || name.starts_with("wrench_");
+  return name.starts_with("d_g") || name.starts_with("hidden_g") || name.starts_with("payload_") ||
+         name.starts_with("wrench_");
 }
 
 MatrixXd differentiated(const MatrixXd& columns, double sample_time, int times) {

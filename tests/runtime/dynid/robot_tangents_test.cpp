@@ -142,6 +142,46 @@ TEST_P(RobotTangents, ByGravityAndPayloadAreDifferencesOfTheTorque) {
   }
 }
 
+TEST_P(RobotTangents, WhatALevelBaseHidesShowsWhereItIsTilted) {
+  const Case own(GetParam());
+  const Tangent tangent(own);
+  std::size_t first = 0;
+  while (own.robot.model.joints[first].coordinate < 0) ++first;
+  constexpr std::size_t kMX = 6;
+  NumericRobot heavier = own.twin;
+  heavier.joints[first].inertial[kMX] += 1;
+  long double changed = 0, largest = 0;
+  for (Index k = 0; k < kSamples; ++k) {
+    const Values before = own.torque(own.twin, k), after = own.torque(heavier, k);
+    for (std::size_t j = 0; j < before.size(); ++j) {
+      changed = std::max(changed, std::abs(after[j] - before[j]));
+      largest = std::max(largest, std::abs(before[j]));
+    }
+  }
+  const bool hidden = changed < 1e-9L * largest;
+  const std::string names[] = {"hidden_gx", "hidden_gy"};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const MatrixXd found = tangent(names[axis], 0, own.motion, own.beta);
+    if (!hidden) {
+      EXPECT_TRUE(found.isZero(0)) << names[axis];
+      continue;
+    }
+    test::RelativeError error;
+    for (Index k = 0; k < kSamples; ++k) {
+      NumericRobot tilted = own.twin, both = heavier;
+      tilted.base_acceleration[axis] += 1;
+      both.base_acceleration[axis] += 1;
+      const Values light = own.torque(tilted, k), heavy = own.torque(both, k);
+      for (std::size_t j = 0; j < light.size(); ++j) {
+        const int row = own.robot.model.joints[j].coordinate;
+        if (row >= 0) error.add(found(k, row), heavy[j] - light[j]);
+      }
+    }
+    EXPECT_LT(error.value(), kTolerance) << names[axis];
+    EXPECT_GT(found.cwiseAbs().maxCoeff(), 0.1) << names[axis];
+  }
+}
+
 TEST_P(RobotTangents, ByTheMotionAreDifferencesOfTheTorque) {
   const Case own(GetParam());
   const Tangent tangent(own);

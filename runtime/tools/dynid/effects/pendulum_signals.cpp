@@ -109,6 +109,8 @@ VectorXd pendulum_signal(const std::string& name) {
   if (stem == "d_qdd") return VectorXd::Constant(t.size(), kInertia);
   if (stem == "d_gx") return kMoment * q.sin();
   if (stem == "d_gy") return kMoment * q.cos();
+  if (stem == "hidden_gx") return q.sin();
+  if (stem == "hidden_gy") return q.cos();
   if (stem == "d_theta") return kMoment * kGravity * q.cos();
   if (stem == "d_alpha") return kMoment * kGravity * 0.1 * q.sin();
   if (stem == "d_d" || stem == "d_r") return kMass * kGravity * q.sin();

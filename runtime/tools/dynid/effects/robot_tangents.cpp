@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "gen/model/chi.h"
 #include "gen/symbols/exact.h"
 #include "gen/tangents/tangents.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
@@ -70,6 +71,20 @@ MatrixXd column_of(const MatrixXd& array, Index column, Index width, Index rows)
   return result;
 }
 
+/// Standard parameters of a robot that has nothing but a first moment, of 1 kg m, of the first link
+/// that moves; without even that where a base parameter has it.
+VectorXd hidden_moment(const DescribedRobot& robot) {
+  VectorXd standard = VectorXd::Zero(robot.grouping.cols());
+  for (int link = 1; link <= robot.model.size(); ++link) {
+    if (robot.model.joint(link).coordinate < 0) continue;
+    const Index first = static_cast<Index>(kChiCount) * (link - 1);
+    const Index x = first + static_cast<Index>(Chi::kMX), y = first + static_cast<Index>(Chi::kMY);
+    if (robot.grouping.col(x).isZero(0) && robot.grouping.col(y).isZero(0)) standard[x] = 1;
+    break;
+  }
+  return standard;
+}
+
 /// The programs of a robot, written when they are needed; any number of threads may ask.
 class Tangents {
  public:
@@ -92,6 +107,8 @@ class Tangents {
       const VectorXd standard = nearest_standard(robot_, beta);
       if (name == "d_gx" || name == "d_gy" || name == "d_gz") {
         result = gravity(motion, standard);
+      } else if (name == "hidden_gx" || name == "hidden_gy") {
+        result = hidden_gravity(motion);
       } else if (name == "d_q" || name == "d_qd" || name == "d_qdd") {
         result = by_motion(further_of(link, motion, further), standard);
       } else if (name.starts_with("wrench_")) {
@@ -123,6 +140,14 @@ class Tangents {
       result[{name, 0}] = run(program.program, motion, chi, VectorXd::Unit(3, axis)).at("tau");
     }
     return result;
+  }
+
+  /// Where the first axis stands along gravity no base parameter has the first moments of its link;
+  /// a base that is not level makes them show.
+  TangentColumns hidden_gravity(const JointMotion& motion) {
+    const VectorXd moment = hidden_moment(robot_);
+    const TangentColumns all = gravity(motion, moment);
+    return {{{"hidden_gx", 0}, all.at({"d_gx", 0})}, {{"hidden_gy", 0}, all.at({"d_gy", 0})}};
   }
 
   [[nodiscard]] JointMotion further_of(int link, JointMotion motion, double further) const {
