@@ -195,7 +195,10 @@ class EffectFitter {
     fit_.remarks = effect_remarks(data_, scales_, state.point, unknowns_, all, held);
     all.unseen = with_constraints(all, held);
     const EffectEquations equations = search.equations_at(state.point);
-    const NoiseFactor noise = noise_at(all, state.factor, equations.source());
+    const NoiseFactor noise = options_.noise
+                                  ? noise_factor(equations.source(), state.factor.columns,
+                                                 state.factor.parameters, *options_.noise)
+                                  : noise_at(all, state.factor, equations.source());
     all.covariance = correlated_covariance(state.factor, noise, weights_, all.scale, all.unseen);
     const VectorXd white =
         white_covariance(state.factor, x, weights_, all.scale, all.unseen).diagonal().cwiseSqrt();

@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/effects/effect_remarks.h"
 #include "runtime/effects/effect_rows.h"
 #include "runtime/estimation/least_squares.h"
+#include "runtime/estimation/noise_model.h"
 
 namespace dyngen::runtime {
 
@@ -19,6 +21,8 @@ struct EffectFitOptions {
   double tolerance = 1e-9;  ///< relative change of the cost at which a search stops
   int refined = 3;          ///< best values of a grid from which a search starts
   int grid = 9;             ///< values that are tried of a shape without a number
+  /// Of the equations, which intervals are told by; none: that of the residual.
+  std::optional<KnownNoise> noise;
 
   /// @throws std::invalid_argument  naming the option and its range
   void validate() const;

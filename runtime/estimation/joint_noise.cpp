@@ -21,6 +21,19 @@ double JointNoise::density(double frequency) const {
   return sum;
 }
 
+std::vector<AutoregressiveNoise> JointNoise::parts() const {
+  std::vector<AutoregressiveNoise> all = {quick};
+  for (const SlowNoise& part : slow) {
+    AutoregressiveNoise process;
+    process.coefficients = VectorXd::Constant(1, part.pole);
+    process.deviation = part.deviation;
+    process.innovation = part.deviation * std::sqrt(1 - part.pole * part.pole);
+    process.correlation_time = (1 + part.pole) / (1 - part.pole);
+    all.push_back(std::move(process));
+  }
+  return all;
+}
+
 double density(const AutoregressiveNoise& noise, double frequency) {
   const std::complex<double> delay = std::polar(1.0, -2 * M_PI * frequency);
   std::complex<double> power = 1, response = 1;

@@ -25,6 +25,8 @@ struct JointNoise {
   /// Spectral density, (N m)^2 for a sample; its mean over all frequencies is the variance.
   /// @param frequency  cycles for a sample, 0 .. 0.5
   [[nodiscard]] double density(double frequency) const;
+  /// All of them as processes of the same kind.
+  [[nodiscard]] std::vector<AutoregressiveNoise> parts() const;
 };
 
 /// Spectral density of the autoregressive part alone, and of a slow one.

@@ -88,12 +88,14 @@ class RowFilter {
 /// Triangles of filtered rows, joint by joint.
 class FilteredRows {
  public:
+  /// @param noise  of each joint: processes that add up
   FilteredRows(const std::vector<std::vector<int>>& columns,
-               const std::vector<AutoregressiveNoise>& noise)
+               const std::vector<std::vector<AutoregressiveNoise>>& noise)
       : columns_(columns) {
     for (std::size_t j = 0; j < columns.size(); ++j) {
       const Index size = static_cast<Index>(columns[j].size());
-      filters_.emplace_back(noise[j], size);
+      filters_.emplace_back();
+      for (const AutoregressiveNoise& part : noise[j]) filters_[j].emplace_back(part, size);
       factors_.push_back({MatrixXd::Zero(size, size), 0});
     }
   }
@@ -106,8 +108,7 @@ class FilteredRows {
         rows.col(static_cast<Index>(i)) =
             block.Y.col(static_cast<Index>(j) * parameters + columns_[j][i]);
       }
-      filters_[j].run(rows);
-      absorb(factors_[j], rows);
+      for (RowFilter& filter : filters_[j]) absorb_filtered(j, filter, rows);
     }
     running_ = true;
   }
@@ -116,12 +117,11 @@ class FilteredRows {
   void finish_run() {
     if (!running_) return;
     for (std::size_t j = 0; j < columns_.size(); ++j) {
-      if (filters_[j].tail() > 0) {
-        MatrixXd rows = MatrixXd::Zero(filters_[j].tail(), static_cast<Index>(columns_[j].size()));
-        filters_[j].run(rows);
-        absorb(factors_[j], rows);
+      const auto size = static_cast<Index>(columns_[j].size());
+      for (RowFilter& filter : filters_[j]) {
+        if (filter.tail() > 0) absorb_filtered(j, filter, MatrixXd::Zero(filter.tail(), size));
+        filter.reset();
       }
-      filters_[j].reset();
     }
     running_ = false;
   }
@@ -129,8 +129,13 @@ class FilteredRows {
   [[nodiscard]] const std::vector<JointFactor>& factors() const { return factors_; }
 
  private:
+  void absorb_filtered(std::size_t joint, RowFilter& filter, MatrixXd rows) {
+    filter.run(rows);
+    absorb(factors_[joint], rows);
+  }
+
   const std::vector<std::vector<int>>& columns_;
-  std::vector<RowFilter> filters_;
+  std::vector<std::vector<RowFilter>> filters_;  // of each joint
   std::vector<JointFactor> factors_;
   bool running_ = false;
 };
@@ -211,16 +216,38 @@ NoiseFactor noise_factor(const RowSource& source, const std::vector<std::vector<
   NoiseFactor factor = empty_noise(columns);
   const auto [covariances, samples] = residual_autocovariance(source, beta, kMostOrder);
   if (samples == 0) return factor;
-  std::vector<AutoregressiveNoise> noise;
+  KnownNoise noise;
+  noise.correlation_time.resize(covariances.cols());
   for (Index j = 0; j < covariances.cols(); ++j) {
-    noise.push_back(fit_autoregression(covariances.col(j), samples));
-    factor.power[j] = samples * covariances(0, j);
-    factor.correlated_power[j] = factor.power[j] * noise.back().correlation_time;
+    noise.parts.push_back({fit_autoregression(covariances.col(j), samples)});
+    noise.correlation_time[j] = noise.parts.back().front().correlation_time;
   }
-  FilteredRows rows(columns, noise);
-  source([&](const RowBlock& block) { rows.add(block, static_cast<int>(beta.size())); });
+  factor = noise_factor(source, columns, static_cast<int>(beta.size()), noise);
+  // of all that is left, whatever part of it the process has
+  factor.power = samples * covariances.row(0).transpose();
+  factor.correlated_power = factor.power.cwiseProduct(noise.correlation_time);
+  return factor;
+}
+
+NoiseFactor noise_factor(const RowSource& source, const std::vector<std::vector<int>>& columns,
+                         int parameters, const KnownNoise& noise) {
+  NoiseFactor factor = empty_noise(columns);
+  FilteredRows rows(columns, noise.parts);
+  VectorXd samples = VectorXd::Zero(factor.power.size());
+  source([&](const RowBlock& block) {
+    rows.add(block, parameters);
+    samples += counted_rows(block);
+  });
   rows.finish_run();
-  for (std::size_t j = 0; j < columns.size(); ++j) factor.F[j] = rows.factors()[j].R;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    factor.F[j] = rows.factors()[j].R;
+    double variance = 0;
+    for (const AutoregressiveNoise& part : noise.parts[j]) {
+      variance += part.deviation * part.deviation;
+    }
+    factor.power[static_cast<Index>(j)] = samples[static_cast<Index>(j)] * variance;
+  }
+  factor.correlated_power = factor.power.cwiseProduct(noise.correlation_time);
   return factor;
 }
 

@@ -58,6 +58,17 @@ NoiseFactor empty_noise(const std::vector<std::vector<int>>& columns);
 NoiseFactor noise_factor(const RowSource& source, const std::vector<std::vector<int>>& columns,
                          const Eigen::VectorXd& beta);
 
+/// Noise that is known otherwise than from the residual.
+struct KnownNoise {
+  /// [joint] processes that add up, independent of one another
+  std::vector<std::vector<AutoregressiveNoise>> parts;
+  Eigen::VectorXd correlation_time;  ///< (n) samples that are worth one
+};
+
+/// The same of such noise. @param parameters  of the model, nb
+NoiseFactor noise_factor(const RowSource& source, const std::vector<std::vector<int>>& columns,
+                         int parameters, const KnownNoise& noise);
+
 /// Adds another recording's. @throws std::invalid_argument  if it is of another model
 void merge(NoiseFactor& factor, const NoiseFactor& other);
 

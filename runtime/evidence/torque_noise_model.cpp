@@ -182,6 +182,13 @@ double mean_period(const std::vector<double>& repeats) {
 
 }  // namespace
 
+KnownNoise TorqueNoiseModel::known() const {
+  KnownNoise noise;
+  for (const JointNoise& joint : joints) noise.parts.push_back(joint.parts());
+  noise.correlation_time = correlation_time;
+  return noise;
+}
+
 TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResiduals& residuals,
                                     const std::vector<double>& repeats, bool fitted) {
   TorqueNoiseModel model;

@@ -17,6 +17,9 @@ struct TorqueNoiseModel {
   /// (n) samples that are worth one, for what is as slow as the motion: density at its period, or
   /// at 0 if none repeats, over the variance.
   Eigen::VectorXd correlation_time;
+
+  /// As intervals are told by it.
+  [[nodiscard]] KnownNoise known() const;
 };
 
 /// How far apart in equations a motion repeats, of every run; 0: it does not.

@@ -30,6 +30,23 @@ std::string when_it_acts(const Whereabouts& where) {
   return where.recording.empty() ? "" : " in " + where.recording;
 }
 
+/// "the same of joint 2 (gain = -0.0428)": linear parameters of effects on other joints.
+std::string elsewhere(const Naming& naming, const std::vector<Hypothesis>& hypotheses) {
+  std::vector<std::string> places;
+  for (const Rival& rival : naming.elsewhere) {
+    std::vector<std::string> numbers;
+    const EffectInstance& effect = rival.trial.effect;
+    for (const int p : hypotheses[rival.hypothesis].linear) {
+      numbers.push_back(fmt::format("{} = {:.4g}",
+                                    effect.law.parameters[static_cast<std::size_t>(p)].name,
+                                    effect.parameters[p]));
+    }
+    places.push_back(
+        fmt::format("the same of {} ({})", where_it_acts(effect), fmt::join(numbers, ", ")));
+  }
+  return fmt::format("{}", fmt::join(places, ", "));
+}
+
 /// Whether the name holds on halves of the recordings.
 FalsifierOutcome stability_test(const Naming& naming) {
   const double share = naming.stability();
@@ -48,14 +65,18 @@ std::string why(const Finding& finding, const Naming& naming) {
     text += fmt::format("; {}, is {:.0f} squares {}", finding.unnamed,
                         std::abs(naming.unnamed_distance),
                         naming.unnamed_distance < 0 ? "better" : "worse");
-  } else if (naming.rivals.empty()) {
+  } else if (naming.rivals.empty() && finding.elsewhere.empty()) {
     text += "; nothing else comes near";
   }
-  if (naming.rivals.empty()) return text;
-  const Rival& next = naming.rivals.front();
-  if (finding.aliases.size() > 1) {
-    return text + fmt::format("; these data do not tell it from {}", next.name);
+  std::vector<std::string> alike;
+  if (!finding.elsewhere.empty()) alike.push_back(finding.elsewhere);
+  const bool several = finding.aliases.size() > 1 && !naming.rivals.empty();
+  if (several) alike.push_back(naming.rivals.front().name);
+  if (!alike.empty()) {
+    text += fmt::format("; these data do not tell it from {}", fmt::join(alike, " or "));
   }
+  if (several || naming.rivals.empty()) return text;
+  const Rival& next = naming.rivals.front();
   return text +
          fmt::format("; the next name, {}, is {:.0f} squares worse", next.name, next.distance);
 }
@@ -92,6 +113,7 @@ Found found(const Search& search, std::size_t place, const Naming& naming, Effec
   finding.parameters = fit.parameters[place];
   finding.aliases = naming.families;
   finding.probability = naming.probability;
+  finding.elsewhere = elsewhere(naming, search.hypotheses());
   if (naming.unnamed_distance < kApart) finding.unnamed = naming.unnamed;
   finding.absorbed = 1 - naming.part_left;
   finding.evidence = {naming.lambda, naming.delta_bic, 0};
@@ -126,7 +148,10 @@ std::vector<Finding> found_effects(Search& search, std::uint64_t seed, bool with
   if (result.winners.empty()) return {};
   if (progress) progress("the final fit", 0);
   const std::vector<EffectInstance> effects = result.fit.point.effects;
-  result.fit = fit_effects(search.views().train, effects);
+  EffectFitOptions settings;
+  // where motions repeat it is free of what the model leaves out, and has slow parts
+  if (result.noise.from_periods) settings.noise = result.noise.known();
+  result.fit = fit_effects(search.views().train, effects, settings);
   EffectSignals signals(search.views().evidence());
   EvidenceSystem::Options system;
   system.seed = seed;

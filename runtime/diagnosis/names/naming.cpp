@@ -76,6 +76,22 @@ std::optional<EffectFit> with_rival(const EffectRecordings& fitted, const Compet
   }
 }
 
+/// Of each joint the nearest, where these data do not tell it from the winner's.
+/// @param elsewhere  distance is by what they are worse
+std::vector<Rival> nearest_of_joints(std::vector<Rival> elsewhere,
+                                     const std::vector<Hypothesis>& hypotheses) {
+  std::map<int, Rival> nearest;
+  for (Rival& rival : elsewhere) {
+    if (rival.distance >= kApart && rival.apart >= kSeparable) continue;
+    const auto [entry, added] =
+        nearest.try_emplace(hypotheses[rival.hypothesis].effect.joint, rival);
+    if (!added && rival.distance < entry->second.distance) entry->second = std::move(rival);
+  }
+  std::vector<Rival> all;
+  for (auto& [joint, rival] : nearest) all.push_back(std::move(rival));
+  return all;
+}
+
 /// How often the winner and each rival explain most of a half of the recordings.
 /// @param net     what the winner explains, net
 /// @param rivals  by family; their distance is still what they explain, net
@@ -138,7 +154,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   TrialScore found = own.trial;  // the winner's own
   const JointColumns torque =
       system.whitened(effect_columns(data, signals, result.fit.point.effects[winner], {0}));
-  std::vector<Rival> rivals;  // distance: what they explain, net
+  std::vector<Rival> rivals, elsewhere;  // distance: what they explain, net
   for (const std::size_t rival : rivals_of(own, hypotheses)) {
     const Hypothesis& hypothesis = hypotheses[rival];
     const EffectScales here = scales.of(result.fit.point.beta, hypothesis.effect);
@@ -171,7 +187,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
       if (other.family != family) {
         rivals.push_back(std::move(other));
       } else if (hypothesis.effect.joint != hypotheses[own.hypothesis].effect.joint) {
-        continue;
+        elsewhere.push_back(std::move(other));
       } else if (!naming.kin || other.distance > naming.kin->distance) {
         naming.kin = std::move(other);
       }
@@ -179,13 +195,18 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   }
   if (naming.kin) naming.kin->distance = best - naming.kin->distance;
   drop_what_adds_nothing(rivals, hypotheses, family, best);
-  for (Rival& rival : rivals) {
+  const auto apart = [&](const Rival& rival) {
     const Hypothesis& hypothesis = hypotheses[rival.hypothesis];
-    rival.apart =
-        imitation(system, torque,
-                  hypothesis_columns(data, signals, system, hypothesis, rival.trial.effect))
-            .left;
+    return imitation(system, torque,
+                     hypothesis_columns(data, signals, system, hypothesis, rival.trial.effect))
+        .left;
+  };
+  for (Rival& rival : rivals) rival.apart = apart(rival);
+  for (Rival& rival : elsewhere) {
+    rival.apart = apart(rival);
+    rival.distance = best - rival.distance;
   }
+  naming.elsewhere = nearest_of_joints(std::move(elsewhere), hypotheses);
   std::map<std::string, Rival> best_of = best_of_families(std::move(rivals));
   if (!hypotheses[own.hypothesis].windowed) {
     select_from_halves(data, signals, system, hypotheses, own, found, best, options.seed, naming,

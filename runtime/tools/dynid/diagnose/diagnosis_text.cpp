@@ -63,6 +63,7 @@ std::string finding_line(const DiagnosisReport& report, std::size_t place) {
   for (const std::string& family : finding.aliases) {
     if (family != finding.effect.law.family) others.push_back(family);
   }
+  if (!finding.elsewhere.empty()) others.push_back(finding.elsewhere);
   if (!finding.unnamed.empty()) others.push_back(finding.unnamed);
   if (!others.empty()) text += fmt::format("; or {}", fmt::join(others, ", "));
   return text + "\n";

@@ -115,6 +115,7 @@ class FindingWriter {
     for (const std::string& family : finding_.aliases) {
       if (family != finding_.effect.law.family) names.push_back(family);
     }
+    if (!finding_.elsewhere.empty()) names.push_back(finding_.elsewhere);
     if (!finding_.unnamed.empty()) names.push_back(finding_.unnamed);
     return fmt::format("{}", fmt::join(names, ", "));
   }
