@@ -93,6 +93,34 @@ TEST(Diagnosis, NamesWhatWasLeftOut) {
 }
 
 /// Of two effects of one joint the share of each is of what both leave there.
+/// A factor on the torque of one of two joints is, but for a factor on all of them, one on the
+/// other.
+TEST(Diagnosis, SaysOnWhichOtherJointAnEffectWouldDoAsWell) {
+  EffectLaw gain = test::algebraic_law(
+      "torque_gain", {"torque"}, {{"gain", EffectRole::kLinear, -0.9, 10, 0, -0.05}},
+      [](const VectorXd& v, const VectorXd& p) { return p[0] * v[0]; });
+  gain.kind = EffectKind::kTangent;
+  EffectInstance truth = test::known(gain, 1, {-0.02});
+  truth.link = 2;
+  const Diagnosis diagnosis = diagnose(
+      test::arm_input(test::two_recordings({truth}, 5), {truth}, {gain}), test::every_sample());
+  ASSERT_EQ(diagnosis.findings.size(), 1U) << diagnosis.sentence;
+  const Finding& finding = diagnosis.findings.front();
+  EXPECT_EQ(finding.effect.law.family, "torque_gain");
+  const int other = finding.effect.joint == 0 ? 2 : 1;
+  EXPECT_EQ(finding.elsewhere.find("the same of joint " + std::to_string(other)), 0U)
+      << finding.elsewhere;
+  EXPECT_NE(finding.why.find("do not tell it from " + finding.elsewhere), std::string::npos)
+      << finding.why;
+
+  const EffectInstance spring = test::known(test::spring_law(), 1, {0.4});
+  const Diagnosis clear =
+      diagnose(test::arm_input(test::two_recordings({spring}, 5), {spring}, {test::spring_law()}),
+               test::every_sample());
+  ASSERT_EQ(clear.findings.size(), 1U) << clear.sentence;
+  EXPECT_EQ(clear.findings.front().elsewhere, "");
+}
+
 TEST(Diagnosis, SharesAreOfAllThatIsFoundOnTheJoint) {
   const EffectInstance ripple = test::known(test::ripple_law(), 1, {0.1, 0.05, 21});
   const auto shares = [&](const std::vector<EffectInstance>& truths) {
