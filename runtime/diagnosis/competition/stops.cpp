@@ -20,6 +20,13 @@ constexpr double kImperfect = 0.02;    // of the squares of impulses: what their
 constexpr double kThrough = 0.002;     // of those of another joint: it jolts the whole arm
 constexpr double kKnown = 4;  // squares: an effect that would have as many elsewhere is seen there
 
+/// Whether torque goes with the way since the joint last turned.
+bool is_since_reversal(const GenericStructure& structure) {
+  return structure.form == GenericStructure::Form::kFriction && structure.variables.size() == 1 &&
+         structure.variables.front() ==
+             StructureVariable{StructureVariable::Kind::kDistance, structure.joint};
+}
+
 /// Columns that are not 0 in one recording alone, by recordings.
 /// @param part  (equations x columns) each within one run
 std::vector<std::vector<Index>> columns_of_recordings(const EffectRecordings& data,
@@ -143,8 +150,11 @@ bool Stops::hide(const EvidenceSystem& system, const Screening& screening,
 
 std::vector<RestingJoint> Stops::resting(const EvidenceSystem& system, const Screening& screening,
                                          const GenericStructure& structure) const {
-  if (rests(structure.joint) || !significant(impulses_of(screening, structure.joint))) return {};
-  if (structure.form != GenericStructure::Form::kImpulses) {
+  const double impulses = impulses_of(screening, structure.joint);
+  if (rests(structure.joint) || !significant(impulses)) return {};
+  // a rest that is longer than an impulse looks like friction that goes with the way since then
+  const bool long_rests = is_since_reversal(structure) && screening.family_wise(impulses) <= kLevel;
+  if (structure.form != GenericStructure::Form::kImpulses && !long_rests) {
     EvidenceSystem beside = system;
     const auto white = [&](const GenericStructure& own) {
       return beside.whitened(generic_columns(data_, signals_, own));

@@ -60,8 +60,9 @@ class Stops {
                           const Hypothesis& hypothesis, const NamedResult& named) const;
 
   /// Joints that begin to rest: the structure's, if impulses at its reversals are more than noise
-  /// and beside them the structure is not; with it all others where impulses are the strongest
-  /// structure. None if it is not so.
+  /// and beside them the structure is not, or is a function of the way since then: a rest that is
+  /// longer than an impulse; with it all others where impulses are the strongest structure. None if
+  /// it is not so.
   [[nodiscard]] std::vector<RestingJoint> resting(const EvidenceSystem& system,
                                                   const Screening& screening,
                                                   const GenericStructure& structure) const;

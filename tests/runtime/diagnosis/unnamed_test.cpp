@@ -8,6 +8,7 @@
 #include "runtime/diagnosis/competition/stops.h"
 #include "runtime/diagnosis/names/naming.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
+#include "runtime/diagnosis/scans/screening.h"
 #include "runtime/diagnosis/scans/wave_scan.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
@@ -154,6 +155,34 @@ TEST(Naming, WhatHasNoNameTakesItsPartOfTheProbability) {
   naming.unnamed_distance = -50;
   conclude(naming);
   EXPECT_LT(naming.probability, 0.01);
+}
+
+/// What a rest does lasts longer than an impulse does: friction goes with the way since then.
+TEST(Stops, AJointRestsWhereFrictionGoesWithTheWaySinceItTurned) {
+  const std::vector<GenericStructure> structures = generic_structures(2);
+  const std::vector<RestingJoint> none;
+  const auto resting = [&](const std::vector<EffectInstance>& effects,
+                           const GenericStructure& structure) {
+    const EffectRecordings data = test::arm_recordings(test::two_recordings(effects, 4));
+    EffectSignals signals(data);
+    signals.set_beta(test::planar_arm_values());
+    const EvidenceSystem system = test::arm_system(data);
+    ScreeningData screened(data);
+    const Screening screening = screen(screened, system, ScaleTable(data),
+                                       test::planar_arm_values(), {}, structures, nullptr);
+    return Stops(data, signals, structures, none, 0.01).resting(system, screening, structure);
+  };
+  const GenericStructure since{1, {{Kind::kDistance, 1}}, Form::kFriction};
+  const GenericStructure by_load{1, {{Kind::kLoad, 1}}, Form::kFriction};
+  const EffectInstance slip = test::known(test::slip_law(), 1, {60, 0.05});
+  const std::vector<RestingJoint> found = resting({slip}, since);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found.front().joint, 1);
+  EXPECT_EQ(found.front().recordings.size(), 2U);
+  // what is no function of that way, and more than impulses explain, is no rest
+  EXPECT_TRUE(resting({slip}, by_load).empty());
+  // where impulses are noise nothing rests
+  EXPECT_TRUE(resting({}, since).empty());
 }
 
 TEST(Stops, LittleIsNothingOnAJointThatRests) {
