@@ -13,10 +13,11 @@ namespace dyngen::runtime {
 
 /// Derivatives of every joint's rigid torque, by the names that effects have for them: d_q d_qd
 /// d_qdd of the coordinate that the link's joint is; d_alpha d_d d_theta d_r of the link's row of
-/// the DH table; d_gx d_gy d_gz; hidden_gx hidden_gy, the same of a first moment of the first moving
-/// link where no base parameter has it; payload_XX .. payload_M; contact_fx .. contact_nz of a force
-/// or moment that the link puts on its surroundings. wrench_fx .. wrench_nz: column j is of joint
-/// j's own wrench. (N x n) each. Link 0 has those of gravity, of the payload and of the wrenches.
+/// the DH table; d_gx d_gy d_gz; hidden_gx hidden_gy, the same of a first moment of the first
+/// moving link where no base parameter has it; payload_XX .. payload_M; contact_fx .. contact_nz of
+/// a force or moment that the link puts on its surroundings. wrench_fx .. wrench_nz: column j is of
+/// joint j's own wrench. (N x n) each. Link 0 has those of gravity, of the payload and of the
+/// wrenches.
 ///
 /// All that one program gives come together. Programs are written when they are first asked for.
 /// Base parameters do not say all of the bodies: where the file has numbers for all of them, those
