@@ -52,8 +52,7 @@ struct Finding {
   EffectInstance effect;  ///< with its estimate; family "unknown" never stands here
   std::vector<EffectParameterFit> parameters;
   std::vector<std::string> aliases;  ///< families that these data cannot tell apart, its own first
-  /// Joints on which the same would explain it as well, and how large it would be there; empty:
-  /// none
+  /// Joints on which the same would explain it as well, and its size there; empty: none
   std::string elsewhere;
   std::string unnamed;     ///< what has no name and is not told apart either; empty: nothing
   double probability = 0;  ///< that the family is right, 0 .. 1
