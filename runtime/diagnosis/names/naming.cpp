@@ -4,45 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/competition/own_scatter.h"
-#include "runtime/diagnosis/names/imitation.h"
-#include "runtime/diagnosis/names/rival_families.h"
+#include "runtime/diagnosis/names/rivals.h"
 #include "runtime/diagnosis/names/stability.h"
 #include "runtime/diagnosis/names/unnamed_rival.h"
 
 namespace dyngen::runtime {
 namespace {
 
-constexpr std::size_t kCompared = 24;  // effects that are compared with a winner
-constexpr double kStrongEnough = 0.3;  // of the winner's squares in its round
 /// Misfit of the noise model and of linearisation makes differences of squares wider than theory
 /// has it: the odds are those of squares this much smaller.
 constexpr double kCaution = 2;
 constexpr double kEven = 0.5;  // squares that decide nothing
-
-/// Places of the strongest rivals of a winner in its round, itself first. An event is none of what
-/// always acts: held-out recordings, which do not have it, could not refuse it.
-std::vector<std::size_t> rivals_of(const Winner& winner,
-                                   const std::vector<Hypothesis>& hypotheses) {
-  std::vector<std::size_t> places;
-  for (const NamedResult& named : winner.others) {
-    if (named.hypothesis == winner.hypothesis || !named.seen || !named.best.admissible) continue;
-    if (hypotheses[named.hypothesis].windowed && !hypotheses[winner.hypothesis].windowed) continue;
-    if (named.best.score.squares < kStrongEnough * winner.trial.score.squares) continue;
-    places.push_back(named.hypothesis);
-  }
-  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
-    return winner.others[a].best.score.squares > winner.others[b].best.score.squares;
-  });
-  if (places.size() > kCompared) places.resize(kCompared);
-  places.insert(places.begin(), winner.hypothesis);
-  return places;
-}
 
 /// What held-out recordings say for a rival against a winner: squares of their residuals, where
 /// these are more than noise in units of what they are.
@@ -74,22 +51,6 @@ std::optional<EffectFit> with_rival(const EffectRecordings& fitted, const Compet
   } catch (const std::invalid_argument&) {
     return std::nullopt;  // no finite torque at the shapes that were tried
   }
-}
-
-/// Of each joint the nearest, where these data do not tell it from the winner's.
-/// @param elsewhere  distance is by what they are worse
-std::vector<Rival> nearest_of_joints(std::vector<Rival> elsewhere,
-                                     const std::vector<Hypothesis>& hypotheses) {
-  std::map<int, Rival> nearest;
-  for (Rival& rival : elsewhere) {
-    if (rival.distance >= kApart && rival.apart >= kSeparable) continue;
-    const auto [entry, added] =
-        nearest.try_emplace(hypotheses[rival.hypothesis].effect.joint, rival);
-    if (!added && rival.distance < entry->second.distance) entry->second = std::move(rival);
-  }
-  std::vector<Rival> all;
-  for (auto& [joint, rival] : nearest) all.push_back(std::move(rival));
-  return all;
 }
 
 /// How often the winner and each rival explain most of a half of the recordings.
@@ -145,75 +106,24 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
                    const std::vector<Hypothesis>& hypotheses, const CompetitionResult& result,
                    std::size_t winner, const EvidenceSystem::Options& options) {
   const EvidenceSystem system = system_without(data, signals, hypotheses, result, winner, options);
-  const ScaleTable scales(data);
   const Winner& own = result.winners[winner];
+  const Hypothesis& hypothesis = hypotheses[own.hypothesis];
+  RivalsOfWinner rivals = rivals_of(data, signals, hypotheses, result, winner, system);
   Naming naming;
-  const std::string& family = hypotheses[own.hypothesis].effect.law.family;
-  naming.families = {family};
-  double best = 0;
-  TrialScore found = own.trial;  // the winner's own
-  const JointColumns torque =
-      system.whitened(effect_columns(data, signals, result.fit.point.effects[winner], {0}));
-  std::vector<Rival> rivals, elsewhere;  // distance: what they explain, net
-  for (const std::size_t rival : rivals_of(own, hypotheses)) {
-    const Hypothesis& hypothesis = hypotheses[rival];
-    const EffectScales here = scales.of(result.fit.point.beta, hypothesis.effect);
-    TrialScore trial = rival == own.hypothesis ? own.trial : own.others[rival].best;
-    try {
-      EffectInstance start = trial.effect;
-      for (const int p : hypothesis.linear) {
-        start.parameters[p] = hypothesis.effect.parameters[p];
-      }
-      trial = refined(data, signals, system, hypothesis,
-                      try_hypothesis(data, signals, system, hypothesis, start, here, false), here);
-    } catch (const std::invalid_argument&) {
-      continue;
-    }
-    const double net = net_of(hypothesis, trial, result.noise);
-    if (rival == own.hypothesis) {
-      best = net;
-      naming.lambda = std::max(0.0, trial.score.squares - trial.score.degrees);
-      naming.delta_bic = -net;
-      naming.part_left = trial.score.part_left;
-      found = std::move(trial);
-    } else if (trial.admissible) {
-      Rival other{hypothesis.effect.law.family,
-                  short_name(hypothesis.effect),
-                  net,
-                  0,
-                  rival,
-                  std::move(trial),
-                  0};
-      if (other.family != family) {
-        rivals.push_back(std::move(other));
-      } else if (hypothesis.effect.joint != hypotheses[own.hypothesis].effect.joint) {
-        elsewhere.push_back(std::move(other));
-      } else if (!naming.kin || other.distance > naming.kin->distance) {
-        naming.kin = std::move(other);
-      }
-    }
-  }
-  if (naming.kin) naming.kin->distance = best - naming.kin->distance;
-  drop_what_adds_nothing(rivals, hypotheses, family, best);
-  const auto apart = [&](const Rival& rival) {
-    const Hypothesis& hypothesis = hypotheses[rival.hypothesis];
-    return imitation(system, torque,
-                     hypothesis_columns(data, signals, system, hypothesis, rival.trial.effect))
-        .left;
-  };
-  for (Rival& rival : rivals) rival.apart = apart(rival);
-  for (Rival& rival : elsewhere) {
-    rival.apart = apart(rival);
-    rival.distance = best - rival.distance;
-  }
-  naming.elsewhere = nearest_of_joints(std::move(elsewhere), hypotheses);
-  std::map<std::string, Rival> best_of = best_of_families(std::move(rivals));
-  if (!hypotheses[own.hypothesis].windowed) {
-    select_from_halves(data, signals, system, hypotheses, own, found, best, options.seed, naming,
-                       best_of);
+  naming.families = {hypothesis.effect.law.family};
+  const double best = rivals.net;
+  naming.lambda = std::max(0.0, rivals.own.score.squares - rivals.own.score.degrees);
+  naming.delta_bic = -best;
+  naming.part_left = rivals.own.score.part_left;
+  naming.kin = std::move(rivals.kin);
+  naming.elsewhere = std::move(rivals.elsewhere);
+  std::map<std::string, Rival> best_of = best_of_families(std::move(rivals.others));
+  if (!hypothesis.windowed) {
+    select_from_halves(data, signals, system, hypotheses, own, rivals.own, best, options.seed,
+                       naming, best_of);
   }
   UnnamedRival unnamed =
-      unnamed_rival(data, signals, hypotheses, result, own, found.effect, system);
+      unnamed_rival(data, signals, hypotheses, result, own, rivals.own.effect, system);
   naming.unnamed = std::move(unnamed.what);
   naming.unnamed_distance = best - unnamed.net;
   for (auto& [other, rival] : best_of) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition.h"
-#include "runtime/diagnosis/names/rival_families.h"
+#include "runtime/diagnosis/names/rivals.h"
 
 namespace dyngen::runtime {
 
@@ -28,14 +28,6 @@ struct Naming {
   /// The share of halves in which the winner or one of the families beside it explains most.
   [[nodiscard]] double stability() const;
 };
-
-/// Winners are compared with all that was strong in their round, each beside the model with all
-/// other winners. For two effects of noncentrality lambda and likeness c the difference of squares
-/// has the mean lambda (1 - c^2) and four times that for its variance. A family joins the set if
-/// its best effect is worse by fewer than kApart squares, or if that mean is below kSeparable. What
-/// has no name takes its part of the probability too.
-inline constexpr double kApart = 9;
-inline constexpr double kSeparable = 20;
 
 /// Families and probability are those of the distances: to be called again once those change.
 void conclude(Naming& naming);
