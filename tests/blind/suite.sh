@@ -10,7 +10,7 @@
 #                                   it, and has it answered again
 #   suite.sh BUILD SET strength     what of the single effects is left where friction may do anything in the
 #                                   instants in which joints stop, turn and let go
-#   suite.sh BUILD SET reach        what of the single effects is in the equations that dynid makes
+#   suite.sh BUILD SET reach        what of single effects and foreign physics is in the equations that dynid makes
 #   suite.sh BUILD SET score        holds the answers against the truth
 #   suite.sh BUILD real [STEP]      make, diagnose, score of real recordings with something added
 #   suite.sh BUILD case KIND LAMBDA SEED [FAMILY]    one case, told in full

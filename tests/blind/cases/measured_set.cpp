@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/blind/cases/measured_singles.h"
+#include "tests/blind/cases/measured_set.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ void MeasuredSet::add_to(CLI::App& app) {
   app.add_option("--out", out, "JSON file to write")->required();
 }
 
-int write_measured(const MeasuredSet& set, unsigned jobs,
+int write_measured(const MeasuredSet& set, const Kinds& kinds, unsigned jobs,
                    const std::function<nlohmann::json(const nlohmann::json&)>& measure) {
   std::ifstream file(set.manifest);
   const auto entries = nlohmann::json::parse(file);
@@ -30,7 +30,7 @@ int write_measured(const MeasuredSet& set, unsigned jobs,
   std::atomic<int> failed{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < entries.size(); i = next++) {
-      if (entries[i]["kind"] != "single") continue;
+      if (!kinds.contains(entries[i]["kind"])) continue;
       const std::string name = entries[i]["case"];
       try {
         measured[i] = measure(entries[i]);

@@ -8,7 +8,7 @@
 
 #include "tests/blind/cases/asked.h"
 #include "tests/blind/cases/instants.h"
-#include "tests/blind/cases/measured_singles.h"
+#include "tests/blind/cases/measured_set.h"
 
 namespace blind {
 namespace {
@@ -58,5 +58,5 @@ int main(int argc, char** argv) {
   const auto measure = [&](const nlohmann::json& entry) {
     return blind::strength_of(entry, set.arms.string());
   };
-  return blind::write_measured(set, jobs, measure) == 0 ? 0 : 1;
+  return blind::write_measured(set, {"single"}, jobs, measure) == 0 ? 0 : 1;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// blind_reach: what of the single effects of a set is in the equations that dynid makes of their
-// recordings. Whoever knows the truth takes its torque off them; what the equations of both differ
-// in is one column. A JSON object by case, numbers of Reach.
+// blind_reach: what of the single effects of a set, and of foreign physics, is in the equations
+// that dynid makes of their recordings. Whoever knows the truth takes its torque off them; what the
+// equations of both differ in is one column. A JSON object by case, numbers of Reach.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,7 @@
 
 #include "tests/blind/cases/asked.h"
 #include "tests/blind/cases/case.h"
-#include "tests/blind/cases/measured_singles.h"
+#include "tests/blind/cases/measured_set.h"
 #include "tests/blind/dynid/case_input.h"
 #include "tests/blind/reach/reach.h"
 
@@ -86,14 +86,15 @@ nlohmann::json measured(const nlohmann::json& entry, const MeasuredSet& set,
   return {{"lambda", reach.lambda},
           {"seen", reach.seen},
           {"found", reach.found},
-          {"needed", reach.needed}};
+          {"needed", reach.needed},
+          {"repeating", reach.repeating}};
 }
 
 }  // namespace
 }  // namespace blind
 
 int main(int argc, char** argv) {
-  CLI::App app{"What of single effects is in the equations of a diagnosis."};
+  CLI::App app{"What of single effects and foreign physics is in the equations of a diagnosis."};
   blind::MeasuredSet set;
   set.add_to(app);
   std::filesystem::path cases;
@@ -102,5 +103,6 @@ int main(int argc, char** argv) {
   const auto measure = [&](const nlohmann::json& entry) {
     return blind::measured(entry, set, cases);
   };
-  return blind::write_measured(set, 1, measure) == 0 ? 0 : 1;  // a diagnosis has threads of its own
+  // one at once: a diagnosis has threads of its own
+  return blind::write_measured(set, {"single", "foreign"}, 1, measure) == 0 ? 0 : 1;
 }

@@ -7,9 +7,12 @@
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/competition/search.h"
 #include "runtime/diagnosis/diagnosis.h"
+#include "runtime/diagnosis/scans/repeat_scan.h"
 
 namespace blind {
 namespace {
+
+constexpr double kRepeatingBand = 8;  // Hz
 
 using namespace dyngen::runtime;
 using Eigen::Index;
@@ -38,17 +41,24 @@ EffectPoint model_of(const EffectRecordings& data) {
   return fit_effects(data, {}, options).point;
 }
 
-/// One column beside the model alone.
-struct Alone {
-  double squares = 0;  ///< what the column explains of the recordings
-  double lambda = 0;   ///< what the model leaves of itself
-};
-Alone beside_model(const EffectRecordings& data, const EffectPoint& model,
-                   const TorqueNoiseModel& noise, const JointColumns& column) {
-  EffectSignals signals(data);
-  const EvidenceSystem system = system_at(data, signals, model, {}, noise, {});
-  const Products products = system.products(system.whitened(column), false);
-  return {score_of(products, false).squares, products.left(0, 0)};
+/// Squares that the model leaves of columns.
+Products beside_model(const EvidenceSystem& system, const JointColumns& column) {
+  return system.products(system.whitened(column), false);
+}
+
+/// Squares of a column that are in what comes back in every period, as the diagnosis looks for it.
+double repeating_part(const EffectRecordings& data, const EvidenceSystem& system,
+                      const JointColumns& column, const std::vector<double>& repeats) {
+  std::vector<JointColumns> all = {column};
+  for (int j = 0; j < data.joints(); ++j) {
+    all.push_back(harmonic_columns(data, j, repeats, kRepeatingBand));
+  }
+  Products products = beside_model(system, side_by_side(all));
+  const Index lines = products.left.cols() - 1;
+  products.rest = products.left.col(0).tail(lines).eval();
+  products.left = products.left.bottomRightCorner(lines, lines).eval();
+  products.whole = products.whole.bottomRightCorner(lines, lines).eval();
+  return score_of(products, false).squares;
 }
 
 }  // namespace
@@ -67,15 +77,20 @@ Reach reach_of(const DiagnosisInput& input, std::vector<MotionSource> without) {
   const JointColumns column = difference(views.evidence(), bare.evidence());
   const EffectPoint model = model_of(views.train), truth = model_of(bare.train);
   const std::vector<double> repeats = repeats_of(views.train);
-  const auto noise_of = [&](const EffectRecordings& data, const EffectPoint& point) {
-    return torque_noise_model(data, residuals_of(data, point), repeats, true);
+  // the model alone, with the noise that residuals at a point show
+  EffectSignals signals(views.evidence());
+  const auto system_with = [&](const EffectRecordings& data, const EffectPoint& point) {
+    const TorqueNoiseModel noise =
+        torque_noise_model(data, residuals_of(data, point), repeats, true);
+    return system_at(views.evidence(), signals, model, {}, noise, {});
   };
   Reach reach;
-  const TorqueNoiseModel true_noise = noise_of(bare.train, truth);
-  reach.lambda = beside_model(views.evidence(), model, true_noise, column).lambda;
-  const Alone seen = beside_model(views.evidence(), model, noise_of(views.train, model), column);
-  reach.seen = seen.lambda;
-  reach.found = seen.squares;
+  reach.lambda = beside_model(system_with(bare.train, truth), column).left(0, 0);
+  const EvidenceSystem system = system_with(views.train, model);
+  const Products seen = beside_model(system, column);
+  reach.seen = seen.left(0, 0);
+  reach.found = score_of(seen, false).squares;
+  reach.repeating = repeating_part(views.evidence(), system, column, repeats);
   const double surprise = search.result().last.threshold(defaults.false_alarm);
   reach.needed =
       quantile(complement(boost::math::chi_squared_distribution<>(1), std::exp(-surprise)));

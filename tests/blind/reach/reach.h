@@ -10,10 +10,11 @@ namespace blind {
 
 /// Squares in units of the noise, of what the model's refit leaves.
 struct Reach {
-  double lambda = 0;  ///< of the left-out torque, by the noise of recordings without it
-  double seen = 0;    ///< the same by the noise that the diagnosis reads from its recordings
-  double found = 0;   ///< of what was recorded, by one column: the left-out torque
-  double needed = 0;  ///< that one column needs where everything was asked, at its false alarms
+  double lambda = 0;     ///< of the left-out torque, by the noise of recordings without it
+  double seen = 0;       ///< the same by the noise that the diagnosis reads from its recordings
+  double found = 0;      ///< of what was recorded, by one column: the left-out torque
+  double repeating = 0;  ///< of `seen` below 8 Hz what comes back in every period of the motion
+  double needed = 0;     ///< that one column needs where everything was asked, at its false alarms
 };
 
 /// Diagnoses recordings, and asks the equations that it ends with for what only the truth knows.

@@ -60,9 +60,25 @@ TEST(Reach, IsWhatLeastSquaresLeaveInUnitsOfTheNoise) {
     // with a standard deviation of 1
     EXPECT_NEAR(std::sqrt(reach.found), std::sqrt(reach.seen), 3) << stiffness;
     EXPECT_LE(reach.seen, 1.05 * reach.lambda);
+    EXPECT_EQ(reach.repeating, 0);  // no motion repeats
     EXPECT_GT(reach.needed, 10);
     EXPECT_LT(reach.needed, 40);
   }
+}
+
+TEST(Reach, OfAFunctionOfTheMotionAllComesBackWhereTheMotionDoes) {
+  const auto effects = spring(0.06);
+  // three periods of 8 s
+  const double speed = 2.5 * std::acos(-1.0);
+  const auto moved = [&](const std::vector<runtime::EffectInstance>& left_out) {
+    return test::measured({test::sines(24, 0.01, 0.3, speed), test::sines(24, 0.01, 2.3, speed)},
+                          test::planar_arm_values(), left_out, test::kArmNoise, 0, kSeed);
+  };
+  const Reach reach =
+      reach_of(test::arm_input(moved(effects), effects, {test::spring_law()}), moved({}));
+  ASSERT_GT(reach.seen, 5);
+  EXPECT_GE(reach.repeating, 0.95 * reach.seen);
+  EXPECT_LE(reach.repeating, 1.001 * reach.seen);
 }
 
 }  // namespace

@@ -105,7 +105,9 @@ int main(int argc, char** argv) {
   if (!reach.empty()) {
     const nlohmann::json measured = read(reach);
     for (blind::Judged& each : judged) {
-      if (measured.contains(each.name)) each.reach = measured[each.name].at("lambda");
+      if (!measured.contains(each.name)) continue;
+      each.reach = measured[each.name].at("lambda");
+      each.repeating = measured[each.name].at("repeating");
     }
   }
   fmt::print("{}", blind::tables(judged));

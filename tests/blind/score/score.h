@@ -30,12 +30,13 @@ struct Judged {
   /// Of lambda to who knows nothing of friction in the instants in which joints stop, turn and let
   /// go (blind_strength); none: not measured.
   std::optional<double> instants;
-  std::optional<double> slow;   ///< of that below 40 Hz
-  std::optional<double> again;  ///< lambda, measured again (blind_strength)
-  std::optional<double> reach;  ///< what of it is in dynid's own equations (blind_reach)
-  double heldout = 0;           ///< rms after over the oracle's, root mean square of the joints
-  double heldout_before = 0;    ///< the same of the base model
-  double gap_closed = 0;        ///< of the squares between the base model and the oracle
+  std::optional<double> slow;       ///< of that below 40 Hz
+  std::optional<double> again;      ///< lambda, measured again (blind_strength)
+  std::optional<double> reach;      ///< what of it is in dynid's own equations (blind_reach)
+  std::optional<double> repeating;  ///< of that what comes back in every period (blind_reach)
+  double heldout = 0;               ///< rms after over the oracle's, root mean square of the joints
+  double heldout_before = 0;        ///< the same of the base model
+  double gap_closed = 0;            ///< of the squares between the base model and the oracle
 };
 
 Judged judge(const nlohmann::json& truth, const nlohmann::json& answer);

@@ -154,6 +154,15 @@ TEST(Score, TellsWhatTheEquationsHoldWhereThatWasMeasured) {
               testing::HasSubstr("when lambda is measured again | 1 of 1, 100.0 % "));
 }
 
+TEST(Score, TellsWhatTheEquationsHoldOfForeignPhysics) {
+  Judged judged = judge(truth("foreign", {{"unknown", 0}}), answer(Json::array()));
+  const auto table = testing::HasSubstr("of it in what repeats");
+  EXPECT_THAT(tables({judged}), testing::Not(table));
+  judged.reach = 256.3;
+  judged.repeating = 164.4;
+  EXPECT_THAT(tables({judged}), testing::HasSubstr("| 256 | 164 | clean |"));
+}
+
 TEST(Score, SaysWhatWhoKnowsTheFormWouldFindOfTheSame) {
   Judged judged = judge(truth("single", {{"time_delay", 2}}), answer(Json::array()));
   Judged at_rests = judged;

@@ -200,6 +200,20 @@ std::string known_ladders(const Set& singles) {
   return text;
 }
 
+/// What the equations hold of physics outside the catalogue: no test knows its form, and those that
+/// do not see what repeats.
+std::string foreign_table(const Set& foreign) {
+  std::string text =
+      "| foreign | lambda | in dynid's own equations | of it in what repeats | first answer "
+      "|\n|---|---|---|---|---|\n";
+  for (const Judged* each : foreign) {
+    text += fmt::format("| {} | {:.0f} | {:.0f} | {:.0f} | {} |\n",
+                        each->truth["truths"][0]["form"].get<std::string>(), each->lambda,
+                        each->reach.value_or(0), each->repeating.value_or(0), first_name(*each));
+  }
+  return text + "\n";
+}
+
 std::string confusion(const Set& all) {
   std::map<std::string, std::map<std::string, int>> counts;
   for (const Judged* each : all) ++counts[family_of(*each)][first_name(*each)];
@@ -276,6 +290,8 @@ std::string tables(const std::vector<Judged>& judged) {
   const Set singles = kind("single");
   if (!singles.empty())
     text += concealment(singles) + single_table(singles) + ladder(singles) + known_ladders(singles);
+  const Set foreign = kind("foreign");
+  if (!foreign.empty() && are_measured(foreign, &Judged::repeating)) text += foreign_table(foreign);
   text += estimate_table(judged);
   return text + confusion(all);
 }
