@@ -92,7 +92,6 @@ TEST(Diagnosis, NamesWhatWasLeftOut) {
   }
 }
 
-/// Of two effects of one joint the share of each is of what both leave there.
 /// A factor on the torque of one of two joints is, but for a factor on all of them, one on the
 /// other.
 TEST(Diagnosis, SaysOnWhichOtherJointAnEffectWouldDoAsWell) {
@@ -121,6 +120,28 @@ TEST(Diagnosis, SaysOnWhichOtherJointAnEffectWouldDoAsWell) {
   EXPECT_EQ(clear.findings.front().elsewhere, "");
 }
 
+/// A coupling of joint 1 to joint 2 is that of joint 2 to joint 1.
+TEST(Diagnosis, TheSameTwoJointsTheOtherWayRoundAreNoOtherPlace) {
+  EffectLaw coupling = test::algebraic_law(
+      "coupling", {"q", "q_other"}, {{"size", EffectRole::kLinear, -10, 10, 0, 0.1}},
+      [](const VectorXd& v, const VectorXd& p) {
+        return p[0] * (std::sin(3 * v[0]) + std::sin(3 * v[1]));
+      });
+  coupling.scope = EffectScope::kPair;
+  coupling.acts_on_all = true;
+  std::vector<EffectInstance> hypotheses = test::on_both_joints({coupling});
+  hypotheses[0].other = 1;
+  hypotheses[1].other = 0;
+  EffectInstance truth = hypotheses[0];
+  truth.parameters[0] = 0.2;
+  DiagnosisInput input = test::arm_input(test::two_recordings({truth}, 5), {truth}, {});
+  input.hypotheses = hypotheses;
+  const Diagnosis diagnosis = diagnose(input, test::every_sample());
+  ASSERT_EQ(diagnosis.findings.size(), 1U) << diagnosis.sentence;
+  EXPECT_EQ(diagnosis.findings.front().elsewhere, "");
+}
+
+/// Of two effects of one joint the share of each is of what both leave there.
 TEST(Diagnosis, SharesAreOfAllThatIsFoundOnTheJoint) {
   const EffectInstance ripple = test::known(test::ripple_law(), 1, {0.1, 0.05, 21});
   const auto shares = [&](const std::vector<EffectInstance>& truths) {
