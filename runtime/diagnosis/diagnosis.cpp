@@ -60,7 +60,7 @@ class Diagnostician {
         search_(input, options.decimation) {}
 
   Diagnosis run() {
-    answer_.condition = condition_lines(input_, &search_.shown_train());
+    answer_.condition = condition_lines(input_, search_.parts(), &search_.shown_train());
     answer_.sentence = why_too_few(search_.views().train);
     if (!answer_.sentence.empty()) return std::move(answer_);
     const std::string too_little = why_not_clean();
@@ -210,7 +210,7 @@ Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,
     return Diagnostician(input, options, progress, witness).run();
   } catch (const TooShortError& error) {
     Diagnosis answer;
-    answer.condition = condition_lines(input, nullptr);
+    answer.condition = condition_lines(input, {}, nullptr);
     answer.sentence = error.what();
     return answer;
   }

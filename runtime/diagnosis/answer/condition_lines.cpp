@@ -57,7 +57,7 @@ std::string repetition(const EffectRun& run, double equations) {
 
 }  // namespace
 
-std::vector<ConditionLine> condition_lines(const DiagnosisInput& input,
+std::vector<ConditionLine> condition_lines(const DiagnosisInput& input, const Division& parts,
                                            const EffectRecordings* train) {
   std::vector<ConditionLine> lines;
   for (const auto* sources : {&input.train, &input.heldout, &input.reference}) {
@@ -68,7 +68,7 @@ std::vector<ConditionLine> condition_lines(const DiagnosisInput& input,
   for (std::size_t run = 0; run < repeats.size(); ++run) {
     const int recording = train->runs[run].recording;
     if (recording < 0) continue;
-    auto& sentences = lines[static_cast<std::size_t>(recording)].sentences;
+    auto& sentences = lines.at(parts.origin_of(static_cast<std::size_t>(recording))).sentences;
     const std::string sentence = repetition(train->runs[run], repeats[run]);
     if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) {
       sentences.push_back(sentence);

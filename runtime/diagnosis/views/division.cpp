@@ -42,11 +42,16 @@ int held_part(const MotionSource& source) {
 
 Division divided(const std::vector<MotionSource>& recordings) {
   Division division;
-  for (const MotionSource& source : recordings) {
+  for (std::size_t place = 0; place < recordings.size(); ++place) {
+    const MotionSource& source = recordings[place];
+    const auto fit = [&](double begin, double end) {
+      division.train.push_back(part_of(source, begin, end));
+      division.origins.push_back(place);
+    };
     const int part = held_part(source);
     const double from = static_cast<double>(part) / kParts, to = from + 1.0 / kParts;
-    if (part > 0) division.train.push_back(part_of(source, 0, from));
-    if (part < kParts - 1) division.train.push_back(part_of(source, to, 1));
+    if (part > 0) fit(0, from);
+    if (part < kParts - 1) fit(to, 1);
     division.heldout.push_back(part_of(source, from, to));
   }
   return division;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "runtime/identification/motion_source.h"
@@ -10,6 +11,13 @@ namespace dyngen::runtime {
 /// Recordings that are fitted, and those that only prove the answer.
 struct Division {
   std::vector<MotionSource> train, heldout;
+  /// Of each that is fitted the place of the recording that it is a part of; empty: they are whole.
+  std::vector<std::size_t> origins{};
+
+  /// @param place  of one that is fitted
+  [[nodiscard]] std::size_t origin_of(std::size_t place) const {
+    return origins.empty() ? place : origins.at(place);
+  }
 };
 
 /// A fifth of every recording is held out: the last in which all joints move about as much of the

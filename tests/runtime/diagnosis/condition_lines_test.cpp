@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
@@ -36,7 +37,7 @@ DiagnosisInput two_and_one() {
 
 TEST(ConditionLines, SayWhatWasFoundAndRepaired) {
   const DiagnosisInput input = two_and_one();
-  const std::vector<ConditionLine> lines = condition_lines(input, nullptr);
+  const std::vector<ConditionLine> lines = condition_lines(input, {}, nullptr);
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0].recording, "first.csv");
   EXPECT_THAT(lines[0].sentences, Contains("a sample every 10 ms (100 Hz), jitter 2 %"));
@@ -54,13 +55,31 @@ TEST(ConditionLines, SayWhetherTheMotionRepeats) {
   const std::vector<double> repeats = repeats_of(train);
   ASSERT_GT(repeats[0], 0);
   ASSERT_EQ(repeats[1], 0);
-  const std::vector<ConditionLine> lines = condition_lines(input, &train);
+  const std::vector<ConditionLine> lines = condition_lines(input, {}, &train);
   const auto& run = train.runs[0];
   const double row_time = run.motion.sample_time * static_cast<double>(run.decimator.factor);
   EXPECT_THAT(lines[0].sentences,
               Contains(HasSubstr(fmt::format("repeats every {:.5g} s", repeats[0] * row_time))));
   EXPECT_THAT(lines[1].sentences, Contains("the motion does not repeat"));
-  EXPECT_EQ(lines[2].sentences.size(), condition_lines(input, nullptr)[2].sentences.size());
+  EXPECT_EQ(lines[2].sentences.size(), condition_lines(input, {}, nullptr)[2].sentences.size());
+}
+
+/// Where a fifth of one recording is held out two parts of it are fitted.
+TEST(ConditionLines, AreOfRecordingsNotOfTheirParts) {
+  DiagnosisInput input = two_and_one();
+  input.heldout.clear();
+  Division parts;
+  for (const double from : {0.0, 0.6}) {
+    parts.train.push_back(part_of(input.train[1], from, from + 0.4));
+    parts.origins.push_back(1);
+  }
+  const EffectRecordings train = test::arm_recordings(parts.train);
+  const std::vector<ConditionLine> lines = condition_lines(input, parts, &train);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_THAT(lines[0].sentences, testing::Not(Contains(HasSubstr("repeat"))));
+  EXPECT_EQ(std::count(lines[1].sentences.begin(), lines[1].sentences.end(),
+                       "the motion does not repeat"),
+            1);
 }
 
 }  // namespace

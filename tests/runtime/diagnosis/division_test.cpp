@@ -57,6 +57,14 @@ TEST(Division, HoldsOutTheLastFifthInWhichAllJointsMove) {
   EXPECT_GT(span(stopped.train[1]).first, last);
 }
 
+TEST(Division, KnowsOfWhichRecordingEachPartIs) {
+  const Division both = divided({moving_until(6.2), moving_until(20)});
+  EXPECT_EQ(both.origins, (std::vector<std::size_t>{0, 0, 1}));
+  EXPECT_EQ(both.origin_of(2), 1U);
+  const Division whole{both.train, both.heldout};
+  EXPECT_EQ(whole.origin_of(2), 2U);
+}
+
 TEST(RowPlan, GivesNoMoreEquationsThanAskedFor) {
   MotionSource source =
       test::measured({test::sines(10, 0.002)}, test::planar_arm_values(), {}, 0, 0, 1).front();
