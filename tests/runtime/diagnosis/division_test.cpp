@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "runtime/diagnosis/diagnosis.h"
 #include "runtime/evidence/joint_columns.h"
 #include "tests/runtime/effects/effect_arm.h"
 
@@ -63,6 +65,19 @@ TEST(Division, KnowsOfWhichRecordingEachPartIs) {
   EXPECT_EQ(both.origin_of(2), 1U);
   const Division whole{both.train, both.heldout};
   EXPECT_EQ(whole.origin_of(2), 2U);
+}
+
+/// Two parts of it are fitted, and it is one recording all the same.
+TEST(Division, ADiagnosisTellsTheConditionOfAWholeRecording) {
+  DiagnosisInput input;
+  input.model = test::planar_arm();
+  input.robot = test::planar_arm_tangents();
+  input.train = {moving_until(6.2)};
+  const Diagnosis diagnosis = diagnose(input, {});
+  ASSERT_EQ(diagnosis.condition.size(), 1U);
+  EXPECT_EQ(std::count(diagnosis.condition[0].sentences.begin(),
+                       diagnosis.condition[0].sentences.end(), "the motion does not repeat"),
+            1);
 }
 
 TEST(RowPlan, GivesNoMoreEquationsThanAskedFor) {
