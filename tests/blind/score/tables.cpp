@@ -200,8 +200,8 @@ std::string known_ladders(const Set& singles) {
   return text;
 }
 
-/// What the equations hold of physics outside the catalogue: no test knows its form, and those that
-/// do not see what repeats.
+/// What the equations hold of physics outside the catalogue. No test of a diagnosis knows its form;
+/// without a form only what repeats is seen.
 std::string foreign_table(const Set& foreign) {
   std::string text =
       "| foreign | lambda | in dynid's own equations | of it in what repeats | first answer "
