@@ -48,6 +48,7 @@ install(FILES
   ${PROJECT_BINARY_DIR}/package/dyngenConfig.cmake
   ${PROJECT_BINARY_DIR}/package/dyngenConfigVersion.cmake
   cmake/DyngenAddRobot.cmake
+  cmake/DyngenBlas.cmake
   DESTINATION ${DYNGEN_PACKAGE_DIR} COMPONENT runtime)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)

@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.."
 
 sh cmake/install_packages.sh build-essential cmake ninja-build ccache pkg-config git clang \
   libginac-dev libcln-dev libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev nlohmann-json3-dev \
-  libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev liborocos-kdl-dev libmujoco-dev \
+  libopenblas-pthread-dev libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev liborocos-kdl-dev libmujoco-dev \
   libdart-dev libboost-dev libceres-dev libnlopt-dev libopenmpi-dev openmpi-bin python3-numpy gnuplot-nox
 
 build=build/test

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "runtime/effects/equation_stack.h"
+#include "runtime/estimation/matrix_products.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -51,7 +52,7 @@ PivotedTriangle pivoted_triangle(const MatrixXd& A) {
 /// columns, and joints that rest make that many bases: products of matrices are all that is fast
 /// enough.
 MatrixXd basis_of(const MatrixXd& projected) {
-  const PivotedTriangle independent = pivoted_triangle(projected.transpose() * projected);
+  const PivotedTriangle independent = pivoted_triangle(transposed_product(projected, projected));
   MatrixXd basis = projected(Eigen::all, independent.columns);
   independent.L.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(basis);
   return basis;
@@ -218,7 +219,7 @@ JointColumns EvidenceSystem::whitened(JointColumns columns) const {
 
 void EvidenceSystem::project(const MatrixXd& columns) {
   rest_ -= columns * (columns.transpose() * rest_);
-  noise_ -= columns * (columns.transpose() * noise_);
+  subtract_product(columns, transposed_product(columns, noise_), noise_);
   const Index before = basis_.cols();
   basis_.conservativeResize(Eigen::NoChange, before + columns.cols());
   basis_.rightCols(columns.cols()) = columns;
@@ -241,7 +242,9 @@ void EvidenceSystem::add(const JointColumns& whitened) {
     columns.middleRows(whitened.joints[i] * rows_, rows_) =
         whitened.parts[i](Eigen::all, present) * scale.asDiagonal();
   }
-  for (int pass = 0; pass < 2; ++pass) columns -= basis_ * (basis_.transpose() * columns);
+  for (int pass = 0; pass < 2; ++pass) {
+    subtract_product(basis_, transposed_product(basis_, columns), columns);
+  }
   project(basis_of(columns));
 }
 
@@ -273,7 +276,7 @@ std::vector<Products> EvidenceSystem::products_of_groups(const JointColumns& whi
     const MatrixXd& C = whitened.parts[i];
     const Index first = whitened.joints[i] * rows_;
     rest += C.transpose() * rest_.segment(first, rows_);
-    if (surrogates) noise += C.transpose() * noise_.middleRows(first, rows_);
+    if (surrogates) noise += transposed_product(C, noise_.middleRows(first, rows_));
   }
   const MatrixXd inner = absorbed(whitened, 0, rows_);
   std::vector<Products> groups;
@@ -296,8 +299,8 @@ std::vector<Products> EvidenceSystem::products_of_groups(const JointColumns& whi
 MatrixXd EvidenceSystem::absorbed(const JointColumns& whitened, Index from, Index to) const {
   MatrixXd inner = MatrixXd::Zero(basis_.cols(), whitened.columns());
   for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
-    inner += basis_.middleRows(whitened.joints[i] * rows_ + from, to - from).transpose() *
-             whitened.parts[i].middleRows(from, to - from);
+    inner += transposed_product(basis_.middleRows(whitened.joints[i] * rows_ + from, to - from),
+                                whitened.parts[i].middleRows(from, to - from));
   }
   return inner;
 }
@@ -336,20 +339,23 @@ Products EvidenceSystem::products(const JointColumns& whitened, Index from, Inde
   MatrixXd inner = MatrixXd::Zero(basis_.cols(), k);
   for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
     const Index first = whitened.joints[i] * rows_ + from;
-    const auto add = [&](const auto& C) {
-      products.whole += MatrixXd(C.transpose() * C);
-      products.rest += C.transpose() * rest_.segment(first, count);
-      if (surrogates) products.noise += C.transpose() * noise_.middleRows(first, count);
-      inner += (C.transpose() * basis_.middleRows(first, count)).transpose();
-    };
     const auto C = whitened.parts[i].middleRows(from, count);
+    const auto rest = rest_.segment(first, count);
+    const auto noise = noise_.middleRows(first, count);
+    const auto basis = basis_.middleRows(first, count);
     if (const auto sparse = sparse_of(C)) {
-      add(*sparse);
+      products.whole += MatrixXd(sparse->transpose() * *sparse);
+      products.rest += sparse->transpose() * rest;
+      if (surrogates) products.noise += sparse->transpose() * noise;
+      inner += (sparse->transpose() * basis).transpose();
     } else {
-      add(C);
+      products.whole += transposed_product(C, C);
+      products.rest += C.transpose() * rest;
+      if (surrogates) products.noise += transposed_product(C, noise);
+      inner += transposed_product(basis, C);
     }
   }
-  products.left = products.whole - inner.transpose() * inner;
+  products.left = products.whole - transposed_product(inner, inner);
   return products;
 }
 

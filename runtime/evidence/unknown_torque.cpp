@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/estimation/matrix_products.h"
+
 namespace dyngen::runtime {
 namespace {
 
@@ -16,6 +18,7 @@ using Eigen::MatrixXd;
 constexpr double kFaintest = 1e-6;  // of a column's length, in one equation
 constexpr double kSeen = 1e-6;      // of a column's squares: what equations hardly show stays
 constexpr double kDense = 0.2;      // of all values: with more than that columns are not sparse
+constexpr Index kTogether = 32;     // columns of a basis from one equation on
 
 /// Half of the time between equations, in samples: faster torque they do not show.
 Index apart_in(const EffectRun& run) {
@@ -67,17 +70,25 @@ MatrixXd whitened_hats(const EffectRun& run, int joint, const Whitener& whitener
   return columns;
 }
 
+/// The first row in which a column is not 0.
+Index first_that_is_not_zero(const Eigen::Ref<const MatrixXd>& columns) {
+  for (Index row = 0; row < columns.rows(); ++row) {
+    if ((columns.row(row).array() != 0).any()) return row;
+  }
+  return columns.rows();
+}
+
 }  // namespace
 
 UnknownTorque::UnknownTorque(const EffectRun& run, int joint, const Whitener& whitener) {
   const MatrixXd hats = whitened_hats(run, joint, whitener);
+  // the last point first: what it changes comes after what the others do, and so does its basis
   std::vector<Index> seen;
-  for (Index c = 0; c < hats.cols(); ++c) {
+  for (Index c = hats.cols() - 1; c >= 0; --c) {
     if (hats.col(c).squaredNorm() > 0) seen.push_back(c);
   }
   const auto count = static_cast<Index>(seen.size());
   columns_.resize(hats.rows(), 0);
-  basis_.resize(hats.rows(), 0);
   if (count == 0) return;
   MatrixXd columns = hats(Eigen::all, seen);
   columns.colwise().normalize();
@@ -88,7 +99,10 @@ UnknownTorque::UnknownTorque(const EffectRun& run, int joint, const Whitener& wh
     products.diagonal().array() += kSeen;
     const Eigen::LLT<MatrixXd> triangle(products);
     triangle.matrixU().solveInPlace<Eigen::OnTheRight>(columns);
-    basis_ = std::move(columns);
+    for (Index c = 0; c < count; c += kTogether) {
+      const auto together = columns.middleCols(c, std::min(kTogether, count - c));
+      basis_.emplace_back(together.bottomRows(together.rows() - first_that_is_not_zero(together)));
+    }
     return;
   }
   columns_ = columns.sparseView(1, kFaintest);
@@ -97,14 +111,24 @@ UnknownTorque::UnknownTorque(const EffectRun& run, int joint, const Whitener& wh
   products_.compute(products);
 }
 
+Index UnknownTorque::degrees() const {
+  Index degrees = columns_.cols();
+  for (const MatrixXd& columns : basis_) degrees += columns.cols();
+  return degrees;
+}
+
 void UnknownTorque::take_out_of(Eigen::Ref<MatrixXd> rows) const {
-  if (basis_.cols() > 0) {
-    const MatrixXd inner = basis_.transpose() * rows;
-    rows.noalias() -= basis_ * inner;
+  // of all, before any is taken out: those of points that lie close are not quite orthogonal
+  std::vector<MatrixXd> inner;
+  for (const MatrixXd& columns : basis_) {
+    inner.push_back(transposed_product(columns, rows.bottomRows(columns.rows())));
+  }
+  for (std::size_t i = 0; i < basis_.size(); ++i) {
+    subtract_product(basis_[i], inner[i], rows.bottomRows(basis_[i].rows()));
   }
   if (columns_.cols() > 0) {
-    const MatrixXd inner = columns_.transpose() * rows;
-    rows -= columns_ * products_.solve(inner);
+    const MatrixXd products = columns_.transpose() * rows;
+    rows -= columns_ * products_.solve(products);
   }
 }
 

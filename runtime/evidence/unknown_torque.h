@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <vector>
 
 #include "runtime/effects/effect_recordings.h"
 #include "runtime/estimation/whitener.h"
@@ -22,12 +23,14 @@ class UnknownTorque {
   /// @param rows  (equations of the run x any), whitened, in place
   void take_out_of(Eigen::Ref<Eigen::MatrixXd> rows) const;
   /// Degrees of freedom that it takes from the equations.
-  [[nodiscard]] Eigen::Index degrees() const { return columns_.cols() + basis_.cols(); }
+  [[nodiscard]] Eigen::Index degrees() const;
 
  private:
   Eigen::SparseMatrix<double> columns_;  // (equations x points) of unit length; or no columns, and
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> products_;  // of their inner products
-  Eigen::MatrixXd basis_;  // (equations x points) orthonormal, where they are not sparse
+  // Of dense columns an orthonormal basis, from the last point to the first. It is 0 before a
+  // point: some columns each, of the equations from there to the end of the run.
+  std::vector<Eigen::MatrixXd> basis_;
 };
 
 }  // namespace dyngen::runtime

@@ -7,6 +7,7 @@
 
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/tool/output_files.h"
+#include "runtime/estimation/matrix_products.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/plots/figure.h"
 #include "runtime/recordings/notice.h"
@@ -112,6 +113,7 @@ int main_of_group(int argc, const char* const* argv, ProcessGroup& group) {
 
 int main(int argc, char** argv) {
   dyngen::runtime::keep_memory();
+  dyngen::runtime::multiply_on_own_thread();  // a diagnosis has threads of its own
   dyngen::runtime::ProcessGroup group;
   const int code = dyngen::runtime::main_of_group(argc, argv, group);
   group.finish();
