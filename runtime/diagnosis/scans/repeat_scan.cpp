@@ -15,8 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::array<double, 3> kBands = {2, 4, 8};  // Hz
-constexpr double kOfRate = 0.4;                      // of the equations' rate: no band beyond it
+constexpr std::array<double, 3> kBands = {kWidestRepeatBand / 4, kWidestRepeatBand / 2,
+                                          kWidestRepeatBand};
+constexpr double kOfRate = 0.4;  // of the equations' rate: no band beyond it
 
 double row_time(const EffectRun& run) {
   return run.motion.sample_time * static_cast<double>(run.decimator.factor);

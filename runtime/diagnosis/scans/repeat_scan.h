@@ -16,8 +16,10 @@ struct RepeatScan {
   Score score;
 };
 
-/// Fisher's F of the harmonics of each run against the lines between them, in bands of 2, 4 and
-/// 8 Hz (Schoukens, Vaes, Pintelon 2016). Nothing where no motion repeats.
+inline constexpr double kWidestRepeatBand = 8;  // Hz
+
+/// Fisher's F of the harmonics of each run against the lines between them, in a quarter, a half and
+/// all of the widest band (Schoukens, Vaes, Pintelon 2016). Nothing where no motion repeats.
 /// @param repeats  of repeats_of()
 RepeatScan scan_repeats(const EffectRecordings& data, const EvidenceSystem& system, int joint,
                         const std::vector<double>& repeats, bool surrogates);

@@ -12,8 +12,6 @@
 namespace blind {
 namespace {
 
-constexpr double kRepeatingBand = 8;  // Hz
-
 using namespace dyngen::runtime;
 using Eigen::Index;
 
@@ -51,7 +49,7 @@ double repeating_part(const EffectRecordings& data, const EvidenceSystem& system
                       const JointColumns& column, const std::vector<double>& repeats) {
   std::vector<JointColumns> all = {column};
   for (int j = 0; j < data.joints(); ++j) {
-    all.push_back(harmonic_columns(data, j, repeats, kRepeatingBand));
+    all.push_back(harmonic_columns(data, j, repeats, kWidestRepeatBand));
   }
   Products products = beside_model(system, side_by_side(all));
   const Index lines = products.left.cols() - 1;

@@ -13,7 +13,8 @@ struct Reach {
   double lambda = 0;     ///< of the left-out torque, by the noise of recordings without it
   double seen = 0;       ///< the same by the noise that the diagnosis reads from its recordings
   double found = 0;      ///< of what was recorded, by one column: the left-out torque
-  double repeating = 0;  ///< of `seen` below 8 Hz what comes back in every period of the motion
+  double repeating = 0;  ///< of `seen` in the widest band of scan_repeats() what comes back in
+                         ///< every period of the motion
   double needed = 0;     ///< that one column needs where everything was asked, at its false alarms
 };
 
