@@ -135,6 +135,26 @@ TEST(UnknownTorque, IsTakenOutOfSurrogatesAndCounted) {
   EXPECT_NEAR(system.taken()[0], all.taken()[0], 2);
 }
 
+/// Where noise has slow parts columns are not sparse: their basis lies in several pieces, each from
+/// another equation on. What they take out, taken out of equations, is all of it and nothing else.
+TEST(UnknownTorque, IsTakenOutInPiecesAsAWhole) {
+  const EffectRecordings data = with_rests();
+  const EffectRun& run = data.runs.front();
+  const Whitener whitener(slow_noise().joints[kJoint], run.rows.counted.col(kJoint));
+  const UnknownTorque unknown(run, kJoint, whitener);
+  const Eigen::Index count = run.rows.tau.rows();
+  ASSERT_GT(unknown.degrees(), 64);
+  MatrixXd left = MatrixXd::Identity(count, count);
+  unknown.take_out_of(left);
+  EXPECT_LT((left - left.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  MatrixXd again = left;
+  unknown.take_out_of(again);
+  // points that lie close are not quite orthogonal: by what equations hardly show
+  EXPECT_LT((again - left).norm(), 0.01 * static_cast<double>(unknown.degrees()));
+  EXPECT_NEAR(static_cast<double>(count) - left.trace(), static_cast<double>(unknown.degrees()),
+              0.05 * static_cast<double>(unknown.degrees()));
+}
+
 TEST(UnknownTorque, IsNothingWhereAllIsKnown) {
   const EffectRecordings data = recordings();
   const EffectRun& run = data.runs.front();
