@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
+#include "gen/symbols/index.h"
+
 namespace dyngen {
 namespace {
 
 using GiNaC::ex;
-
-std::size_t at(int link) { return static_cast<std::size_t>(link); }
 
 Vector3 sum(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 

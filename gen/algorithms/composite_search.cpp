@@ -8,10 +8,11 @@
 namespace dyngen {
 namespace {
 
-using Kind = Station::Kind;
-constexpr Kind kKinds[] = {Kind::kLink,       Kind::kTurned,    Kind::kSlid,
-                           Kind::kTurnedSlid, Kind::kParent,    Kind::kSlidToFirst,
-                           Kind::kChain,      Kind::kChainSlid, Kind::kChainSlidToFirst};
+using StationKind = Station::Kind;
+constexpr StationKind kKinds[] = {
+    StationKind::kLink,       StationKind::kTurned,    StationKind::kSlid,
+    StationKind::kTurnedSlid, StationKind::kParent,    StationKind::kSlidToFirst,
+    StationKind::kChain,      StationKind::kChainSlid, StationKind::kChainSlidToFirst};
 
 // About half a second on a slow machine; arms of seven joints need a fifth of it.
 constexpr std::size_t kStatementsAllowed = 800'000;
@@ -62,22 +63,22 @@ class Search {
     const Route route = best_.wrench[static_cast<std::size_t>(station.link)];
     const bool to_first = best_.slide_to_first[static_cast<std::size_t>(link.first)];
     switch (station.kind) {
-      case Kind::kLink:
+      case StationKind::kLink:
         return true;
-      case Kind::kTurned:
+      case StationKind::kTurned:
         return route == Route::kTurnThenSlide || !link.parallel;
-      case Kind::kSlid:
+      case StationKind::kSlid:
         return route == Route::kSlideThenTurn && !link.r.is_zero();
-      case Kind::kTurnedSlid:
+      case StationKind::kTurnedSlid:
         return route == Route::kSlideThenTurn || !link.r.is_zero();
-      case Kind::kParent:
+      case StationKind::kParent:
         return !link.alpha.sin.is_zero() && !link.alpha.cos.is_zero();
-      case Kind::kChain:
+      case StationKind::kChain:
         return link.parallel && !to_first;
-      case Kind::kChainSlid:
+      case StationKind::kChainSlid:
         return link.parallel && !to_first && !link.r.is_zero();
-      case Kind::kSlidToFirst:
-      case Kind::kChainSlidToFirst:
+      case StationKind::kSlidToFirst:
+      case StationKind::kChainSlidToFirst:
         return link.parallel && to_first;
     }
     return true;
@@ -113,7 +114,7 @@ class Search {
   /// Many columns meet the screws of one joint, or of all, in one place: its cost is shared.
   void change_common_meetings() {
     for (int c = robot_.size(); c >= 1; --c) {
-      for (const Kind kind : kKinds) {
+      for (const StationKind kind : kKinds) {
         if (!worth_trying({kind, c})) continue;
         CompositeChoices all = best_;
         for (int i = robot_.link(c).parent; i >= 1; i = robot_.link(i).parent) {

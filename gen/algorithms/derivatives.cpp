@@ -7,13 +7,12 @@
 
 #include "gen/algorithms/link_inertia.h"
 #include "gen/algorithms/moving_body.h"
+#include "gen/symbols/index.h"
 
 namespace dyngen {
 namespace {
 
 using GiNaC::ex;
-
-std::size_t at(int link) { return static_cast<std::size_t>(link); }
 
 /// Force and moment about the origin.
 struct Wrench {

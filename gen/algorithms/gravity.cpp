@@ -8,6 +8,7 @@
 #include "gen/algorithms/form_search.h"
 #include "gen/algorithms/frames.h"
 #include "gen/algorithms/link_form.h"
+#include "gen/symbols/index.h"
 
 namespace dyngen {
 namespace {
@@ -51,8 +52,6 @@ class Gravity {
   }
 
  private:
-  static std::size_t at(int j) { return static_cast<std::size_t>(j); }
-
   void write_acceleration(int j) {
     const LinkFrame& frame = frames_[at(j)];
     in_axis_[at(j)] =

@@ -7,14 +7,13 @@
 
 #include "gen/algorithms/axes.h"
 #include "gen/algorithms/frames.h"
+#include "gen/symbols/index.h"
 #include "gen/trace/cheapest.h"
 
 namespace dyngen {
 namespace {
 
 using GiNaC::ex;
-
-std::size_t at(int link) { return static_cast<std::size_t>(link); }
 
 /// Velocity of the tip per joint rate, of the revolute joints from place `turn` of the path on, in
 /// frame 0.

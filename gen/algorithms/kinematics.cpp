@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "gen/symbols/index.h"
+
 namespace dyngen {
 namespace {
 
@@ -270,8 +272,6 @@ class Forward {
     return assign_vector(trace_, "AP", j,
                          turn(frame(code_.link(j).parent).from_anchor, frame(j).P));
   }
-
-  static std::size_t at(int j) { return static_cast<std::size_t>(j); }
 
   Trace& trace_;
   const CodeModel& code_;

@@ -8,14 +8,13 @@
 #include "gen/algorithms/axes.h"
 #include "gen/algorithms/frames.h"
 #include "gen/symbols/exact.h"
+#include "gen/symbols/index.h"
 #include "gen/trace/cheapest.h"
 
 namespace dyngen {
 namespace {
 
 using GiNaC::ex;
-
-std::size_t at(int link) { return static_cast<std::size_t>(link); }
 
 /// Origin of the file's frame of the path's last link. @param turn  place in the path where the way
 /// along the axes begins

@@ -16,7 +16,7 @@ namespace dyngen {
 namespace {
 
 template <class T>
-using Vector = std::array<T, 3>;
+using NumericVector = std::array<T, 3>;
 
 template <class T>
 T number(const GiNaC::ex& value) {
@@ -34,12 +34,12 @@ T number(const GiNaC::ex& value) {
 }
 
 template <class T>
-Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
+NumericVector<T> cross(const NumericVector<T>& a, const NumericVector<T>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 template <class T>
-Vector<T> sum(const Vector<T>& a, const Vector<T>& b) {
+NumericVector<T> sum(const NumericVector<T>& a, const NumericVector<T>& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
@@ -47,13 +47,13 @@ Vector<T> sum(const Vector<T>& a, const Vector<T>& b) {
 template <class T>
 struct Pose {
   T ca, sa, c, s;
-  Vector<T> p;
+  NumericVector<T> p;
 
-  Vector<T> to_child(const Vector<T>& v) const {
+  NumericVector<T> to_child(const NumericVector<T>& v) const {
     const T y = ca * v[1] + sa * v[2];
     return {c * v[0] + s * y, c * y - s * v[0], ca * v[2] - sa * v[1]};
   }
-  Vector<T> to_parent(const Vector<T>& v) const {
+  NumericVector<T> to_parent(const NumericVector<T>& v) const {
     const T y = s * v[0] + c * v[1];
     return {c * v[0] - s * v[1], ca * y - sa * v[2], sa * y + ca * v[2]};
   }
@@ -62,7 +62,8 @@ struct Pose {
 template <class T>
 struct LinkState {
   Pose<T> pose;
-  Vector<T> w, wp, vp;  // angular velocity, its derivative, acceleration of the origin less gravity
+  NumericVector<T> w, wp,
+      vp;  // angular velocity, its derivative, acceleration of the origin less gravity
 };
 
 template <class T>
@@ -96,8 +97,8 @@ std::vector<LinkState<T>> link_states(const NumericGeometry<T>& geometry,
       along = along + q;
     }
     own.pose.p = {link.d, -along * link.sin_alpha, along * link.cos_alpha};
-    const Vector<T>& p = own.pose.p;
-    const Vector<T> carried =
+    const NumericVector<T>& p = own.pose.p;
+    const NumericVector<T> carried =
         sum(sum(parent.vp, cross(parent.wp, p)), cross(parent.w, cross(parent.w, p)));
     own.w = own.pose.to_child(parent.w);
     own.wp = own.pose.to_child(parent.wp);
@@ -115,7 +116,7 @@ std::vector<LinkState<T>> link_states(const NumericGeometry<T>& geometry,
 
 template <class T>
 struct Wrench {
-  Vector<T> force, moment;
+  NumericVector<T> force, moment;
 };
 
 /// Force and moment about the origin that the link needs for a unit of one parameter.
@@ -123,11 +124,11 @@ template <class T>
 Wrench<T> unit_wrench(Chi kind, const LinkState<T>& link) {
   const T zero = T(0);
   const T one = T(1);
-  Vector<T> force = {zero, zero, zero}, moment = {zero, zero, zero};
+  NumericVector<T> force = {zero, zero, zero}, moment = {zero, zero, zero};
   if (kind == Chi::kM) {
     force = link.vp;
   } else if (kind == Chi::kMX || kind == Chi::kMY || kind == Chi::kMZ) {
-    Vector<T> s = {zero, zero, zero};
+    NumericVector<T> s = {zero, zero, zero};
     s[index(kind) - index(Chi::kMX)] = one;
     force = sum(cross(link.wp, s), cross(link.w, cross(link.w, s)));
     moment = cross(s, link.vp);
@@ -135,8 +136,8 @@ Wrench<T> unit_wrench(Chi kind, const LinkState<T>& link) {
     constexpr std::array<std::array<std::size_t, 2>, 6> kPlaces = {
         {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
     const std::size_t a = kPlaces[index(kind)][0], b = kPlaces[index(kind)][1];
-    const auto times = [&](const Vector<T>& v) {
-      Vector<T> result = {zero, zero, zero};
+    const auto times = [&](const NumericVector<T>& v) {
+      NumericVector<T> result = {zero, zero, zero};
       result[a] = v[b];
       result[b] = v[a];
       return result;

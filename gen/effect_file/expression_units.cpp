@@ -11,7 +11,7 @@ namespace {
 using Kind = EffectExpression::Kind;
 constexpr Dimension kNumber{};
 
-bool is_zero(const EffectExpression& expression) {
+bool is_zero_number(const EffectExpression& expression) {
   return expression.kind == Kind::kNumber && expression.number.is_zero();
 }
 
@@ -63,8 +63,8 @@ class Inference {
   std::optional<Dimension> alike(const EffectExpression& expression, const std::string& what) {
     const auto a = run(expression.operands[0]), b = run(expression.operands[1]);
     if (!a || !b) return std::nullopt;
-    if (is_zero(expression.operands[0])) return b;
-    if (is_zero(expression.operands[1]) || *a == *b) return a;
+    if (is_zero_number(expression.operands[0])) return b;
+    if (is_zero_number(expression.operands[1]) || *a == *b) return a;
     error(expression,
           fmt::format("{} have units {} and {}", what, dimension_text(*a), dimension_text(*b)),
           "only equal units can be added or compared");

@@ -12,7 +12,7 @@
 namespace dyngen {
 namespace {
 
-std::string scalar(const EmitOptions& options) {
+std::string scalar_name(const EmitOptions& options) {
   return options.scalar == Scalar::kDouble ? "double" : "float";
 }
 
@@ -113,7 +113,7 @@ std::string batch_definition(const CodeModel& code, const RobotFunction& functio
     whole += ", " + name + (argument.shared ? "" : " + k");
     last += ", " + name + (argument.shared ? "" : "_last");
     if (argument.shared) continue;
-    arrays += fmt::format("    {} {}_last[{} * {}_LANES];\n", scalar(options), name,
+    arrays += fmt::format("    {} {}_last[{} * {}_LANES];\n", scalar_name(options), name,
                           std::max(argument.size(), 1), upper);
     const auto copy = [&](const char* how, const std::string& from, const std::string& to) {
       return fmt::format("    {}_{}(n - k, n, {}, {}, {});\n", options.prefix, how, argument.size(),

@@ -248,7 +248,7 @@ std::string batch_text(const RobotFunction& function, const CodeModel& code,
          fmt::format("  return {};\n}}\n\n", several ? "out" : std::string(spec.outputs[0].array));
 }
 
-std::string name_table(const std::string& name, const std::vector<std::string>& names) {
+std::string view_table(const std::string& name, const std::vector<std::string>& names) {
   std::string text =
       fmt::format("inline constexpr std::array<std::string_view, {}> {} = {{", names.size(), name);
   std::string line;
@@ -339,9 +339,9 @@ std::string emit_cpp(const CodeModel& code, const std::vector<RobotFunction>& fu
   }
   std::vector<std::string> chi_names;
   for (const ChiEntry& entry : code.chi) chi_names.push_back(entry.name);
-  text += "\n" + name_table("joint_names", code.coordinate_names);
-  text += name_table("chi_names", chi_names);
-  text += name_table("beta_names", code.beta) + "\n";
+  text += "\n" + view_table("joint_names", code.coordinate_names);
+  text += view_table("chi_names", chi_names);
+  text += view_table("beta_names", code.beta) + "\n";
   if (code.takes_chi || !code.chi.empty()) {
     text += fmt::format(
         "/// The numbers of the robot file; NaN where the file says '*'.\n"

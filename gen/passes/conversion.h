@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <cstddef>
+
 #include "gen/passes/network.h"
 #include "gen/trace/trace.h"
 
 namespace dyngen {
+
+/// What C99 promises to tell apart: longer names are not made of parts.
+constexpr std::size_t kLongestName = 31;
 
 /// A function as a network: each statement is a node with its name, a sum within a product one
 /// without.

@@ -5,10 +5,10 @@
 #include <iterator>
 #include <utility>
 
+#include "gen/symbols/index.h"
+
 namespace dyngen {
 namespace {
-
-std::size_t at(int id) { return static_cast<std::size_t>(id); }
 
 int products(const Term& term) { return std::max(static_cast<int>(term.factors.size()) - 1, 0); }
 

@@ -9,13 +9,13 @@
 #include "gen/passes/conversion.h"
 #include "gen/passes/network.h"
 #include "gen/passes/search.h"
+#include "gen/symbols/index.h"
 
 namespace dyngen {
 namespace {
 
 /// What is longer when multiplied out is not looked into.
 constexpr std::size_t kMostTerms = 200;
-constexpr std::size_t kLongestName = 31;
 
 /// A polynomial in the parameters, in nodes of the network of fold.
 using Polynomial = std::vector<Term>;
@@ -67,8 +67,6 @@ class Folding {
   std::vector<std::string> names;
 
  private:
-  static std::size_t at(int id) { return static_cast<std::size_t>(id); }
-
   /// A number alone stays where it is.
   [[nodiscard]] bool is_number(const Polynomial& value) const {
     return std::all_of(value.begin(), value.end(), [&](const Term& term) {

@@ -13,6 +13,10 @@
 #include "gen/symbols/exact.h"
 
 namespace dyngen {
+
+bool reads(const Term& term, int id) {
+  return std::binary_search(term.factors.begin(), term.factors.end(), id);
+}
 namespace {
 
 using GiNaC::ex;
@@ -212,10 +216,6 @@ Readers find_readers(const Network& network) {
 }
 
 namespace {
-
-bool reads(const Term& term, int id) {
-  return std::binary_search(term.factors.begin(), term.factors.end(), id);
-}
 
 /// A term with a sum written out in it.
 std::vector<Term> expanded(const Term& term, int id, const std::vector<Term>& value) {

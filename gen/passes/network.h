@@ -19,6 +19,9 @@ struct Term {
   bool operator==(const Term&) const = default;
 };
 
+/// Whether a node is among the factors of a term.
+bool reads(const Term& term, int id);
+
 /// A value that the program knows by one name, or could.
 struct Node {
   enum class Kind {

@@ -13,8 +13,6 @@ namespace {
 
 using GiNaC::ex;
 
-constexpr std::size_t kLongestName = 31;  // what C99 promises to tell apart
-
 class Writing {
  public:
   Writing(const Network& network, const Trace& source)

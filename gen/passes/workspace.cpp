@@ -4,14 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "gen/symbols/index.h"
+
 namespace dyngen {
 namespace {
-
-std::size_t at(int id) { return static_cast<std::size_t>(id); }
-
-bool reads(const Term& term, int id) {
-  return std::binary_search(term.factors.begin(), term.factors.end(), id);
-}
 
 bool is_copy(const std::vector<Term>& terms) {
   return terms.size() == 1 && terms[0].factors.size() == 1;

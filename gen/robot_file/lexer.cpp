@@ -6,14 +6,11 @@
 #include <array>
 
 #include "gen/diagnostic/utf8.h"
+#include "gen/robot_file/characters.h"
 
 namespace dyngen {
 
 namespace {
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 

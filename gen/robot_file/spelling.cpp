@@ -8,16 +8,14 @@
 #include <cstddef>
 #include <vector>
 
+#include "gen/robot_file/characters.h"
+
 namespace dyngen {
 
 namespace {
 
 constexpr std::size_t kLongestCorrected = 24;  // nobody misspells a keyword into a longer word
 constexpr std::size_t kLongestList = 8;
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Optimal string alignment distance: each swap of neighbours, insertion, deletion, substitution
 /// costs 1.

@@ -16,7 +16,7 @@ namespace {
 constexpr double kRightAngle = std::numbers::pi / 2;
 constexpr double kNearRightAngle = 1e-3;  // rounded by hand, rather than calibrated
 
-double to_double(const GiNaC::ex& value) {
+double rounded(const GiNaC::ex& value) {
   return GiNaC::ex_to<GiNaC::numeric>(value.evalf()).to_double();
 }
 
@@ -49,7 +49,7 @@ void check_ant(const Row& row, Diagnostics& diagnostics) {
 
 void check_positive(const RobotFile& file, RowKey key, Diagnostics& diagnostics) {
   for (const FieldValue& value : file.row(key).values) {
-    if (value.unknown || to_double(value.value) > 0) continue;
+    if (value.unknown || rounded(value.value) > 0) continue;
     diagnostics.error(
         value.position, value.length,
         fmt::format("limit {} in '{}' is not positive", printable(value.text), row_keyword(key)),
@@ -60,7 +60,7 @@ void check_positive(const RobotFile& file, RowKey key, Diagnostics& diagnostics)
 void check_not_negative(const RobotFile& file, RowKey key, Severity severity, std::string hint,
                         Diagnostics& diagnostics) {
   for (const FieldValue& value : file.row(key).values) {
-    if (value.unknown || to_double(value.value) >= 0) continue;
+    if (value.unknown || rounded(value.value) >= 0) continue;
     const std::string message =
         fmt::format("negative value {} in '{}'", printable(value.text), row_keyword(key));
     if (severity == Severity::kError) {
@@ -77,7 +77,7 @@ void check_joint_limits(const RobotFile& file, Diagnostics& diagnostics) {
   for (std::size_t j = 0; j < low.values.size() && j < high.values.size(); ++j) {
     const FieldValue& min = low.values[j];
     const FieldValue& max = high.values[j];
-    if (min.unknown || max.unknown || to_double(min.value) <= to_double(max.value)) continue;
+    if (min.unknown || max.unknown || rounded(min.value) <= rounded(max.value)) continue;
     diagnostics.error(max.position, max.length,
                       fmt::format("qmax of joint {} is {}, below its qmin {}", j + 1,
                                   printable(max.text), printable(min.text)),
@@ -98,7 +98,7 @@ std::string right_angles(long count) {
 void check_angles(const RobotFile& file, RowKey key, Diagnostics& diagnostics) {
   for (const FieldValue& value : file.row(key).values) {
     if (value.unknown || is_integer(value.value * 2 / GiNaC::Pi)) continue;
-    const double angle = to_double(value.value);
+    const double angle = rounded(value.value);
     if (std::fabs(angle) > 4 * kRightAngle) {
       const std::string text = printable(value.text);
       diagnostics.warning(value.position, value.length,

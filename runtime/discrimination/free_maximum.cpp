@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /// Between the solver, which is C, and the function.
-struct Search {
+struct FreeSearch {
   const std::function<double(const VectorXd&)>& value;
   FreeMaximum best;
   nlopt_opt solver = nullptr;
@@ -29,7 +29,7 @@ struct Search {
 };
 
 double asked(unsigned size, const double* x, double* /*gradient*/, void* data) {
-  Search& search = *static_cast<Search*>(data);
+  FreeSearch& search = *static_cast<FreeSearch*>(data);
   const VectorXd point = Eigen::Map<const VectorXd>(x, static_cast<Index>(size));
   try {
     const double found = search.value(point);
@@ -46,7 +46,7 @@ double asked(unsigned size, const double* x, double* /*gradient*/, void* data) {
 
 FreeMaximum free_maximum(const std::function<double(const VectorXd&)>& value, const VectorXd& start,
                          const FreeMaximumOptions& options) {
-  Search search{value, {}, nullptr, nullptr};
+  FreeSearch search{value, {}, nullptr, nullptr};
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> solver(
       nlopt_create(NLOPT_LN_SBPLX, static_cast<unsigned>(start.size())), nlopt_destroy);
   if (!solver) throw std::runtime_error("NLopt cannot make a Subplex solver");

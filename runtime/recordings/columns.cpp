@@ -216,8 +216,6 @@ Columns HeaderReader::read(int joints, bool torque_required) {
   return columns_;
 }
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
 }  // namespace
 
 std::size_t Columns::width() const {

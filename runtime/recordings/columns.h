@@ -10,6 +10,9 @@
 
 namespace dyngen::runtime {
 
+/// Blanks and tabs are one where they separate.
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
 /// How the fields of a line stand apart.
 struct Separator {
   char character = ',';  ///< ' ': any number of blanks and tabs

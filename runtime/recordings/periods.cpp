@@ -50,13 +50,13 @@ double noise_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
 /// Joints that move, not those that a controller holds while others do: positions without their
 /// mean, divided by their standard deviation. A noisy joint repeats less well: it has a weight
 /// below 1, with which its mismatch is compared with kRepeats like that of the others.
-struct Motion {
+struct MovingJoints {
   Eigen::MatrixXd x;       ///< with its weight's root
   Eigen::VectorXd weight;  ///< kRepeats / (kRepeats + 4 noise^2), noise per standard deviation
 };
 
-Motion moving_joints(const Eigen::Ref<const Eigen::MatrixXd>& q) {
-  Motion motion;
+MovingJoints moving_joints(const Eigen::Ref<const Eigen::MatrixXd>& q) {
+  MovingJoints motion;
   std::vector<Index> moving;
   const Eigen::MatrixXd centred = q.rowwise() - q.colwise().mean();
   const Eigen::RowVectorXd deviation =
@@ -84,7 +84,7 @@ Motion moving_joints(const Eigen::Ref<const Eigen::MatrixXd>& q) {
 }
 
 /// Per joint, mean over k of (x(k+L) - x(k))^2 / 2, L the lag.
-Eigen::RowVectorXd mismatch_of_joints(const Motion& motion, Index lag) {
+Eigen::RowVectorXd mismatch_of_joints(const MovingJoints& motion, Index lag) {
   const Index n = motion.x.rows() - lag;
   return (motion.x.bottomRows(n) - motion.x.topRows(n)).colwise().squaredNorm() /
          (2 * static_cast<double>(n));
@@ -92,12 +92,12 @@ Eigen::RowVectorXd mismatch_of_joints(const Motion& motion, Index lag) {
 
 /// Mismatch of a lag, that of the joint where it is largest. 0: repeats; kRepeats: just so; with no
 /// noise, 1: unrelated.
-double mismatch_at(const Motion& motion, Index lag) {
+double mismatch_at(const MovingJoints& motion, Index lag) {
   return mismatch_of_joints(motion, lag).maxCoeff();
 }
 
 /// mismatch_at() of all lags 0 .. most at once, by FFT.
-Eigen::VectorXd mismatches(const Motion& motion, Index most) {
+Eigen::VectorXd mismatches(const MovingJoints& motion, Index most) {
   const Index n = motion.x.rows();
   Index size = 1;
   while (size < n + most + 1) size *= 2;
@@ -122,9 +122,9 @@ Eigen::VectorXd mismatches(const Motion& motion, Index most) {
 }
 
 /// Every `stride`-th sample.
-Motion thinned(const Motion& motion, Index stride) {
+MovingJoints thinned(const MovingJoints& motion, Index stride) {
   if (stride == 1) return motion;
-  Motion thin;
+  MovingJoints thin;
   thin.weight = motion.weight;
   thin.x.resize((motion.x.rows() + stride - 1) / stride, motion.x.cols());
   for (Index k = 0; k < thin.x.rows(); ++k) thin.x.row(k) = motion.x.row(k * stride);
@@ -138,7 +138,7 @@ struct Valley {
   double bend = 0;  ///< second difference: some hundredths of it are how well the depth is known
 };
 
-Valley valley_at(const Motion& motion, Index lag, Index reach) {
+Valley valley_at(const MovingJoints& motion, Index lag, Index reach) {
   const Index most = motion.x.rows() - 2;
   const Index from = std::max<Index>(1, lag - reach), to = std::min(most - 1, lag + reach);
   Index best = from;
@@ -171,10 +171,10 @@ std::vector<Index> candidates(const Eigen::VectorXd& mismatch) {
 }
 
 /// The period in samples; 0 if there is none.
-double search(const Motion& motion) {
+double search(const MovingJoints& motion) {
   const Index n = motion.x.rows();
   const Index stride = (n + kMostSearched - 1) / kMostSearched;
-  const Motion thin = thinned(motion, stride);
+  const MovingJoints thin = thinned(motion, stride);
   const Eigen::VectorXd mismatch = mismatches(thin, thin.x.rows() / 2 + 1);
 
   std::vector<Valley> valleys;
@@ -282,7 +282,7 @@ Periods find_periods(const Recording& recording, std::optional<double> given) {
   const Eigen::VectorXd time = recording.time.segment(run.first, run.count);
   const Eigen::MatrixXd q = recording.q.middleRows(run.first, run.count);
   const double duration = time(run.count - 1) - time(0) + step;
-  Motion motion;
+  MovingJoints motion;
   if (base.uniform) {
     motion = moving_joints(q);
   } else {

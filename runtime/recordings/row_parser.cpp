@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
 /// What programs write for a value that they do not have (lower case, without sign).
 bool means_missing(std::string_view word) {
   constexpr std::array<std::string_view, 6> kWords = {"", "na", "n/a", "null", "none", "-"};

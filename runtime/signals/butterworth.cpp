@@ -12,7 +12,7 @@ namespace dyngen::runtime {
 namespace {
 
 // Of the peak of the impulse response: what a pass has forgotten is below rounding.
-constexpr double kForgotten = 1e-15;
+constexpr double kPaddingForgotten = 1e-15;
 
 /// Decay of the impulse response of a section, a sample.
 double pole_radius(const LowPass::Section& section) {
@@ -67,12 +67,12 @@ double step(const Loops& filter, PassState& state, double value) {
   return value;
 }
 
-struct Line {
+struct FittedLine {
   double value, slope;
 };
 
 /// The line through x[0], x[stride], ... by least squares: its value at x[0], its rise a sample.
-Line fit_line(const double* x, Eigen::Index count, Eigen::Index stride) {
+FittedLine fit_line(const double* x, Eigen::Index count, Eigen::Index stride) {
   if (count < 2) return {count == 0 ? 0 : x[0], 0};
   const double centre = static_cast<double>(count - 1) / 2;
   double mean = 0, moment = 0, inertia = 0;
@@ -127,7 +127,7 @@ PassState line_state(const LowPass& filter, double value, double slope) {
 
 PassState start_state(const LowPass& filter, const double* samples, Eigen::Index count,
                       Eigen::Index line_samples) {
-  const Line line = fit_line(samples, std::min(count, line_samples), 1);
+  const FittedLine line = fit_line(samples, std::min(count, line_samples), 1);
   return line_state(filter, line.value, line.slope);
 }
 
@@ -142,13 +142,14 @@ void pass_backward(const LowPass& filter, double* samples, Eigen::Index count,
                    Eigen::Index line_samples) {
   if (count == 0) return;
   const Loops loops = loops_of(filter);
-  const Line line = fit_line(samples + count - 1, std::min(count, line_samples), -1);
+  const FittedLine line = fit_line(samples + count - 1, std::min(count, line_samples), -1);
   PassState state = line_state(filter, line.value, line.slope);
   for (Eigen::Index i = count - 1; i >= 0; --i) samples[i] = step(loops, state, samples[i]);
 }
 
 EndTreatment end_treatment(const LowPass& filter) {
-  const Eigen::Index padding = std::max<Eigen::Index>(8, settling_samples(filter, kForgotten));
+  const Eigen::Index padding =
+      std::max<Eigen::Index>(8, settling_samples(filter, kPaddingForgotten));
   return {padding, std::max<Eigen::Index>(2, padding / 16)};
 }
 

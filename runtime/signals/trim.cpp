@@ -6,18 +6,19 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kForgotten = 0.01;
+constexpr double kTrimForgotten = 0.01;
 
 }  // namespace
 
 double filter_trim(const LowPass& filter) {
-  return static_cast<double>(settling_samples(filter, kForgotten)) * filter.sample_time;
+  return static_cast<double>(settling_samples(filter, kTrimForgotten)) * filter.sample_time;
 }
 
 double kalman_trim(double sample_time, const KalmanOptions& options) {
   const double cutoff =
       std::pow(options.jerk_intensity / (options.measurement_variance * sample_time), 1.0 / 6);
-  return -std::log(kForgotten) / (0.5 * cutoff);  // the slowest pair decays with half the cut-off
+  return -std::log(kTrimForgotten) /
+         (0.5 * cutoff);  // the slowest pair decays with half the cut-off
 }
 
 Eigen::Index trim_samples(double seconds, double sample_time) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -18,10 +17,6 @@ namespace {
 
 using Eigen::VectorXd;
 using Row = std::vector<ReportCell>;
-
-double entry(const VectorXd& values, int joint) {
-  return joint < values.size() ? values[joint] : std::numeric_limits<double>::quiet_NaN();
-}
 
 std::string change_words(double before, double after) {
   if (!(before > 0) || !std::isfinite(after)) return "-";
@@ -45,9 +40,9 @@ ReportBars rms_bars(const DiagnosisReport& report) {
     bars.groups.push_back({joint_words(j),
                            report.unit(j),
                            found,
-                           {{"model alone", Role::kBefore, entry(rms.before, j)},
-                            {"with findings", Role::kAfter, entry(rms.after, j)},
-                            {"noise", Role::kFloor, entry(rms.floor, j)}}});
+                           {{"model alone", Role::kBefore, entry_of(rms.before, j)},
+                            {"with findings", Role::kAfter, entry_of(rms.after, j)},
+                            {"noise", Role::kFloor, entry_of(rms.floor, j)}}});
   }
   return bars;
 }
@@ -88,9 +83,9 @@ void add_heldout(const DiagnosisReport& report, std::vector<ReportSection>& sect
   if (rms.before.size() == 0) return;
   ReportTable table{{"", "model alone", "with the findings", "noise", "", "change"}, {}, 0};
   for (int j = 0; j < report.joints(); ++j) {
-    table.rows.push_back({joint_words(j), entry(rms.before, j), entry(rms.after, j),
-                          entry(rms.floor, j), report.unit(j),
-                          change_words(entry(rms.before, j), entry(rms.after, j))});
+    table.rows.push_back({joint_words(j), entry_of(rms.before, j), entry_of(rms.after, j),
+                          entry_of(rms.floor, j), report.unit(j),
+                          change_words(entry_of(rms.before, j), entry_of(rms.after, j))});
   }
   ReportSection section =
       section_of("heldout", "Recordings that were not fitted", {std::move(table)});
@@ -100,7 +95,7 @@ void add_heldout(const DiagnosisReport& report, std::vector<ReportSection>& sect
   if (!report.views.heldout.empty()) {
     for (int j = 0; j < report.joints(); ++j) {
       section.parts.front().blocks.emplace_back(
-          proof_chart(report.views.heldout, j, entry(rms.floor, j), report.unit(j),
+          proof_chart(report.views.heldout, j, entry_of(rms.floor, j), report.unit(j),
                       fmt::format("heldout-joint-{}", j + 1)));
     }
   }
@@ -144,8 +139,8 @@ void add_forward(const DiagnosisReport& report, std::vector<ReportSection>& sect
   const auto add = [&](const char* what, const VectorXd& before, const VectorXd& after, int joint,
                        const std::string& unit) {
     if (before.size() == 0 && after.size() == 0) return;
-    table.rows.push_back({joint_words(joint), what, entry(before, joint), entry(after, joint), unit,
-                          change_words(entry(before, joint), entry(after, joint))});
+    table.rows.push_back({joint_words(joint), what, entry_of(before, joint), entry_of(after, joint),
+                          unit, change_words(entry_of(before, joint), entry_of(after, joint))});
   };
   for (int j = 0; j < report.joints(); ++j) {
     const bool revolute = report.revolute[static_cast<std::size_t>(j)];
@@ -257,7 +252,7 @@ void add_noise(const DiagnosisReport& report, std::vector<ReportSection>& sectio
   ReportTable table{{"", "deviation", "", "samples worth one", "independent samples"}, {}, 0};
   for (int j = 0; j < report.joints() && j < noise.deviation.size(); ++j) {
     table.rows.push_back({joint_words(j), noise.deviation[j], report.unit(j),
-                          entry(noise.correlation_time, j), entry(noise.worth, j)});
+                          entry_of(noise.correlation_time, j), entry_of(noise.worth, j)});
   }
   if (!table.rows.empty()) blocks.emplace_back(std::move(table));
   sections.push_back(section_of("noise", "Noise floor", std::move(blocks)));

@@ -24,10 +24,6 @@ std::string with_unit(const std::string& text, const std::string& unit) {
 
 std::string percent(double part) { return fmt::format("{:.0f} %", 100 * part); }
 
-double entry(const VectorXd& values, int joint) {
-  return joint >= 0 && joint < values.size() ? values[joint] : NAN;
-}
-
 /// Writes the parts of one finding.
 class FindingWriter {
  public:
@@ -131,8 +127,9 @@ class FindingWriter {
       facts.items.push_back({"largest", fmt::format("{:.3g} {}", view_->peak, unit), ""});
     }
     const HeldoutResidual& rms = report_.diagnosis.heldout;
-    const double before = entry(rms.before, joint_), after = entry(rms.after, joint_),
-                 floor = std::isfinite(entry(rms.floor, joint_)) ? entry(rms.floor, joint_) : 0;
+    const double before = entry_of(rms.before, joint_), after = entry_of(rms.after, joint_),
+                 floor =
+                     std::isfinite(entry_of(rms.floor, joint_)) ? entry_of(rms.floor, joint_) : 0;
     if (before > floor && std::isfinite(after)) {
       const double gap = before * before - floor * floor;
       const double left = std::max(0.0, after * after - floor * floor);
@@ -191,7 +188,7 @@ class FindingWriter {
   ReportPart proof() const {
     ReportPart part{id("proof"), "Proof", "Recordings that were not fitted", {}};
     const HeldoutResidual& rms = report_.diagnosis.heldout;
-    const double before = entry(rms.before, joint_), after = entry(rms.after, joint_);
+    const double before = entry_of(rms.before, joint_), after = entry_of(rms.after, joint_);
     if (finding_.since_reference) {
       part.blocks.emplace_back(
           ReportText{"A change since the reference: parameters that are fitted to these recordings "
@@ -203,8 +200,9 @@ class FindingWriter {
           "The residual of joint {} falls from {:.3g} to {:.3g} {} rms ({:+.1f} %); the noise is "
           "{}.",
           joint_ + 1, before, after, report_.unit(joint_), 100 * (after / before - 1),
-          std::isfinite(entry(rms.floor, joint_)) ? fmt::format("{:.3g}", entry(rms.floor, joint_))
-                                                  : "not known")});
+          std::isfinite(entry_of(rms.floor, joint_))
+              ? fmt::format("{:.3g}", entry_of(rms.floor, joint_))
+              : "not known")});
     }
     if (!report_.views.heldout.empty()) {
       ReportChart chart = proof_chart({}, joint_, NAN, "", id("proof-chart"));

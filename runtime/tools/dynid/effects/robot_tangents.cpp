@@ -26,7 +26,7 @@ using Eigen::VectorXd;
 
 constexpr std::array<const char*, 6> kWrench = {"fx", "fy", "fz", "nx", "ny", "nz"};
 
-std::span<const double> values(const MatrixXd& matrix) {
+std::span<const double> numbers_of(const MatrixXd& matrix) {
   return {matrix.data(), static_cast<std::size_t>(matrix.size())};
 }
 
@@ -55,11 +55,11 @@ std::map<std::string, MatrixXd> run(const Program& program, const JointMotion& m
   }
   const MatrixXd c = chi, g = gravity;
   evaluate(program, static_cast<std::size_t>(samples),
-           {{"q", values(motion.q)},
-            {"dq", values(motion.dq)},
-            {"ddq", values(motion.ddq)},
-            {"chi", values(c)},
-            {"gravity", values(g)}},
+           {{"q", numbers_of(motion.q)},
+            {"dq", numbers_of(motion.dq)},
+            {"ddq", numbers_of(motion.ddq)},
+            {"chi", numbers_of(c)},
+            {"gravity", numbers_of(g)}},
            places);
   return outputs;
 }

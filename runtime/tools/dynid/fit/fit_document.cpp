@@ -18,10 +18,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Row = std::vector<ReportCell>;
 
-double entry(const VectorXd& values, int joint) {
-  return joint < values.size() ? values[joint] : NAN;
-}
-
 std::string method_name(const MethodFit& fit) {
   return std::string(fit_method_names()[static_cast<std::size_t>(fit.method)]);
 }
@@ -70,16 +66,17 @@ ReportBars rms_bars(const FitReport& report) {
   }
   for (int j = 0; j < report.robot.linear.joints(); ++j) {
     ReportBarGroup group{joint_words(j), torque_unit(report.robot.linear, j), false, {}};
-    const double rms = entry(fit.estimate.residual_rms, j), percent = entry(fit.percent, j);
+    const double rms = entry_of(fit.estimate.residual_rms, j), percent = entry_of(fit.percent, j);
     group.bars.push_back({"torque", Role::kData, percent > 0 ? 100 * rms / percent : NAN});
     if (report.effects) {
       const EffectReport& effects = *report.effects;
       group.bars.push_back(
           {"left without effects", Role::kBefore,
-           entry(heldout ? effects.heldout_rms_without : effects.fit.rms_without, j)});
+           entry_of(heldout ? effects.heldout_rms_without : effects.fit.rms_without, j)});
     }
     group.bars.push_back({"left, fitted", Role::kForward, rms});
-    if (heldout) group.bars.push_back({"left, held out", Role::kModel, entry(fit.heldout_rms, j)});
+    if (heldout)
+      group.bars.push_back({"left, held out", Role::kModel, entry_of(fit.heldout_rms, j)});
     bars.groups.push_back(std::move(group));
   }
   return bars;
@@ -179,7 +176,7 @@ void add_torque(const FitReport& report, std::vector<ReportSection>& sections) {
       row.emplace_back(fit.heldout_percent[j]);
     }
     row.emplace_back(torque_unit(report.robot.linear, j));
-    row.emplace_back(std::max(1.0, entry(times, j)) * report.data.summary.row_time);
+    row.emplace_back(std::max(1.0, entry_of(times, j)) * report.data.summary.row_time);
     table.rows.push_back(std::move(row));
   }
   ReportSection section = section_of("torque", "Torque and residual", {std::move(table)});
@@ -210,10 +207,10 @@ void add_consistent(const FitReport& report, std::vector<ReportSection>& section
   const bool heldout = fit.heldout_percent.size() != 0;
   if (heldout) table.header.insert(table.header.end(), {"free, held out", "consistent, held out"});
   for (int j = 0; j < report.robot.linear.joints(); ++j) {
-    Row row = {joint_words(j), report.main().percent[j], entry(fit.percent, j)};
+    Row row = {joint_words(j), report.main().percent[j], entry_of(fit.percent, j)};
     if (heldout) {
-      row.emplace_back(entry(report.main().heldout_percent, j));
-      row.emplace_back(entry(fit.heldout_percent, j));
+      row.emplace_back(entry_of(report.main().heldout_percent, j));
+      row.emplace_back(entry_of(fit.heldout_percent, j));
     }
     table.rows.push_back(std::move(row));
   }
@@ -270,7 +267,7 @@ void add_methods(const FitReport& report, std::vector<ReportSection>& sections) 
   const auto rows = [&](const char* name, VectorXd MethodFit::*values) {
     for (int j = 0; j < report.robot.linear.joints(); ++j) {
       Row row = {fmt::format("{} {}", name, joint_words(j))};
-      for (const MethodFit& fit : report.fits) row.emplace_back(entry(fit.*values, j));
+      for (const MethodFit& fit : report.fits) row.emplace_back(entry_of(fit.*values, j));
       table.rows.push_back(std::move(row));
     }
   };

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-std::string number(double value) {
+std::string number_text(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
 }
 
@@ -100,7 +100,7 @@ std::string joint_rows(const FitReport& report) {
   return text;
 }
 
-std::string names_of(const FitReport& report, const std::vector<int>& parameters) {
+std::string names_text(const FitReport& report, const std::vector<int>& parameters) {
   constexpr std::size_t kMost = 8;
   std::string text;
   for (std::size_t i = 0; i < parameters.size() && i < kMost; ++i) {
@@ -114,22 +114,23 @@ std::string names_of(const FitReport& report, const std::vector<int>& parameters
 std::string conditioning_rows(const FitReport& report) {
   const Conditioning& c = report.conditioning;
   std::string text = "\ncondition number\n";
-  text += fmt::format("  {:<42}{:>10}\n", "regressor as it is", number(c.raw));
-  text += fmt::format("  {:<42}{:>10}\n", "columns of unit norm", number(c.unit_norm));
-  text += fmt::format("  {:<42}{:>10}\n", "columns over torque sensitivity", number(c.sensitivity));
+  text += fmt::format("  {:<42}{:>10}\n", "regressor as it is", number_text(c.raw));
+  text += fmt::format("  {:<42}{:>10}\n", "columns of unit norm", number_text(c.unit_norm));
+  text += fmt::format("  {:<42}{:>10}\n", "columns over torque sensitivity",
+                      number_text(c.sensitivity));
   const auto analysis = [&](const char* name, const Significance& s) {
     text += fmt::format(
-        "  {:<42}{:>10}  {}\n", name, number(s.condition_after),
-        s.removed.empty() ? "nothing to remove" : "without " + names_of(report, s.removed));
+        "  {:<42}{:>10}  {}\n", name, number_text(s.condition_after),
+        s.removed.empty() ? "nothing to remove" : "without " + names_text(report, s.removed));
   };
   analysis("(a) low sensitivity removed, unscaled", c.insensitive);
   analysis("(b) near dependencies removed, scaled", c.dependent);
   text +=
       fmt::format("  {:<42}{:>10}  {} of {} directions left out\n",
-                  "(c) weakest directions left out, scaled", number(c.weakest.condition_after),
+                  "(c) weakest directions left out, scaled", number_text(c.weakest.condition_after),
                   report.robot.linear.size() - c.weakest.estimate.rank, report.robot.linear.size());
   text += fmt::format("  {:<42}{:>10}  {} of {}\n", "essential parameters",
-                      number(c.essential.condition_after), c.essential.kept.size(),
+                      number_text(c.essential.condition_after), c.essential.kept.size(),
                       report.robot.linear.size());
   return text;
 }
@@ -144,17 +145,17 @@ std::string trust_rows(const FitReport& report) {
   const auto row = [&](const char* name, const std::string& value) {
     text += fmt::format("  {:<58}{:>10}\n", name, value);
   };
-  row("noise of the regressor, norm", number(trust.regressor_noise));
-  row("residual, norm", number(trust.torque_noise));
+  row("noise of the regressor, norm", number_text(trust.regressor_noise));
+  row("residual, norm", number_text(trust.torque_noise));
   row("bound of the relative parameter error (4.1)",
       std::isfinite(trust.perturbation_bound) ? fmt::format("{:.3g}", trust.perturbation_bound)
                                               : std::string("none"));
   row("bias by noise of the regressor, relative (5.2)",
-      number(size > 0 ? relative_attenuation.norm() / size : 0));
-  row("time constant of LMS, s (5.6)", number(trust.time_constant));
-  row("change of the singular values by noise (5.7)", number(trust.singular_value_change));
-  row("  beside the smallest one", number(trust.smallest_singular_value));
-  row("bias susceptibility", number(trust.bias_susceptibility));
+      number_text(size > 0 ? relative_attenuation.norm() / size : 0));
+  row("time constant of LMS, s (5.6)", number_text(trust.time_constant));
+  row("change of the singular values by noise (5.7)", number_text(trust.singular_value_change));
+  row("  beside the smallest one", number_text(trust.smallest_singular_value));
+  row("bias susceptibility", number_text(trust.bias_susceptibility));
   return text;
 }
 
@@ -185,7 +186,7 @@ std::string consistent_rows(const FitReport& report) {
   text += pulling.empty()
               ? "  no measured base parameter pulls against it\n"
               : fmt::format("  measured base parameters that pull against it (> 2 stddev): {}\n",
-                            names_of(report, pulling));
+                            names_text(report, pulling));
   if (!fit.converged) text += "  the search did not end: the last step is given\n";
   if (!fit.message.empty()) {
     std::string line;

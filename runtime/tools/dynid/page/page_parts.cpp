@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <utility>
 
 namespace dyngen::runtime {
@@ -14,6 +15,11 @@ std::string sentence(std::string text) {
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   if (text.back() != '.') text += '.';
   return text;
+}
+
+double entry_of(const Eigen::VectorXd& values, Eigen::Index joint) {
+  return joint >= 0 && joint < values.size() ? values[joint]
+                                             : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string torque_unit(const LinearModel& model, int joint) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ inline constexpr std::size_t kRowsShown = 12;
 std::string joint_words(int joint);
 /// With a capital and a full stop.
 std::string sentence(std::string text);
+/// A joint's value (0-based); NaN where there is none.
+double entry_of(const Eigen::VectorXd& values, Eigen::Index joint);
 /// Unit of a joint's torque: "N m" or "N".
 std::string torque_unit(const LinearModel& model, int joint);
 
