@@ -23,3 +23,11 @@ function(dyngen_share_precompiled name target)
     endif()
   endif()
 endfunction()
+
+# GNU's compiler collects its garbage whenever its memory has doubled, a tenth of its time. With DYNGEN_ROOMY_COMPILER
+# it does so from 1 GB on.
+option(DYNGEN_ROOMY_COMPILER "Let GNU's compiler use 1 GB before it collects its garbage" OFF)
+if(DYNGEN_ROOMY_COMPILER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-expand=400>
+    $<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=1000000>)
+endif()
