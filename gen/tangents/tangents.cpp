@@ -16,13 +16,13 @@ namespace dyngen {
 namespace {
 
 /// Which links have parameters.
-enum class OpenLinks { kAll, kLast, kNone };
+enum class OpenLinks { kEvery, kLast, kNone };
 
 /// All ten parameters of the links are unknown; there are no rotors and no friction.
 RobotModel opened(RobotModel model, OpenLinks open, bool gravity) {
   for (int j = 1; j <= model.size(); ++j) {
     const bool has_body =
-        open == OpenLinks::kAll || (open == OpenLinks::kLast && j == model.size());
+        open == OpenLinks::kEvery || (open == OpenLinks::kLast && j == model.size());
     for (std::size_t k = 0; k < kChiCount; ++k) {
       Quantity& quantity = model.joints[static_cast<std::size_t>(j - 1)].chi[k];
       quantity = {.unknown = has_body && k < kInertialCount};
@@ -71,7 +71,7 @@ TangentProgram program_of(const OpenRobot& robot, const Trace& trace) {
 
 TangentProgram catalogue_program(const RobotModel& model, const char* name) {
   const OpenRobot robot =
-      open_robot(make_symbolic(opened(model, OpenLinks::kAll, true)), model.size(), true);
+      open_robot(make_symbolic(opened(model, OpenLinks::kEvery, true)), model.size(), true);
   return program_of(robot, write_plain_function(parse_function_name(name), robot.code).trace);
 }
 
@@ -87,7 +87,7 @@ TangentProgram gravity_torque(const RobotModel& model) {
 
 TangentProgram joint_wrenches(const RobotModel& model) {
   const OpenRobot robot =
-      open_robot(make_symbolic(opened(model, OpenLinks::kAll, true)), model.size(), true);
+      open_robot(make_symbolic(opened(model, OpenLinks::kEvery, true)), model.size(), true);
   Trace trace(&robot.code.inputs);
   CodeModel named = robot.code;
   named.links = with_named_parameters(trace, robot.code);
@@ -120,7 +120,7 @@ Program link_jacobian(const RobotModel& model, int link) {
 
 TangentProgram geometry_derivative(const RobotModel& model, int link, DhConstant constant) {
   const bool standard = model.convention == DhConvention::kStandard;
-  const SymbolicRobot robot = make_symbolic(opened(model, OpenLinks::kAll, true));
+  const SymbolicRobot robot = make_symbolic(opened(model, OpenLinks::kEvery, true));
   const OpenRobot open =
       open_robot(displaced_robot(robot, link, constant, standard), model.size(), true);
   return program_of(open, write_plain_function(parse_function_name("id_dq_pos"), open.code).trace);

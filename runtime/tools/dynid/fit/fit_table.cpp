@@ -100,7 +100,7 @@ std::string joint_rows(const FitReport& report) {
   return text;
 }
 
-std::string names_of(const FitReport& report, const std::vector<int>& parameters) {
+std::string names_text(const FitReport& report, const std::vector<int>& parameters) {
   constexpr std::size_t kMost = 8;
   std::string text;
   for (std::size_t i = 0; i < parameters.size() && i < kMost; ++i) {
@@ -120,7 +120,7 @@ std::string conditioning_rows(const FitReport& report) {
   const auto analysis = [&](const char* name, const Significance& s) {
     text += fmt::format(
         "  {:<42}{:>10}  {}\n", name, number(s.condition_after),
-        s.removed.empty() ? "nothing to remove" : "without " + names_of(report, s.removed));
+        s.removed.empty() ? "nothing to remove" : "without " + names_text(report, s.removed));
   };
   analysis("(a) low sensitivity removed, unscaled", c.insensitive);
   analysis("(b) near dependencies removed, scaled", c.dependent);
@@ -185,7 +185,7 @@ std::string consistent_rows(const FitReport& report) {
   text += pulling.empty()
               ? "  no measured base parameter pulls against it\n"
               : fmt::format("  measured base parameters that pull against it (> 2 stddev): {}\n",
-                            names_of(report, pulling));
+                            names_text(report, pulling));
   if (!fit.converged) text += "  the search did not end: the last step is given\n";
   if (!fit.message.empty()) {
     std::string line;
