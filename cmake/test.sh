@@ -13,7 +13,7 @@ build=build/test
 # fifths of the build
 export CCACHE_SLOPPINESS=pch_defines,time_macros
 cmake -G Ninja -S . -B $build -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O2 -DNDEBUG" \
-  -DDYNGEN_BUILD_BENCH=ON -DDYNGEN_PRECOMPILE=ON -DCMAKE_UNITY_BUILD=ON \
+  -DDYNGEN_BUILD_TESTS=ON -DDYNGEN_BUILD_BENCH=ON -DDYNGEN_PRECOMPILE=ON -DCMAKE_UNITY_BUILD=ON \
   -DDYNGEN_RANDOM_CASES=33 -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 cmake --build $build
 ctest --test-dir $build --parallel "$(nproc)" --output-on-failure --output-log $build/ctest.log
