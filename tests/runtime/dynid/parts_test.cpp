@@ -144,7 +144,7 @@ TEST(MissingParts, WithoutGnuplotNothingIsReadOrWritten) {
   const std::string folder = test::temporary_path("figures_of_nothing");
   std::filesystem::remove_all(folder);
   // files that are absent would be an error of their own
-  for (const std::string call :
+  for (const std::string& call :
        {"fit absent.robot absent.csv --figures " + folder,
         "atlas absent.robot absent.csv --figures " + folder,
         "atlas absent.robot absent.csv --picture " + folder + ".svg",
