@@ -1,14 +1,18 @@
-# The page of the report from its sources, runtime/report/page. Only on request: it needs npm.
+# The page of the report from its sources, runtime/report/page. Only on request: it needs node and npm.
 #   report_bundle      bundles the page in the build tree
 #   report_regenerate  writes it to generated/report
 # The test generated.report_fresh compares the two, byte for byte.
-option(DYNGEN_BUNDLE_REPORT "Bundle the page of the report from its sources (npm)" OFF)
+option(DYNGEN_BUNDLE_REPORT "Bundle the page of the report from its sources (node, npm)" OFF)
 if(NOT DYNGEN_BUNDLE_REPORT)
   return()
 endif()
 find_program(DYNGEN_NPM npm)
-if(NOT DYNGEN_NPM)
-  message(FATAL_ERROR "DYNGEN_BUNDLE_REPORT needs npm")
+find_program(DYNGEN_NODE NAMES node nodejs)
+if(NOT DYNGEN_NPM OR NOT DYNGEN_NODE)
+  message(FATAL_ERROR
+    "DYNGEN_BUNDLE_REPORT=ON: the page of the report is bundled by npm and node, which are not found.\n"
+    "  apt-get install nodejs npm\n"
+    "Or use the page that is committed: -DDYNGEN_BUNDLE_REPORT=OFF")
 endif()
 set(page_sources ${PROJECT_SOURCE_DIR}/runtime/report/page)
 set(page_build ${CMAKE_CURRENT_BINARY_DIR}/page)

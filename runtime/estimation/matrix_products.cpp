@@ -12,15 +12,15 @@ using Eigen::Ref;
 
 #ifdef DYNGEN_WITH_BLAS
 
-namespace {
-
 /// An OpenBLAS that was built without threads does not guard its work space against those of a
 /// program: of 40 000 products on two threads 38 came out wrong (0.3.21). Which one a program gets
 /// is known when it runs.
-bool has_safe_blas() {
+bool multiplies_by_blas() {
   static const bool safe = openblas_get_parallel() != OPENBLAS_SEQUENTIAL;
   return safe;
 }
+
+namespace {
 
 /// A dimension as BLAS takes it.
 blasint dimension(Eigen::Index size) { return static_cast<blasint>(size); }
@@ -36,14 +36,14 @@ void multiply(CBLAS_TRANSPOSE op, double factor, const Ref<const MatrixXd>& A,
 }  // namespace
 
 MatrixXd transposed_product(const Ref<const MatrixXd>& A, const Ref<const MatrixXd>& B) {
-  if (!has_safe_blas()) return A.transpose() * B;
+  if (!multiplies_by_blas()) return A.transpose() * B;
   MatrixXd product = MatrixXd::Zero(A.cols(), B.cols());
   if (product.size() > 0 && B.rows() > 0) multiply(CblasTrans, 1, A, B, 0, product);
   return product;
 }
 
 void subtract_product(const Ref<const MatrixXd>& A, const Ref<const MatrixXd>& B, Ref<MatrixXd> C) {
-  if (!has_safe_blas()) {
+  if (!multiplies_by_blas()) {
     C.noalias() -= A * B;
   } else if (C.size() > 0 && B.rows() > 0) {
     multiply(CblasNoTrans, -1, A, B, 1, C);
@@ -61,6 +61,8 @@ MatrixXd transposed_product(const Ref<const MatrixXd>& A, const Ref<const Matrix
 void subtract_product(const Ref<const MatrixXd>& A, const Ref<const MatrixXd>& B, Ref<MatrixXd> C) {
   C.noalias() -= A * B;
 }
+
+bool multiplies_by_blas() { return false; }
 
 void multiply_on_own_thread() {}
 

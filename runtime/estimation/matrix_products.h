@@ -19,6 +19,10 @@ Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& A,
 void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& A,
                       const Eigen::Ref<const Eigen::MatrixXd>& B, Eigen::Ref<Eigen::MatrixXd> C);
 
+/// Whether products are OpenBLAS's: the build has it, and what the program runs with is safe to use
+/// from several threads.
+bool multiplies_by_blas();
+
 /// Products take no threads of their own from now on, in the whole process: for programs whose
 /// threads have work enough. Nothing happens where products are Eigen's.
 void multiply_on_own_thread();

@@ -112,7 +112,8 @@ bool Unzipper::at_member_end() const { return true; }
 
 struct ZippedFile::State {};
 ZippedFile::ZippedFile(const std::string&) {
-  throw std::runtime_error("a .gz file cannot be written: this library was built without zlib");
+  throw std::runtime_error(
+      "a .gz file cannot be written: this library was built without zlib (zlib1g-dev)");
 }
 ZippedFile::~ZippedFile() = default;
 void ZippedFile::write(std::string_view) {}

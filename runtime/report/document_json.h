@@ -7,6 +7,8 @@
 
 namespace dyngen::runtime {
 
+// Only in a build with nlohmann-json.
+
 /// The document as the page reads it, schema dynid.report/1, in one line. Numbers have five digits;
 /// what is not finite is null. It may stand in a <script> element: `<`, `>`, `&`, U+2028 and U+2029
 /// are written \u003c and so on, and what is not UTF-8 is replaced.

@@ -14,6 +14,7 @@
 #include "runtime/tools/dynid/fit/file_summaries.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/options/options.h"
+#include "runtime/tools/dynid/options/parts.h"
 #include "runtime/tools/dynid/process/memory.h"
 #include "runtime/tools/dynid/process/process_group.h"
 
@@ -31,11 +32,7 @@ int run(const ToolOptions& options, ProcessGroup& group) {
     case Command::kMerge:
       return run_merge(options);
     case Command::kSimulate:
-#ifdef DYNGEN_WITH_SIMULATION
       return run_simulate(options.simulate);
-#else
-      throw std::invalid_argument("simulate is left out of this dynid (it needs libboost-dev)");
-#endif
     case Command::kExcite:
       return run_excite(options);
     case Command::kAtlas:
@@ -57,9 +54,15 @@ int our_bug(const std::exception& error, const ToolOptions& options) {
   return kOurBug;
 }
 
-int guarded_run(const ToolOptions& options, ProcessGroup& group) {
+int guarded_run(const ToolOptions& parsed, ProcessGroup& group) {
   try {
-    return run(with_list(options), group);
+    const ToolOptions options = with_list(parsed);
+    const std::string missing = missing_parts(options, group.size());
+    if (!missing.empty()) {
+      std::cerr << missing;
+      return kUsage;
+    }
+    return run(options, group);
   } catch (const ModelError& error) {
     std::cerr << error.what();
     return kInputWrong;
@@ -79,7 +82,7 @@ int guarded_run(const ToolOptions& options, ProcessGroup& group) {
     std::cerr << "dynid: error: " << error.what() << "\n";
     return kInputWrong;
   } catch (const std::exception& error) {
-    return our_bug(error, options);
+    return our_bug(error, parsed);
   }
 }
 
@@ -99,12 +102,13 @@ int main_of_group(int argc, const char* const* argv, ProcessGroup& group) {
   }
   const ParsedOptions parsed = parse_options(argc, argv);
   if (parsed.exit_code >= 0) return parsed.exit_code;
+  const bool serves = group.connected() && group.rank() > 0;
   const int code =
-      group.rank() > 0 ? guarded_serve(parsed.options, group) : guarded_run(parsed.options, group);
+      serves ? guarded_serve(parsed.options, group) : guarded_run(parsed.options, group);
   std::cout << std::flush;
   // where the others are is not known
   if (code == kOurBug) group.abort(code);
-  if (group.rank() == 0) dismiss(group, code);
+  if (group.connected() && !serves) dismiss(group, code);
   return code;
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "runtime/recordings/gzip.h"
 #include "runtime/recordings/writer.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/runtime/dynid/multisine.h"
@@ -64,7 +65,8 @@ TEST_F(Commands, HoldsOutAllRecordingsThatFollow) {
 
 TEST_F(Commands, FitChecksAndSaysHowWell) {
   const std::string train = record("train.csv", {.seconds = 20, .torque_noise = 0.3});
-  const std::string test = record("test.csv.gz", {.torque_noise = 0.3, .seed = 2});
+  const std::string test =
+      record(gzip_available() ? "test.csv.gz" : "test.csv", {.torque_noise = 0.3, .seed = 2});
   const Outcome fit = dynid("fit " + std::string(kRobot) + " " + train + " --holdout " + test +
                             " -o " + path("id.robot") + " --json " + path("fit.json"));
   ASSERT_EQ(fit.exit_code, 0) << fit.out;

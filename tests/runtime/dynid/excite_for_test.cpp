@@ -326,12 +326,12 @@ TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
   const DescribedRobot plant = describe_robot(
       robot(source, "plant.robot", limits + "effect stribeck joint=2 Fs=9.2 vs=0.1 delta=2\n"),
       OpenParameters::kAsWritten);
-  constexpr std::uint64_t kSeed = 3;
+  constexpr std::uint64_t kOwnSeed = 3;
   const std::string first =
       record("first.csv",
              test::multisine(plant.linear, plant.grouping * plant.standard,
-                             {.seconds = 20, .sample_time = 0.005, .period = 20, .seed = kSeed}),
-             plant, kSeed);
+                             {.seconds = 20, .sample_time = 0.005, .period = 20, .seed = kOwnSeed}),
+             plant, kOwnSeed);
   const auto finding = [&](const std::string& recordings) {
     const Outcome run =
         dynid("diagnose " + arm + " " + recordings + " --json " + temporary_path("d.json"));
@@ -355,7 +355,7 @@ TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
   motion.q = trajectory.q;
   motion.dq = trajectory.dq;
   motion.ddq = trajectory.ddq;
-  const std::string second = record("second.csv", motion, plant, kSeed + 100);
+  const std::string second = record("second.csv", motion, plant, kOwnSeed + 100);
   const Json after = finding(first + " " + second);
   EXPECT_EQ(after["aliases"], Json({"stribeck"})) << after;
   const double doubt = 1 - before["probability"].get<double>();

@@ -10,9 +10,9 @@
 
 namespace dyngen::test {
 
-Outcome dynid(const std::string& arguments) {
+Outcome dynid(const std::string& arguments, const std::string& environment) {
   Outcome outcome;
-  FILE* pipe = popen((DYNID " " + arguments + " 2>&1").c_str(), "r");
+  FILE* pipe = popen((environment + " " DYNID " " + arguments + " 2>&1").c_str(), "r");
   std::array<char, 4096> buffer{};
   for (std::size_t count = 0; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
     outcome.out.append(buffer.data(), count);

@@ -11,8 +11,9 @@ struct Outcome {
   std::string out;  ///< standard output and error together
 };
 
-/// @param arguments  as in a shell
-Outcome dynid(const std::string& arguments);
+/// @param arguments    as in a shell
+/// @param environment  variables for it alone: "PATH= A=1"
+Outcome dynid(const std::string& arguments, const std::string& environment = "");
 
 /// All of a file; empty if there is none.
 std::string content(const std::string& path);

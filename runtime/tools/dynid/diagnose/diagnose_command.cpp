@@ -98,7 +98,6 @@ void check_simulation(const ToolOptions& options) {
 ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& report,
                             const DescribedRobot& robot, const EffectCatalogue& catalogue,
                             std::vector<MotionSource> heldout, ProgressLine& progress) {
-#ifdef DYNGEN_WITH_SIMULATION
   ForwardTask task{
       options.diagnose.loop, options.diagnose.controller_model, std::move(heldout), {}};
   for (const std::string& path : options.diagnose.commanded) {
@@ -107,11 +106,6 @@ ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& r
   return compare_forward(report, robot, catalogue, task, [&](double done) {
     progress.show("simulation", static_cast<std::size_t>(1000 * done), 1000);
   });
-#else
-  (void)options, (void)report, (void)robot, (void)catalogue, (void)heldout, (void)progress;
-  throw std::invalid_argument(
-      "--controller: simulation is left out of this dynid (it needs libboost-dev)");
-#endif
 }
 
 /// The statements that dyngen writes for each finding, of the improved file.

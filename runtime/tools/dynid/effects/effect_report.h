@@ -8,7 +8,6 @@
 #include "gen/effects/effect_catalogue.h"
 #include "runtime/effects/effect_fit.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
-#include "runtime/tools/dynid/robot/json_numbers.h"
 
 namespace dyngen::runtime {
 
@@ -25,6 +24,11 @@ std::vector<std::vector<std::string>> effect_units(const std::vector<EffectInsta
                                                    const EffectCatalogue& catalogue,
                                                    const LinearModel& model);
 
+/// The number of a joint in the robot file, from 1, fixed ones counted; 0: none.
+int file_joint(const RobotModel& model, int coordinate);
+/// The same of the joint where an effect is; 0: it is of the whole robot.
+int file_joint(const EffectInstance& effect, const RobotModel& model);
+
 /// "joint 2", "joint 5, other 6", "": where an effect is, as the robot file counts.
 std::string place_of(const EffectInstance& effect, const RobotModel& model);
 
@@ -37,9 +41,6 @@ std::string state_of(const EffectParameterFit& parameter);
 
 /// The part of the table about effects.
 std::string effect_rows(const EffectReport& report, const DescribedRobot& robot);
-
-/// The part of the JSON about effects.
-Json effect_json(const EffectReport& report, const DescribedRobot& robot);
 
 /// Rows `effect` of the identified robot file, in the order of the original, and what is known of
 /// their numbers, a line each.

@@ -5,27 +5,14 @@
 #include <iostream>
 #include <string>
 
-#include "runtime/tools/dynid/options/commands.h"
-
-#ifdef DYNGEN_WITH_NLOPT
 #include "gen/tool/progress_line.h"
 #include "runtime/tools/dynid/excite/excite_picture.h"
 #include "runtime/tools/dynid/excite/excite_report.h"
 #include "runtime/tools/dynid/excite/separation_report.h"
+#include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/page_output.h"
-#endif
 
 namespace dyngen::runtime {
-
-#ifndef DYNGEN_WITH_NLOPT
-
-int run_excite(const ToolOptions& /*options*/) {
-  std::cerr << "dynid: excite: this dynid was built without NLopt (libnlopt-dev)\n";
-  return kUsage;
-}
-
-#else
-
 namespace {
 
 using Progress = std::function<void(const std::string&, std::size_t, std::size_t)>;
@@ -81,7 +68,5 @@ int run_excite(const ToolOptions& options) {
   }
   return kDone;
 }
-
-#endif
 
 }  // namespace dyngen::runtime

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "runtime/tools/dynid/excite/excite_json.h"
+
 #include "runtime/tools/dynid/excite/excite_report.h"
-#include "runtime/tools/dynid/excite/excite_values.h"
-#include "runtime/tools/dynid/robot/json_numbers.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -24,6 +24,15 @@ Json parameters(const ExciteReport& report) {
 }
 
 }  // namespace
+
+Json shares_json(const MotionLimits& limits, const LimitShares& shares) {
+  return {{"check_rate", kCheckRate},
+          {"position", numbers(shares.position)},
+          {"speed", numbers(shares.speed)},
+          {"acceleration", numbers(shares.acceleration)},
+          {"torque", limits.limits_torque() ? numbers(shares.torque) : Json(nullptr)},
+          {"box_distance", number(shares.distance)}};
+}
 
 std::string json_of(const ExciteReport& report, const std::string& trajectory_path) {
   Json starts = Json::array();

@@ -68,13 +68,4 @@ Trajectory repeated(const JointMotion& period, int periods, double duration) {
   return all;
 }
 
-Json shares_json(const MotionLimits& limits, const LimitShares& shares) {
-  return {{"check_rate", kCheckRate},
-          {"position", numbers(shares.position)},
-          {"speed", numbers(shares.speed)},
-          {"acceleration", numbers(shares.acceleration)},
-          {"torque", limits.limits_torque() ? numbers(shares.torque) : Json(nullptr)},
-          {"box_distance", number(shares.distance)}};
-}
-
 }  // namespace dyngen::runtime

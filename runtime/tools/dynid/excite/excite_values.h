@@ -9,7 +9,6 @@
 #include "runtime/recordings/trajectory_file.h"
 #include "runtime/tools/dynid/excite/excite_limits.h"
 #include "runtime/tools/dynid/options/excite_options.h"
-#include "runtime/tools/dynid/robot/json_numbers.h"
 
 namespace dyngen::runtime {
 
@@ -35,7 +34,5 @@ inline constexpr int kUsualPeriods = 5;
 
 /// Periods one after the other, with the end of the last one.
 Trajectory repeated(const JointMotion& period, int periods, double duration);
-
-Json shares_json(const MotionLimits& limits, const LimitShares& shares);
 
 }  // namespace dyngen::runtime

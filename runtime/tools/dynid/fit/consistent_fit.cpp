@@ -3,15 +3,10 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <stdexcept>
 
-#ifdef DYNGEN_WITH_CERES
 #include "runtime/consistency/consistent_parameters.h"
-#endif
 
 namespace dyngen::runtime {
-
-#ifdef DYNGEN_WITH_CERES
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -58,14 +53,5 @@ ConsistentFit fit_consistently(const FitReport& report) {
   }
   return fit;
 }
-
-#else
-
-ConsistentFit fit_consistently(const FitReport&) {
-  throw std::invalid_argument(
-      "--consistent: this dynid was built without Ceres (libceres-dev), which it needs");
-}
-
-#endif
 
 }  // namespace dyngen::runtime

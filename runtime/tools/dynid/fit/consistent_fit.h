@@ -6,7 +6,6 @@
 namespace dyngen::runtime {
 
 /// Full, physically consistent parameters from a report's equations and the file's values.
-/// @throws std::invalid_argument  if this build has no Ceres
 ConsistentFit fit_consistently(const FitReport& report);
 
 }  // namespace dyngen::runtime

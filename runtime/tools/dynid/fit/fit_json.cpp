@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "runtime/tools/dynid/effects/effect_json.h"
 #include "runtime/tools/dynid/fit/fit_report.h"
 #include "runtime/tools/dynid/robot/json_numbers.h"
 

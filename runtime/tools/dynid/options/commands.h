@@ -22,7 +22,6 @@ int run_simulate(const SimulateOptions& options);
 /// Prints what effects there are, or what one of them says; writes the document that is made of
 /// them all. @throws FigureError too
 int run_effects(const EffectsOptions& options);
-/// Where NLopt was absent when dynid was built: says so, exit 2.
 int run_excite(const ToolOptions& options);
 
 }  // namespace dyngen::runtime

@@ -12,12 +12,15 @@
 #include <map>
 #include <stdexcept>
 
+#include "runtime/tools/dynid/options/commands.h"
+#include "runtime/tools/dynid/options/parts.h"
+
 namespace dyngen::runtime {
 namespace {
 
 constexpr const char* kFooter =
     "Recordings: CSV or CSV.gz with a header time,q1..qn,tau1..taun (SI units, joint side).\n"
-    "Exit codes: 0 done, 1 input wrong, 2 usage, 3 the data cannot support the answer.";
+    "Exit codes: 0 done, 1 input wrong, 2 usage, part absent, 3 data cannot support the answer.";
 
 const std::map<std::string, StateMethod>& state_methods() {
   static const std::map<std::string, StateMethod> methods = {
@@ -187,7 +190,7 @@ void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
 
 int usage(const std::string& message) {
   std::cerr << "dynid: " << message << "\nRun with --help for usage.\n";
-  return 2;
+  return kUsage;
 }
 
 /// @return a message about wrong usage, or nothing
@@ -235,7 +238,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   Words words;
   CLI::App tool("Identifies the parameters of a robot's dynamics from recordings.", "dynid");
   tool.footer(kFooter);
-  tool.set_version_flag("--version", "dynid " DYNGEN_VERSION);
+  tool.set_version_flag("--version", [] { return "dynid " DYNGEN_VERSION "\n" + parts_text(); });
   tool.require_subcommand(1);
   add_fit(tool, parsed.options, words);
   add_others(tool, parsed.options, words);

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#ifdef DYNGEN_WITH_MPI
+#if DYNGEN_WITH_MPI
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 
@@ -19,7 +19,7 @@
 
 namespace dyngen::runtime {
 
-#ifdef DYNGEN_WITH_MPI
+#if DYNGEN_WITH_MPI
 
 namespace {
 
@@ -111,7 +111,17 @@ void ProcessGroup::abort(int code) {
 
 struct ProcessGroup::Pending {};
 
-ProcessGroup::ProcessGroup() = default;
+namespace {
+
+int number_of(const char* variable, int otherwise) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? otherwise : std::atoi(text);
+}
+
+}  // namespace
+
+ProcessGroup::ProcessGroup()
+    : rank_(number_of("OMPI_COMM_WORLD_RANK", 0)), size_(number_of("OMPI_COMM_WORLD_SIZE", 1)) {}
 ProcessGroup::~ProcessGroup() = default;
 void ProcessGroup::send(int to, std::string) {
   throw std::logic_error(fmt::format("there is no process {}", to));

@@ -6,9 +6,10 @@
 
 namespace dyngen::runtime {
 
-/// The processes that mpirun started together; without mpirun, or in a build without MPI, this one.
+/// The processes that mpirun started together; without mpirun, this one.
 ///
-/// Messages between two processes arrive whole and in the order they were sent.
+/// Messages between two processes arrive whole and in the order they were sent. In a build without
+/// MPI none can be sent: each process knows that it is not alone, and no more.
 class ProcessGroup {
  public:
   /// Joins the others. Only if mpirun started this process does it pay for that.
@@ -22,6 +23,8 @@ class ProcessGroup {
     return rank_;
   }  ///< 0 .. size() - 1; process 0 prints and writes
   [[nodiscard]] int size() const { return size_; }
+  /// Whether mpirun started this process and messages can be sent.
+  [[nodiscard]] bool connected() const { return pending_ != nullptr; }
 
   /// Starts to send. Waits until the message before has been taken: a process is at most one
   /// message ahead of who receives it.

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/tools/dynid/fit/check_report.h"
+#include "runtime/tools/dynid/robot/json_numbers.h"
+
+namespace dyngen::runtime {
+
+std::string check_json(const CheckReport& report) {
+  Json files = Json::array();
+  for (const CheckReport::Recording& recording : report.recordings) {
+    const RecordingLine& line = recording.line;
+    const Residual& residual = recording.residual;
+    Json repairs = Json::array();
+    for (const Notice& notice : line.condition.repairs) repairs.push_back(notice.text());
+    files.push_back(
+        {{"file", line.name},
+         {"seconds", line.seconds},
+         {"sample_time", line.condition.sample_time},
+         {"jitter", line.condition.jitter},
+         {"cutoff_hz", line.cutoff},
+         {"equations", recording.equations},
+         {"rms", std::vector<double>(residual.rms.begin(), residual.rms.end())},
+         {"percent", std::vector<double>(residual.percent.begin(), residual.percent.end())},
+         {"repairs", repairs},
+         {"messages", line.condition.messages}});
+  }
+  const Json json = {{"schema", "dynid.check/1"},
+                     {"robot", report.robot},
+                     {"joints", report.revolute.size()},
+                     {"base_parameters", report.base_parameters},
+                     {"recordings", files}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace dyngen::runtime

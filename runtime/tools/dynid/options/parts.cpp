@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/tools/dynid/options/parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "runtime/estimation/matrix_products.h"
+#include "runtime/plots/figure.h"
+#include "runtime/recordings/gzip.h"
+
+namespace dyngen::runtime {
+namespace {
+
+const PartWords& words_of_part(Part part) {
+  return *std::find_if(all_parts().begin(), all_parts().end(),
+                       [&](const PartWords& words) { return words.part == part; });
+}
+
+/// The first of many.
+std::string few_of(const std::vector<std::string>& askers) {
+  constexpr std::size_t kShown = 4;
+  if (askers.size() <= kShown) return fmt::format("{}", fmt::join(askers, ", "));
+  return fmt::format("{} and {} more", fmt::join(askers.begin(), askers.begin() + kShown, ", "),
+                     askers.size() - kShown);
+}
+
+/// Parts that are needed, each with what of the command line needs it.
+class Needs {
+ public:
+  void add(Part part, const std::string& asker) { askers_[part].push_back(asker); }
+  void add_if(bool asked, Part part, const std::string& asker) {
+    if (asked) add(part, asker);
+  }
+  /// A file that is read or written; empty: none.
+  void add_file(const std::string& path) { add_if(path.ends_with(".gz"), Part::kZlib, path); }
+  void add_files(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths) add_file(path);
+  }
+  [[nodiscard]] const std::map<Part, std::vector<std::string>>& askers() const { return askers_; }
+
+ private:
+  std::map<Part, std::vector<std::string>> askers_;
+};
+
+/// Of fit, check, accumulate, atlas, excite and diagnose.
+void add_common_needs(const ToolOptions& options, Needs& needs) {
+  needs.add_if(!options.json.empty(), Part::kJson, "--json");
+  needs.add_if(!options.page.report.empty(), Part::kJson, "--report");
+  needs.add_if(!options.page.figures.empty(), Part::kGnuplot, "--figures");
+  needs.add_files(options.recordings);
+  needs.add_files(options.heldout);
+}
+
+void add_excite_needs(const ToolOptions& options, Needs& needs) {
+  needs.add(Part::kNlopt, "excite");
+  needs.add_if(!options.excite.findings.empty(), Part::kJson, "--for");
+  needs.add_if(!options.excite.picture.empty(), Part::kGnuplot, "--picture");
+  needs.add_file(options.output);
+}
+
+void add_simulate_needs(const SimulateOptions& options, Needs& needs) {
+  needs.add(Part::kBoost, "simulate");
+  needs.add_if(!options.picture.empty(), Part::kGnuplot, "--picture");
+  needs.add_files({options.trajectory, options.output, options.truth});
+}
+
+Needs needs_of(const ToolOptions& options, int processes) {
+  Needs needs;
+  needs.add_if(processes > 1, Part::kMpi, fmt::format("{} processes of mpirun", processes));
+  add_common_needs(options, needs);
+  switch (options.command) {
+    case Command::kFit:
+      needs.add_if(options.consistent, Part::kCeres, "--consistent");
+      needs.add_file(options.tracked);
+      break;
+    case Command::kSimulate:
+      add_simulate_needs(options.simulate, needs);
+      break;
+    case Command::kExcite:
+      add_excite_needs(options, needs);
+      break;
+    case Command::kAtlas:
+      needs.add_if(!options.atlas.picture.empty(), Part::kGnuplot, "--picture");
+      needs.add_file(options.atlas.trajectory);
+      break;
+    case Command::kEffects:
+      needs.add_if(!options.catalogue.figures.empty(), Part::kGnuplot, "--figures");
+      break;
+    case Command::kDiagnose:
+      needs.add_if(!options.diagnose.loop.controller.empty(), Part::kBoost, "--controller");
+      needs.add_files(options.diagnose.reference);
+      needs.add_files(options.diagnose.commanded);
+      break;
+    case Command::kCheck:
+    case Command::kAccumulate:
+    case Command::kMerge:
+      break;
+  }
+  return needs;
+}
+
+}  // namespace
+
+const std::vector<PartWords>& all_parts() {
+  static const std::vector<PartWords> parts = {
+      {Part::kBoost, "Boost", "libboost-dev", "simulate, diagnose --controller"},
+      {Part::kCeres, "Ceres", "libceres-dev", "fit --consistent"},
+      {Part::kGnuplot, "gnuplot", "gnuplot-nox", "--figures, --picture"},
+      {Part::kJson, "nlohmann-json", "nlohmann-json3-dev", "--json, --report, excite --for"},
+      {Part::kNlopt, "NLopt", "libnlopt-dev", "excite"},
+      {Part::kBlas, "OpenBLAS", "libopenblas-pthread-dev", "a faster diagnose"},
+      {Part::kMpi, "OpenMPI", "libopenmpi-dev", "fit in several processes, by mpirun"},
+      {Part::kZlib, "zlib", "zlib1g-dev", "recordings and trajectories as .csv.gz"}};
+  return parts;
+}
+
+bool has_part(Part part) {
+  switch (part) {
+    case Part::kBlas:
+      return multiplies_by_blas();
+    case Part::kBoost:
+      return DYNGEN_WITH_BOOST;
+    case Part::kCeres:
+      return DYNGEN_WITH_CERES;
+    case Part::kGnuplot:
+      return can_draw();
+    case Part::kJson:
+      return DYNGEN_WITH_JSON;
+    case Part::kMpi:
+      return DYNGEN_WITH_MPI;
+    case Part::kNlopt:
+      return DYNGEN_WITH_NLOPT;
+    case Part::kZlib:
+      return gzip_available();
+  }
+  return false;
+}
+
+std::string parts_text(const PresentParts& has) {
+  std::string text;
+  for (const PartWords& words : all_parts()) {
+    text +=
+        fmt::format("{}{:<8}{:<14} {:<24} {}", text.empty() ? "" : "\n",
+                    has(words.part) ? "with" : "without", words.name, words.package, words.adds);
+  }
+  return text;
+}
+
+std::string missing_parts(const ToolOptions& options, int processes, const PresentParts& has) {
+  const Needs needs = needs_of(options, processes);
+  std::string text;
+  for (const auto& [part, askers] : needs.askers()) {
+    if (has(part)) continue;
+    const PartWords& words = words_of_part(part);
+    text += fmt::format("dynid: {}: ", few_of(askers));
+    text += part == Part::kGnuplot
+                ? fmt::format("gnuplot is not installed; install {}\n", words.package)
+                : fmt::format("this dynid was built without {}; install {} and build it again\n",
+                              words.name, words.package);
+  }
+  return text;
+}
+
+void call_absent(Part part) {
+  throw std::logic_error(fmt::format(
+      "a function of {} was called, which this dynid was built without", words_of_part(part).name));
+}
+
+}  // namespace dyngen::runtime
