@@ -59,7 +59,7 @@ OutputSpec joint_square(std::string_view array, std::string_view unit) {
   return {.array = array, .columns = Extent::kJoints, .unit = unit};
 }
 
-constexpr ExtraInputs kAll = {.gravity = true, .wrench = true, .payload = true};
+constexpr ExtraInputs kAllInputs = {.gravity = true, .wrench = true, .payload = true};
 
 OutputSpec joint_torque() { return {.array = "tau"}; }
 
@@ -92,7 +92,7 @@ const std::vector<FunctionSpec>& function_catalogue() {
       {.name = "id",
        .inputs = {"q", "dq", "ddq"},
        .outputs = {joint_torque()},
-       .reads = kAll,
+       .reads = kAllInputs,
        .summary = "tau = M(q) ddq + c(q, dq) + g(q) + friction: inverse dynamics by customised "
                   "Newton-Euler [KD02, ch. 9].",
        .write = write_id,
@@ -100,7 +100,7 @@ const std::vector<FunctionSpec>& function_catalogue() {
       {"id_rigid",
        {"q", "dq", "ddq"},
        {joint_torque()},
-       kAll,
+       kAllInputs,
        "tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.",
        write_id_rigid},
       {"gravity",
@@ -141,7 +141,7 @@ const std::vector<FunctionSpec>& function_catalogue() {
       {.name = "fd",
        .inputs = {"q", "dq", "tau"},
        .outputs = {{.array = "ddq", .unit = "rad/s^2 (m/s^2 where a joint slides)"}},
-       .reads = kAll,
+       .reads = kAllInputs,
        .summary = "ddq = M(q)^-1 (tau - c(q, dq) - g(q) - friction): forward dynamics.",
        .write = write_forward_dynamics,
        .why_absent = why_no_forward_dynamics,
@@ -189,7 +189,7 @@ const std::vector<FunctionSpec>& function_catalogue() {
       {"id_dq_pos",
        {"q", "dq", "ddq"},
        {joint_square("D", "torque per rad or m")},
-       kAll,
+       kAllInputs,
        "D_ij = d tau_i / d q_j: derivatives of id by the positions.",
        write_id_dq_pos},
       {"id_dq",
@@ -208,7 +208,7 @@ const std::vector<FunctionSpec>& function_catalogue() {
        {"q", "dq", "ddq"},
        {joint_square("D_q", "torque per rad or m"), joint_square("D_dq", "torque per rad/s or m/s"),
         joint_square("D_ddq", "torque per rad/s^2 or m/s^2")},
-       kAll,
+       kAllInputs,
        "Derivatives of id by q, dq and ddq, which share much of their work: D_ij = d tau_i / d "
        "x_j.",
        write_id_derivatives},
@@ -290,7 +290,7 @@ std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code)
   const auto inputs = spec.inputs_of == nullptr ? spec.inputs : spec.inputs_of(code);
   for (const std::string_view name : inputs) add(name, joints, false);
   ExtraInputs reads = spec.reads;
-  if (spec.effects == EffectPart::kIn && effects_read(code, {"tau_load"})) reads = kAll;
+  if (spec.effects == EffectPart::kIn && effects_read(code, {"tau_load"})) reads = kAllInputs;
   if (reads.weights) {
     result.push_back({.name = "A", .rows = joints, .columns = extent_size(Extent::kBeta, code)});
   }

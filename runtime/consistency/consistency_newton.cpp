@@ -83,7 +83,9 @@ bool minimise(const ConsistencyCost& cost, ScaledParameters& at, Held& held, int
     const Eigen::MatrixXd rows = step.rows(Eigen::all, columns);
     const Eigen::VectorXd solution = rows.colPivHouseholderQr().solve(-step.residual);
     Eigen::VectorXd dx = Eigen::VectorXd::Zero(step.rows.cols());
-    dx(columns) = solution;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      dx[columns[k]] = solution[static_cast<Eigen::Index>(k)];
+    }
     const double decrement = (rows * solution).squaredNorm();
     if (!std::isfinite(decrement)) return false;
 

@@ -17,12 +17,12 @@
 #include "runtime/recordings/time_repair.h"
 
 namespace dyngen::runtime {
-namespace {
 
 /// The file's lines as rows. Blank lines and comments are skipped.
-class RowSource {
+/// Not in an unnamed namespace: RecordingReader::State, which has external linkage, holds one.
+class RecordingRows {
  public:
-  RowSource(ByteSource source, const ReadOptions& options, NoticeLog& log)
+  RecordingRows(ByteSource source, const ReadOptions& options, NoticeLog& log)
       : log_(&log), lines_(std::move(source), log), columns_(find_header(options)) {
     parser_.emplace(columns_, log);
   }
@@ -111,8 +111,6 @@ class RowSource {
   std::size_t last_short_line_ = 0;
 };
 
-}  // namespace
-
 struct RecordingReader::State {
   State(ByteSource source, std::string name, const ReadOptions& options)
       : log(std::move(name), options.max_notices),
@@ -130,7 +128,7 @@ struct RecordingReader::State {
 
   NoticeLog log;
   std::vector<Notice> notices;
-  RowSource rows;
+  RecordingRows rows;
   RowQueue out;
   ShortRunFilter filter;
   BadValueRepair values;
