@@ -9,3 +9,6 @@ run_programs(${WORK}/build)
 expect_no_text("in tree" "${text}" "puma560.c" "gtest" "dyngen_runtime")
 build(text ${WORK}/build)
 expect_no_text("second build" "${text}" Generating Building Linking)
+# What is installed is for the project to say.
+build(text ${WORK}/build --target help)
+expect_no_text("in tree" "${text}" uninstall)

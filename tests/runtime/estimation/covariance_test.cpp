@@ -80,7 +80,9 @@ KnownNoise known_noise() {
   KnownNoise noise;
   noise.correlation_time = VectorXd::Ones(2);
   for (Eigen::Index j = 0; j < 2; ++j) {
-    const JointNoise joint{{{}, kQuick[j], kQuick[j], 1}, {{kSlowPole, kSlow[j]}}};
+    JointNoise joint;
+    joint.quick.innovation = joint.quick.deviation = kQuick[j];
+    joint.slow = {{kSlowPole, kSlow[j]}};
     noise.parts.push_back(joint.parts());
   }
   return noise;

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+# dyngen.pc. Included by Install.cmake.
+
+# Folders count from the folder of dyngen.pc, so that the prefix may be moved.
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+  set(pc_prefix "${CMAKE_INSTALL_PREFIX}")
+else()
+  file(RELATIVE_PATH way_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+  string(REGEX REPLACE "/$" "" way_up "${way_up}")
+  set(pc_prefix "\${pcfiledir}/${way_up}")
+endif()
+foreach(folder IN ITEMS BINDIR LIBDIR INCLUDEDIR DATADIR)
+  string(TOLOWER pc_${folder} name)
+  set(${name} "${CMAKE_INSTALL_${folder}}")
+  if(NOT IS_ABSOLUTE "${${name}}")
+    string(PREPEND ${name} "\${prefix}/")
+  endif()
+endforeach()
+
+set(pc_tools "")
+foreach(tool IN ITEMS dyngen dynid)
+  if(TARGET ${tool})
+    string(APPEND pc_tools "${tool}=\${bindir}/${tool}\n")
+  endif()
+endforeach()
+
+# The library is static, so whoever links it links what it needs too: nothing is private.
+set(pc_requires "")
+set(pc_cflags "")
+set(pc_libs "")
+set(pc_component tool)
+if(TARGET dyngen_runtime)
+  set(pc_component runtime)
+  set(pc_requires "eigen3 fmt")
+  if(DYNGEN_RUNTIME_WITH_ZLIB)
+    string(APPEND pc_requires " zlib")
+  endif()
+  if(DYNGEN_RUNTIME_WITH_BLAS)
+    string(APPEND pc_requires " openblas")
+  endif()
+  set(pc_cflags "-I\${includedir}/dyngen")
+  set(pc_libs "-L\${libdir} -ldyngen_runtime -pthread")
+endif()
+configure_file(${PROJECT_SOURCE_DIR}/cmake/dyngen.pc.in ${PROJECT_BINARY_DIR}/package/dyngen.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/package/dyngen.pc
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT ${pc_component})
