@@ -254,8 +254,8 @@ std::string view_table(const std::string& name, const std::vector<std::string>& 
   std::string line;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string entry = fmt::format("\"{}\"{}", names[i], i + 1 < names.size() ? "," : "");
-    constexpr std::size_t kColumns = 100;
-    if (line.empty() || line.size() + 1 + entry.size() > kColumns) {
+    constexpr std::size_t kLineWidth = 100;
+    if (line.empty() || line.size() + 1 + entry.size() > kLineWidth) {
       text += line.empty() ? "" : "\n" + line;
       line = "    " + entry;
     } else {

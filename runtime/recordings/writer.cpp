@@ -127,8 +127,8 @@ void write_rows(const Recording& recording, OutputFile& file) {
       text += std::to_string(run);
     }
     text += '\n';
-    constexpr std::size_t kPiece = 1 << 18;
-    if (text.size() > kPiece) {
+    constexpr std::size_t kWrittenAtOnce = 1 << 18;
+    if (text.size() > kWrittenAtOnce) {
       file.write(text);
       text.clear();
     }

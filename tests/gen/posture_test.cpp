@@ -15,7 +15,7 @@
 namespace dyngen::test {
 namespace {
 
-const std::string kTree =
+const std::string kTreeFile =
     "number_link 5\nant 0 1 1 3 2\nsigma 0 0 2 1 0\nal 0 pi/2 0.3 pi 0\nd 0.1 0.4 -0.2 0.3 0\n"
     "th 0.2 0 pi/3 0 0\nr 0.3 0.1 0 0.2 0.15\ngz 9.81\nstop\n";
 
@@ -60,7 +60,7 @@ TEST(Posture, FramesAreThoseOfTheNumericJudge) {
         "tests/robots/odd_angles", "tests/robots/flip3r", "tests/robots/rp"}) {
     expect_as_judged(read_model(std::string(name) + ".robot"));
   }
-  expect_as_judged(parse_model(kTree));
+  expect_as_judged(parse_model(kTreeFile));
 }
 
 TEST(Posture, OfThePumaIsThatOfItsPaper) {  // Armstrong, Khatib and Burdick 1986, figure 1

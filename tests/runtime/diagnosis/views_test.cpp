@@ -308,7 +308,7 @@ TEST(Views, NoiseOfPositionsIsNotInWhatColumnsAreHeldAgainst) {
 /// The planar arm at 500 Hz, its positions with noise that a quick low-pass makes large
 /// accelerations of. @param repeats  in whole samples
 MotionSource noisy_arm(bool repeats) {
-  constexpr double kNoise = 1e-4;  // rad
+  constexpr double kPositionNoise = 1e-4;  // rad
   const Motion exact = test::sines(30, 1 / kRate, 0.3);
   Recording recording;
   recording.time = exact.time;
@@ -322,7 +322,7 @@ MotionSource noisy_arm(bool repeats) {
   }
   std::mt19937_64 random(8);
   std::normal_distribution<double> normal;
-  for (double& q : recording.q.reshaped()) q += kNoise * normal(random);
+  for (double& q : recording.q.reshaped()) q += kPositionNoise * normal(random);
   recording.run_starts = {0};
   MotionOptions options;
   options.average_periods = false;

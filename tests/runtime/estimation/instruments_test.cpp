@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kParameters = 6;
-constexpr Index kSamples = 1500;
+constexpr Index kRows = 1500;
 
 /// A regressor that was measured with noise of this size; the true one is the instrument.
 struct NoisyRegressor {
@@ -25,13 +25,13 @@ struct NoisyRegressor {
   MatrixXd measured;
   MatrixXd tau;
 
-  NoisyRegressor(double noise, std::uint64_t seed) : truth(kParameters, kSamples, seed) {
+  NoisyRegressor(double noise, std::uint64_t seed) : truth(kParameters, kRows, seed) {
     std::mt19937_64 random(seed + 1000);
     std::normal_distribution<double> normal;
     measured = truth.Y;
     for (Index j = 0; j < 2; ++j) {
       for (const int c : truth.columns[static_cast<std::size_t>(j)]) {
-        for (Index k = 0; k < kSamples; ++k) {
+        for (Index k = 0; k < kRows; ++k) {
           measured(k, j * kParameters + c) += noise * normal(random);
         }
       }
@@ -41,7 +41,7 @@ struct NoisyRegressor {
 
   [[nodiscard]] InstrumentSource source() const {
     return [this](const std::function<void(const InstrumentBlock&)>& visit) {
-      for (Index start = 0; start < kSamples; start += 500) {
+      for (Index start = 0; start < kRows; start += 500) {
         visit({{measured.middleRows(start, 500), tau.middleRows(start, 500), {}, start > 0},
                truth.Y.middleRows(start, 500)});
       }

@@ -14,17 +14,17 @@ using Eigen::Isometry3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
 
-double number(const GiNaC::ex& value) {
+double decimal(const GiNaC::ex& value) {
   return GiNaC::ex_to<GiNaC::numeric>(value.evalf()).to_double();
 }
 
-double number(const Quantity& quantity) { return quantity.unknown ? 0 : number(quantity.value); }
+double decimal(const Quantity& quantity) { return quantity.unknown ? 0 : decimal(quantity.value); }
 
 ReportArm::Point point(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 /// Where a link lies that no other one hangs on: towards its mass, else along its x axis.
 Vector3d direction_of(const JointModel& own) {
-  const auto moment = [&](Chi kind) { return number(own.chi[static_cast<std::size_t>(kind)]); };
+  const auto moment = [&](Chi kind) { return decimal(own.chi[static_cast<std::size_t>(kind)]); };
   const Vector3d mass(moment(Chi::kMX), moment(Chi::kMY), moment(Chi::kMZ));
   return mass.norm() > 1e-6 ? mass.normalized() : Vector3d::UnitX();
 }
@@ -55,17 +55,17 @@ void add_last_links(const RobotModel& model, const std::vector<Isometry3d>& fram
 ReportArm arm_drawing(const RobotModel& model, const Eigen::VectorXd& q,
                       const std::vector<int>& marked) {
   ReportArm arm;
-  const Vector3d up(number(model.gravity[0]), number(model.gravity[1]), number(model.gravity[2]));
+  const Vector3d up(decimal(model.gravity[0]), decimal(model.gravity[1]), decimal(model.gravity[2]));
   if (up.norm() > 0) arm.up = point(up.normalized());
   std::vector<Isometry3d> frames = {Isometry3d::Identity()};
   for (const JointModel& own : model.joints) {
     const Isometry3d& parent = frames[static_cast<std::size_t>(own.parent)];
     const double at = own.coordinate >= 0 ? q[own.coordinate] : 0;
     const bool slides = own.type == JointType::kPrismatic;
-    const double theta = number(own.theta) + (own.type == JointType::kRevolute ? at : 0);
-    const double r = number(own.r) + (slides ? at : 0);
-    const Isometry3d across = AngleAxisd(number(own.alpha), Vector3d::UnitX()) *
-                              Translation3d(number(own.d), 0, 0);  // they commute
+    const double theta = decimal(own.theta) + (own.type == JointType::kRevolute ? at : 0);
+    const double r = decimal(own.r) + (slides ? at : 0);
+    const Isometry3d across = AngleAxisd(decimal(own.alpha), Vector3d::UnitX()) *
+                              Translation3d(decimal(own.d), 0, 0);  // they commute
     const Isometry3d along = AngleAxisd(theta, Vector3d::UnitZ()) * Translation3d(0, 0, r);
     const bool modified = model.convention == DhConvention::kModified;
     const Isometry3d corner = parent * (modified ? across : along);
