@@ -26,20 +26,20 @@ using test::NumericRobot;
 using Values = std::vector<long double>;
 
 constexpr int kSamples = 7;
-constexpr unsigned kSeed = 20261121;
+constexpr unsigned kTangentSeed = 20261121;
 constexpr double kTolerance = 1e-6;  // of central differences; what is found is some 1e-10
 constexpr const char* kRobots[] = {"tests/robots/puma560_corke_std.robot",
                                    "tests/robots/ur10e_oracle.robot", "tests/robots/rp.robot"};
 
 /// A robot of a file, the judge's twin of it, and a random motion.
-struct Case {
-  explicit Case(const std::string& path)
+struct TangentCase {
+  explicit TangentCase(const std::string& path)
       : robot(describe_robot(std::string(DYNGEN_SOURCE_DIR) + "/" + path,
                              OpenParameters::kAsWritten)),
         twin(test::numeric_robot(robot.model)),
         beta(robot.grouping * robot.standard) {
     for (NumericJoint& joint : twin.joints) joint.IA = joint.Fs = joint.Fv = joint.off = 0;
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kTangentSeed);
     std::uniform_real_distribution<double> uniform(-2, 2);
     const Index n = robot.model.coordinate_count;
     for (MatrixXd* part : {&motion.q, &motion.dq, &motion.ddq}) {
@@ -69,7 +69,7 @@ struct Case {
 /// One of the robot's tangents at a time.
 class Tangent {
  public:
-  explicit Tangent(const Case& own) : tangents_(robot_tangents(own.robot)) {}
+  explicit Tangent(const TangentCase& own) : tangents_(robot_tangents(own.robot)) {}
   MatrixXd operator()(const std::string& name, int link, const JointMotion& motion,
                       const VectorXd& beta, double further = 0) const {
     return tangents_({name, link}, motion, beta, further).at({name, link});
@@ -80,7 +80,7 @@ class Tangent {
 };
 
 /// Central differences of the judge by a number of the robot, beside the tangent.
-double error_of(const Case& own, const MatrixXd& tangent,
+double error_of(const TangentCase& own, const MatrixXd& tangent,
                 const std::function<void(NumericRobot&, double)>& change) {
   constexpr double kStep = 1e-5;
   test::RelativeError error;
@@ -101,7 +101,7 @@ double error_of(const Case& own, const MatrixXd& tangent,
 class RobotTangents : public testing::TestWithParam<const char*> {};
 
 TEST_P(RobotTangents, ByConstantsOfTheTableAreDifferencesOfTheTorque) {
-  const Case own(GetParam());
+  const TangentCase own(GetParam());
   const Tangent tangent(own);
   const auto check = [&](const std::string& name, int link, double NumericJoint::*constant) {
     const MatrixXd found = tangent(name, link, own.motion, own.beta);
@@ -121,7 +121,7 @@ TEST_P(RobotTangents, ByConstantsOfTheTableAreDifferencesOfTheTorque) {
 }
 
 TEST_P(RobotTangents, ByGravityAndPayloadAreDifferencesOfTheTorque) {
-  const Case own(GetParam());
+  const TangentCase own(GetParam());
   const Tangent tangent(own);
   const std::string gravity[] = {"d_gx", "d_gy", "d_gz"};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -143,7 +143,7 @@ TEST_P(RobotTangents, ByGravityAndPayloadAreDifferencesOfTheTorque) {
 }
 
 TEST_P(RobotTangents, WhatALevelBaseHidesShowsWhereItIsTilted) {
-  const Case own(GetParam());
+  const TangentCase own(GetParam());
   const Tangent tangent(own);
   std::size_t first = 0;
   while (own.robot.model.joints[first].coordinate < 0) ++first;
@@ -183,7 +183,7 @@ TEST_P(RobotTangents, WhatALevelBaseHidesShowsWhereItIsTilted) {
 }
 
 TEST_P(RobotTangents, ByTheMotionAreDifferencesOfTheTorque) {
-  const Case own(GetParam());
+  const TangentCase own(GetParam());
   const Tangent tangent(own);
   constexpr double kStep = 1e-5;
   const std::pair<const char*, MatrixXd JointMotion::*> parts[] = {
@@ -193,7 +193,7 @@ TEST_P(RobotTangents, ByTheMotionAreDifferencesOfTheTorque) {
       const int coordinate = own.robot.model.joint(link).coordinate;
       if (coordinate < 0) continue;
       const MatrixXd found = tangent(name, link, own.motion, own.beta);
-      Case more = own, less = own;
+      TangentCase more = own, less = own;
       (more.motion.*part).col(coordinate).array() += kStep;
       (less.motion.*part).col(coordinate).array() -= kStep;
       test::RelativeError error;
@@ -219,7 +219,7 @@ TEST_P(RobotTangents, ByTheMotionAreDifferencesOfTheTorque) {
 
 TEST_P(RobotTangents, FurtherOnAreThoseOfARobotThatIsSo) {
   constexpr double kFurther = 0.2;
-  const Case own(GetParam());
+  const TangentCase own(GetParam());
   const Tangent tangent(own);
   const std::pair<const char*, double NumericJoint::*> constants[] = {
       {"d_alpha", &NumericJoint::alpha},
@@ -228,7 +228,7 @@ TEST_P(RobotTangents, FurtherOnAreThoseOfARobotThatIsSo) {
       {"d_r", &NumericJoint::r}};
   for (int link = 1; link <= own.robot.model.size(); ++link) {
     for (const auto& [name, constant] : constants) {
-      Case there = own;
+      TangentCase there = own;
       there.twin.joints[static_cast<std::size_t>(link - 1)].*constant += kFurther;
       const MatrixXd found = tangent(name, link, own.motion, own.beta, kFurther);
       const auto step = [&, at = constant](NumericRobot& robot, double size) {
@@ -248,7 +248,7 @@ TEST_P(RobotTangents, FurtherOnAreThoseOfARobotThatIsSo) {
 }
 
 TEST_P(RobotTangents, OfOneProgramComeTogether) {
-  const Case own(GetParam());
+  const TangentCase own(GetParam());
   const TangentFunction tangents = robot_tangents(own.robot);
   std::size_t moving = 0;
   for (const JointModel& joint : own.robot.model.joints) moving += joint.coordinate >= 0 ? 1 : 0;
@@ -263,7 +263,7 @@ TEST_P(RobotTangents, OfOneProgramComeTogether) {
 }
 
 TEST_P(RobotTangents, OfAForceAreDifferencesOfItsPath) {
-  const Case own(GetParam());
+  const TangentCase own(GetParam());
   const Tangent tangent(own);
   const std::string axes[] = {"fx", "fy", "fz"};
   constexpr long double kStep = 1e-5L;
@@ -326,7 +326,7 @@ NumericRobot with_joint_along(const NumericRobot& robot, std::size_t j, int axis
 
 TEST(RobotTangents, OfAWrenchAreTorquesOfJointsAlongItsAxes) {
   // modified frames: a joint that is put behind link j stands in its frame
-  const Case own("tests/robots/ur10e_oracle.robot");
+  const TangentCase own("tests/robots/ur10e_oracle.robot");
   const Tangent tangent(own);
   const std::string names[] = {"fx", "fy", "fz", "nx", "ny", "nz"};
   for (int component = 0; component < 6; ++component) {
