@@ -46,7 +46,7 @@ echo "Part 1. Building dyngen in $build (about a minute the first time) ..."
 part=$(date +%s)
 : >"$log"
 quietly cmake -C cmake/QuickBuild.cmake -G Ninja -S . -B "$build" -DDYNGEN_BUILD_TESTS=OFF
-quietly cmake --build "$build" --target dyngen
+quietly cmake --build "$build" --parallel "$(nproc)" --target dyngen
 show "$build/gen/dyngen" robots/puma560.robot -o "$build/puma560.c"
 wc -l "$build/puma560.c" "$build/puma560.h" | sed '/total/d'
 show "$build/gen/dyngen" robots/puma560.robot --count
@@ -57,7 +57,7 @@ took "part 1" "$part"
 echo
 echo "Part 2. Building dynid (three to four minutes the first time) ..."
 part=$(date +%s)
-quietly cmake --build "$build" --target dynid
+quietly cmake --build "$build" --parallel "$(nproc)" --target dynid
 took "building dynid" "$part"
 
 # A motion that is repeated five times, in rows of 10 ms.
