@@ -21,7 +21,7 @@ struct Case {
 
 Case make_case(const std::string& name) {
   Case one;
-  one.robot = describe_robot(std::string(DYNGEN_SOURCE_DIR) + "/robots/" + name + ".robot",
+  one.robot = describe_robot(std::string(DYNGEN_SOURCE_DIR "/robots/") + name + ".robot",
                              OpenParameters::kAbsentRows, {.gradient = true});
   one.limits = limits_of(one.robot, {}).limits;
   const TrajectoryFamily family;

@@ -26,7 +26,7 @@ std::string errors_of(const std::string& text) {
 }
 
 RobotFile read_golden(const std::string& name) {
-  return read_robot_file(std::string(DYNGEN_SOURCE_DIR) + "/tests/golden/" + name);
+  return read_robot_file(std::string(DYNGEN_SOURCE_DIR "/tests/golden/") + name);
 }
 
 /// Whether a row holds these numbers; "*" stands for unknown.

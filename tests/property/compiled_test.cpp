@@ -19,7 +19,7 @@ std::vector<std::string> all_robots() {
   std::vector<std::string> paths;
   for (const std::string folder : {"robots", "tests/robots"}) {
     for (const auto& entry :
-         std::filesystem::directory_iterator(std::string(DYNGEN_SOURCE_DIR) + "/" + folder)) {
+         std::filesystem::directory_iterator(std::string(DYNGEN_SOURCE_DIR "/") + folder)) {
       if (entry.path().extension() == ".robot") {
         paths.push_back(folder + "/" + entry.path().filename().string());
       }

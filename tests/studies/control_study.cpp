@@ -35,7 +35,7 @@ constexpr double kBandwidth = 3;  // Hz
 constexpr unsigned kSeed = 1;
 
 std::string in_project(const std::string& path) {
-  return std::string(DYNGEN_SOURCE_DIR) + "/" + path;
+  return std::string(DYNGEN_SOURCE_DIR "/") + path;
 }
 
 runtime::Trajectory study_trajectory(const MotionLimits& limits, double seconds) {

@@ -120,9 +120,8 @@ double EffectRecovery::worst() const {
 }
 
 runtime::DescribedRobot effect_study_robot() {
-  return runtime::describe_robot(
-      std::string(DYNGEN_SOURCE_DIR) + "/tests/studies/robots/puma3.robot",
-      runtime::OpenParameters::kAsWritten);
+  return runtime::describe_robot(std::string(DYNGEN_SOURCE_DIR "/tests/studies/robots/puma3.robot"),
+                                 runtime::OpenParameters::kAsWritten);
 }
 
 EffectRecovery recover(const runtime::DescribedRobot& robot, const EffectFile& effect,

@@ -23,7 +23,7 @@ using runtime::JointMotion;
 using runtime::LinearModel;
 
 std::string in_project(const std::string& path) {
-  return std::string(DYNGEN_SOURCE_DIR) + "/" + path;
+  return std::string(DYNGEN_SOURCE_DIR "/") + path;
 }
 
 double median(std::vector<double> values) {

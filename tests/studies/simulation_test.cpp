@@ -30,8 +30,8 @@ VectorXd random_vector(std::mt19937_64& random, Index size, double range) {
 TEST(SimulatedRobot, FunctionsAreThoseOfTheJudge) {
   std::mt19937_64 random(20261121);
   for (const char* file : {"robots/puma560.robot", "tests/studies/robots/panda.robot"}) {
-    const SimulatedRobot robot = runtime::read_simulated_robot(
-        std::string(DYNGEN_SOURCE_DIR) + "/" + file, RobotUse::kPlant);
+    const SimulatedRobot robot =
+        runtime::read_simulated_robot(std::string(DYNGEN_SOURCE_DIR "/") + file, RobotUse::kPlant);
     const NumericRobot numeric = numeric_robot(read_model(file));
     const runtime::PlantModel judge = numeric_plant(numeric);
     const runtime::ControlModel judge_control = numeric_control(numeric);
@@ -126,7 +126,7 @@ TEST(TwoSimulators, Agree) {
     const ClosedLoopRun theirs = simulate(robot.truth, motion, loop, 1);
 
     const SimulatedRobot plant = runtime::read_simulated_robot(
-        std::string(DYNGEN_SOURCE_DIR) + "/tests/studies/robots/" + name + ".robot",
+        std::string(DYNGEN_SOURCE_DIR "/tests/studies/robots/") + name + ".robot",
         RobotUse::kPlant);
     runtime::ControllerOptions chosen;
     chosen.law = runtime::ControlLaw::kPd;

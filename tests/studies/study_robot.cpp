@@ -79,7 +79,7 @@ StudyRobot study_robot(const std::string& name) {
   }
   // the PUMA's zeros are grouped into other parameters; the others' say nothing
   robot.described = runtime::describe_robot(
-      std::string(DYNGEN_SOURCE_DIR) + "/" + path,
+      std::string(DYNGEN_SOURCE_DIR "/") + path,
       name == "puma3" ? OpenParameters::kAsWritten : OpenParameters::kEverything);
   robot.truth = numeric_robot(read_model(path));
   robot.beta = robot.described.grouping * standard_of(robot.truth);

@@ -115,7 +115,7 @@ std::vector<NamedRobot> random_trees() { return random_robots(10, true); }
 std::vector<NamedRobot> robots_of_files() {
   namespace fs = std::filesystem;
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(std::string(DYNGEN_SOURCE_DIR) + "/robots")) {
+  for (const auto& entry : fs::directory_iterator(std::string(DYNGEN_SOURCE_DIR "/robots"))) {
     if (entry.path().extension() == ".robot") names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());

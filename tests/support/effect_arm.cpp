@@ -25,7 +25,7 @@ const char* const kStatefulRows =
     "effect exponential_viscous joint=1 A=0.4 vt=0.5";
 
 RobotModel arm_with(const std::string& rows) {
-  std::ifstream file(std::string(DYNGEN_SOURCE_DIR) + "/robots/planar2r.robot");
+  std::ifstream file(std::string(DYNGEN_SOURCE_DIR "/robots/planar2r.robot"));
   std::stringstream text;
   text << file.rdbuf();
   std::string robot = text.str();

@@ -110,7 +110,7 @@ RobotModel robot_model(const NumericRobot& robot, const std::string& name) {
 }
 
 RobotModel read_model(const std::string& path_in_project) {
-  return build_model(read_robot_file(std::string(DYNGEN_SOURCE_DIR) + "/" + path_in_project));
+  return build_model(read_robot_file(std::string(DYNGEN_SOURCE_DIR "/") + path_in_project));
 }
 
 RobotModel parse_model(const std::string& text) {

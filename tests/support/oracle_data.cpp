@@ -19,7 +19,7 @@ constexpr std::array<const char*, 10> kInertialNames = {"XX", "XY", "XZ", "YY", 
                                                         "ZZ", "MX", "MY", "MZ", "M"};
 
 std::string oracle_path(const std::string& file) {
-  return std::string(DYNGEN_SOURCE_DIR) + "/tests/data/oracles/" + file;
+  return std::string(DYNGEN_SOURCE_DIR "/tests/data/oracles/") + file;
 }
 
 std::ifstream open_oracle(const std::string& file) {

@@ -18,7 +18,7 @@ std::string text_of_file(const std::string& path) {
 
 TEST(EffectsDocument, IsWhatTheEffectFilesSay) {
   const EffectCatalogue catalogue;
-  EXPECT_TRUE(text_of_file(std::string(DYNGEN_SOURCE_DIR) + "/docs/effects.md") ==
+  EXPECT_TRUE(text_of_file(std::string(DYNGEN_SOURCE_DIR "/docs/effects.md")) ==
               effects_markdown(catalogue, "effects"))
       << "run: dynid effects --markdown docs/effects.md --figures docs/effects";
 }
@@ -26,7 +26,7 @@ TEST(EffectsDocument, IsWhatTheEffectFilesSay) {
 TEST(EffectsDocument, HasAPictureOfEveryFamily) {
   const EffectCatalogue catalogue;
   for (const FamilyFigure& own : family_figures(catalogue)) {
-    EXPECT_TRUE(std::filesystem::exists(std::string(DYNGEN_SOURCE_DIR) + "/docs/effects/" +
+    EXPECT_TRUE(std::filesystem::exists(std::string(DYNGEN_SOURCE_DIR "/docs/effects/") +
                                         own.family + ".svg"))
         << own.family;
     for (const Panel& panel : own.figure.panels) {

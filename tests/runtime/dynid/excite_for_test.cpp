@@ -34,7 +34,7 @@ const std::string kSearch = " --evaluations 250 ";
 
 /// A robot file with further rows.
 std::string robot(const std::string& source, const std::string& name, const std::string& rows) {
-  std::string text = content(std::string(DYNGEN_SOURCE_DIR) + "/" + source);
+  std::string text = content(std::string(DYNGEN_SOURCE_DIR "/") + source);
   text.insert(text.rfind("stop"), rows);
   std::ofstream(temporary_path(name)) << text;
   return temporary_path(name);

@@ -34,8 +34,8 @@ constexpr const char* kRobots[] = {"tests/robots/puma560_corke_std.robot",
 /// A robot of a file, the judge's twin of it, and a random motion.
 struct TangentCase {
   explicit TangentCase(const std::string& path)
-      : robot(describe_robot(std::string(DYNGEN_SOURCE_DIR) + "/" + path,
-                             OpenParameters::kAsWritten)),
+      : robot(
+            describe_robot(std::string(DYNGEN_SOURCE_DIR "/") + path, OpenParameters::kAsWritten)),
         twin(test::numeric_robot(robot.model)),
         beta(robot.grouping * robot.standard) {
     for (NumericJoint& joint : twin.joints) joint.IA = joint.Fs = joint.Fv = joint.off = 0;
