@@ -78,20 +78,18 @@ fresh_tree() {
   git -c safe.directory='*' clone -q --no-hardlinks "$project" "$tree/root/dyngen"
   mkdir -p "$tree/dev/shm"
   mount --bind /proc "$tree/proc"
-  if [ -d "$project/../shared" ]; then
-    mkdir "$tree/root/shared"
-    mount --bind "$project/../shared" "$tree/root/shared"
-    mount -o remount,bind,ro "$tree/root/shared" 2>/dev/null || true
-  fi
+  # copied, not mounted: nothing that goes wrong in the tree can reach it
+  if [ -d "$project/../shared" ]; then cp -a "$project/../shared" "$tree/root/shared"; fi
   launcher=
   if [ -n "$ccache" ]; then
     sh "$project/cmake/install_packages.sh" ccache
     # the program and its libraries beside the system, which does not learn of them
-    mkdir -p "$ccache" "$tree/opt/ccache/cache"
-    cp "$(command -v ccache)" "$tree/opt/ccache/program"
-    ldd "$(command -v ccache)" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | xargs cp -t "$tree/opt/ccache"
-    rm -f "$tree"/opt/ccache/libc.so* "$tree"/opt/ccache/libm.so*
-    printf '#!/bin/sh\nLD_LIBRARY_PATH=/opt/ccache exec /opt/ccache/program "$@"\n' >"$tree/opt/ccache/ccache"
+    mkdir -p "$ccache" "$tree/opt/ccache/cache" "$tree/opt/ccache/program"
+    cp "$(command -v ccache)" "$tree/opt/ccache/program/ccache"
+    ldd "$(command -v ccache)" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p' | xargs cp -t "$tree/opt/ccache/program"
+    # those of the C library have to be the tree's own
+    rm -f "$tree"/opt/ccache/program/libc.so* "$tree"/opt/ccache/program/libm.so* "$tree"/opt/ccache/program/libpthread.so*
+    printf '#!/bin/sh\nLD_LIBRARY_PATH=/opt/ccache/program exec /opt/ccache/program/ccache "$@"\n' >"$tree/opt/ccache/ccache"
     chmod +x "$tree/opt/ccache/ccache"
     mount --bind "$ccache" "$tree/opt/ccache/cache"
     launcher=/opt/ccache/ccache
