@@ -79,7 +79,7 @@ fresh_tree() {
   mkdir -p "$tree/dev/shm"
   mount --bind /proc "$tree/proc"
   # copied, not mounted: nothing that goes wrong in the tree can reach it
-  if [ -d "$project/../shared" ]; then cp -a "$project/../shared" "$tree/root/shared"; fi
+  if [ -d "$project/../shared" ]; then cp -a "$project/../shared/." "$tree/root/shared"; fi
   launcher=
   if [ -n "$ccache" ]; then
     sh "$project/cmake/install_packages.sh" ccache
