@@ -14,6 +14,8 @@ foreach(list IN ITEMS part/list.txt bad.txt)
       -o ${name}_${K}.robot --json ${name}_${K}.json)
     expect_same_file("${K} processes" ${WORK}/${name}.robot ${WORK}/${name}_${K}.robot)
     expect_same_file("${K} processes" ${WORK}/${name}.json ${WORK}/${name}_${K}.json)
+    # what mpirun's libraries say of a machine without /sys, a bare tree for instance
+    string(REGEX REPLACE "\\[hwloc/[^\n]*\n" "" text "${text}")
     if(NOT text STREQUAL alone)
       message(FATAL_ERROR "${list}: ${K} processes print\n${text}\nwithout mpirun:\n${alone}")
     endif()
