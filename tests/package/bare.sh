@@ -21,6 +21,7 @@ artifacts=${BARE_ARTIFACTS:-$cache/logs}
 ccache=${BARE_CCACHE:-}
 base=$cache/base
 tree=$cache/tree
+clone=/root/dyngen # within the tree
 times=$artifacts/times.txt
 
 fail() {
@@ -67,7 +68,7 @@ release_tree() {
 trap release_tree EXIT
 trap 'exit 1' INT TERM HUP
 
-# A fresh tree with a clean clone in /root/dyngen, and recordings beside it where this machine has them.
+# A fresh tree with a clean clone, and recordings beside it where this machine has them.
 fresh_tree() {
   release_tree
   # never below a mount
@@ -75,11 +76,14 @@ fresh_tree() {
   rm -rf "$tree"
   cp -a "$base" "$tree"
   cp /etc/resolv.conf "$tree/etc/resolv.conf"
-  git -c safe.directory='*' clone -q --no-hardlinks "$project" "$tree/root/dyngen"
+  git -c safe.directory='*' clone -q --no-hardlinks "$project" "$tree$clone"
   mkdir -p "$tree/dev/shm"
   mount --bind /proc "$tree/proc"
-  # copied, not mounted: nothing that goes wrong in the tree can reach it
-  if [ -d "$project/../shared" ]; then cp -a "$project/../shared/." "$tree/root/shared"; fi
+  # copied, not mounted: nothing that goes wrong in the tree can reach them
+  if [ -d "$project/../shared/data" ]; then
+    mkdir -p "$tree$(dirname "$clone")/shared/data"
+    cp -a "$project/../shared/data/." "$tree$(dirname "$clone")/shared/data"
+  fi
   launcher=
   if [ -n "$ccache" ]; then
     sh "$project/cmake/install_packages.sh" ccache
@@ -107,11 +111,11 @@ in_tree() {
   code=0
   if [ -n "$launcher" ]; then
     set -- env CMAKE_C_COMPILER_LAUNCHER=$launcher CMAKE_CXX_COMPILER_LAUNCHER=$launcher \
-      CCACHE_DIR=/opt/ccache/cache CCACHE_BASEDIR=/root/dyngen CCACHE_NOHASHDIR=1 CCACHE_COMPILERCHECK=content \
+      CCACHE_DIR=/opt/ccache/cache CCACHE_BASEDIR="$clone" CCACHE_NOHASHDIR=1 CCACHE_COMPILERCHECK=content \
       CCACHE_SLOPPINESS=pch_defines,time_macros "$@"
   fi
   { env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
-      chroot "$tree" sh -c 'cd /root/dyngen && exec "$@"' sh "$@" 2>&1 </dev/null || echo $? >"$artifacts/code"; } |
+      chroot "$tree" sh -c 'cd "$1" && shift && exec "$@"' sh "$clone" "$@" 2>&1 </dev/null || echo $? >"$artifacts/code"; } |
     tee "$log"
   if [ -f "$artifacts/code" ]; then
     code=$(cat "$artifacts/code")
@@ -124,7 +128,7 @@ in_tree() {
 
 keep() {
   for file in "$@"; do
-    if [ -f "$tree/root/dyngen/$file" ]; then cp "$tree/root/dyngen/$file" "$artifacts/"; fi
+    if [ -f "$tree$clone/$file" ]; then cp "$tree$clone/$file" "$artifacts/"; fi
   done
 }
 
