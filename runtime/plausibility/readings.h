@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/model/linear_model.h"
+#include "runtime/plausibility/trial_fit.h"
+
+namespace dyngen::runtime {
+
+/// A reading with its name.
+struct NamedReading {
+  std::string kind;  ///< of Remark
+  int joint = 0;     ///< from 1; 0: no single one
+  std::string what;  ///< "positions are in degrees"
+  std::string cure;  ///< "multiply them by pi/180"
+  Reading reading;
+};
+
+/// Other units of all positions and of time.
+std::vector<NamedReading> other_units(const LinearModel& model, const Reading& base);
+
+/// Turned signs of each joint's position, torque, and both.
+std::vector<NamedReading> turned_signs(const Reading& base);
+
+/// Two columns in each other's place: positions, torques, and both.
+std::vector<NamedReading> swapped_columns(const LinearModel& model, const Reading& base);
+
+}  // namespace dyngen::runtime
