@@ -163,14 +163,30 @@ bool enough_equations(const std::vector<TorqueFactor>& blocks) {
   return all.samples() > 4.0 * static_cast<double>(all.parameters);
 }
 
+/// Mean over blocks of the logarithm of a ratio of squares, and its standard deviation: one block
+/// in which everything fails decides no more than the others.
+struct MeanLogarithm {
+  double mean = 0, deviation = 0;
+};
+
+MeanLogarithm compared(const VectorXd& trial, const VectorXd& other) {
+  std::vector<double> logarithms;
+  for (Index b = 0; b < trial.size(); ++b) {
+    if (trial[b] > 0 && other[b] > 0) logarithms.push_back(std::log(trial[b] / other[b]));
+  }
+  const auto count = static_cast<Index>(logarithms.size());
+  if (count < 2) return {};
+  const Eigen::Map<const Eigen::ArrayXd> ratio(logarithms.data(), count);
+  const double blocks = static_cast<double>(count), mean = ratio.mean();
+  return {mean, std::sqrt((ratio - mean).square().sum() / (blocks - 1) / blocks)};
+}
+
 /// Whether a trial is worse than the best one, block by block. Both: (kBlocks)
 bool is_worse(const VectorXd& trial, const VectorXd& best) {
-  const VectorXd more = trial - best;
-  const double mean = more.mean();
-  if (mean <= kNoWorse * best.mean()) return false;
-  const double blocks = static_cast<double>(kBlocks);
-  const double deviation = std::sqrt((more.array() - mean).square().sum() / (blocks - 1) / blocks);
-  return mean > student_interval(kConfidence, blocks - 1) * deviation;
+  const MeanLogarithm ratio = compared(trial, best);
+  if (ratio.mean <= std::log1p(kNoWorse)) return false;
+  return ratio.mean >
+         student_interval(kConfidence, static_cast<double>(kBlocks - 1)) * ratio.deviation;
 }
 
 struct Trial {
@@ -232,24 +248,18 @@ std::vector<MotionSource> behind(const std::vector<const MotionSource*>& sources
   return all;
 }
 
-/// The nearest to the first of those that are no worse than the best.
+/// The first, if it is no worse than the best.
 const Trial& taken(const std::vector<Trial>& trials) {
-  const Trial& best =
-      *std::min_element(trials.begin(), trials.end(),
-                        [](const Trial& a, const Trial& b) { return a.sum.sum() < b.sum.sum(); });
-  const auto distance = [&](const Trial& trial) {
-    return std::abs(std::log(trial.hz / trials.front().hz));
-  };
-  const Trial* nearest = &best;
+  const Trial* best = &trials.front();
   for (const Trial& trial : trials) {
-    if (distance(trial) < distance(*nearest) && !is_worse(trial.sum, best.sum)) nearest = &trial;
+    if (compared(trial.sum, best->sum).mean < 0) best = &trial;
   }
-  return *nearest;
+  return is_worse(trials.front().sum, best->sum) ? *best : trials.front();
 }
 
 std::string words_of(const Trial& chosen, const Trial& first, std::size_t recordings) {
   const std::string whose = recordings > 1 ? " for all recordings" : "";
-  const double ratio = std::sqrt(first.sum.sum() / chosen.sum.sum());
+  const double ratio = std::exp(0.5 * compared(first.sum, chosen.sum).mean);
   return fmt::format(
       "cut-off {:.3g} Hz{}: torque of blocks that are left out is predicted {:.3g} times as well "
       "as behind {:.3g} Hz, up to which accelerations are above their noise",
@@ -287,6 +297,11 @@ Cutoff common_cutoff(const LinearModel& model, const std::vector<MotionSource>& 
     trials.push_back({hz, predicted_squares(blocks), {}});
   }
   add_up(trials);
+  for (const Trial& t : trials)
+    fprintf(
+        fmt::format("{}",
+                    fmt::join(std::vector<double>(t.sum.data(), t.sum.data() + t.sum.size()), " "))
+            .c_str());
   const Trial& chosen = taken(trials);
   if (&chosen == &trials.front()) return first;
   return {chosen.hz, words_of(chosen, trials.front(), sources.size())};

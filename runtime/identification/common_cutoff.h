@@ -20,9 +20,9 @@ Cutoff median_cutoff(const std::vector<MotionSource>& sources);
 /// frequency. Each trial fits the model to nine of ten blocks of consecutive samples and predicts
 /// the tenth, ten times; torque is what was measured, never filtered, so that all trials answer for
 /// the same numbers (blocked cross-validation: Burman, Chow and Nolan, "A cross-validatory method
-/// for dependent data", Biometrika 81, 1994). The trial that is nearest to the first choice is
-/// taken, of those that are no worse than the best one: by a twentieth of its squares, or by what
-/// differs among blocks.
+/// for dependent data", Biometrika 81, 1994). The first choice stays unless the best trial leaves
+/// certainly less: by a twentieth of the squares in the geometric mean of the blocks, and more than
+/// blocks differ.
 ///
 /// Speeds and accelerations that are noisy, or torque of vibration, so lower the cut-off; motion
 /// that is lost raises it.
