@@ -297,11 +297,6 @@ Cutoff common_cutoff(const LinearModel& model, const std::vector<MotionSource>& 
     trials.push_back({hz, predicted_squares(blocks), {}});
   }
   add_up(trials);
-  for (const Trial& t : trials)
-    fprintf(
-        fmt::format("{}",
-                    fmt::join(std::vector<double>(t.sum.data(), t.sum.data() + t.sum.size()), " "))
-            .c_str());
   const Trial& chosen = taken(trials);
   if (&chosen == &trials.front()) return first;
   return {chosen.hz, words_of(chosen, trials.front(), sources.size())};

@@ -19,11 +19,11 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 // All of torque that a plain fit leaves, as a part of it (norms), of the joint that is worst.
-constexpr double kSuspicious = 0.3;      // from here on other readings are tried
-constexpr double kFarBetter = 0.4;       // of what is left: another reading is meant
-constexpr double kNotMuchWorse = 1.2;    // what it may leave of other joints
-constexpr double kMuch = 0.5;            // said, if nothing explains it
-constexpr double kGravityMatters = 0.1;  // from here on other gravity is tried
+constexpr double kSuspicious = 0.03;   // from here on other readings are tried, and other gravity
+constexpr double kFarBetter = 0.4;     // of what is left: another reading is meant
+constexpr double kNotMuchWorse = 1.2;  // what it may leave of other joints
+constexpr double kMuchIsLeft = 0.3;  // from here on any gravity is tried, and many turns are asked
+constexpr double kMuch = 0.5;        // said, if nothing explains it
 constexpr double kGravityBetter = 0.5;
 constexpr double kLagMatters = 0.05;  // from here on lags are tried
 constexpr double kLagBetter = 0.5;
@@ -59,8 +59,10 @@ class ModelJudge {
     const std::size_t before = remarks_.size();
     add_sign_remarks(model_, samples_, plain_, remarks_);
     if (refused_since(before)) return;
-    if (plain_.left.maxCoeff() >= kSuspicious && (other_reading() || many_turns(farthest))) return;
-    if (plain_.left.maxCoeff() >= kGravityMatters && other_gravity()) return;
+    const double most = plain_.left.maxCoeff();
+    if (most >= kSuspicious && other_reading()) return;
+    if (most >= kSuspicious && other_gravity(most >= kMuchIsLeft)) return;
+    if (most >= kMuchIsLeft && many_turns(farthest)) return;
     torque_unit();
     if (plain_.left.maxCoeff() >= kLagMatters) lags();
     if (plain_.left.maxCoeff() >= kMuch && remarks_.size() == before) much_is_left();
@@ -143,14 +145,18 @@ class ModelJudge {
     return true;
   }
 
-  bool other_gravity() {
+  /// @param any  all directions, not only the opposite one
+  bool other_gravity(bool any) {
     if (!robot_.with_gravity) return false;
+    const bool none = robot_.gravity.norm() == 0;
     std::optional<Eigen::Vector3d> best;
     VectorXd left = plain_.left;
     for (int axis = 0; axis < 3; ++axis) {
       for (const double sign : {1.0, -1.0}) {
         const Eigen::Vector3d gravity = sign * kStandardGravity * Eigen::Vector3d::Unit(axis);
+        const bool opposite = (gravity + robot_.gravity).norm() < 0.1 * kStandardGravity;
         if ((gravity - robot_.gravity).norm() < 0.1 * kStandardGravity) continue;
+        if (!any && !none && !opposite) continue;
         const std::shared_ptr<const LinearModel> model = robot_.with_gravity(gravity);
         const TrialFit fit = samples_.fit(*model, Reading::plain(model->joints()));
         if ((fit.inertia.array() < 0).any() || fit.left.squaredNorm() >= left.squaredNorm())
@@ -160,7 +166,6 @@ class ModelJudge {
       }
     }
     if (!best || !far_better(plain_.left, left, kGravityBetter)) return false;
-    const bool none = robot_.gravity.norm() == 0;
     const std::string rows =
         fmt::format("gx {:g}, gy {:g}, gz {:g}", (*best)[0], (*best)[1], (*best)[2]);
     refuse("gravity", 0,

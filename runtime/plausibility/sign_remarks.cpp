@@ -15,9 +15,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kAsGood = 1.1;      // of what is left of torque: the turned sign fits as well
-constexpr double kCertain = 5;       // standard deviations below zero
-constexpr double kMuchPower = 0.02;  // of the torque's own power, that friction would give
+constexpr double kAsGood = 1.1;  // of what is left of torque: the turned sign fits as well
+constexpr double kCertain = 5;   // standard deviations below zero
 
 /// Whether friction of a joint drives it: both of its parameters are negative, and one certainly
 /// is.
@@ -42,13 +41,16 @@ bool friction_drives(const LinearModel& model, const TrialFit& fit, Index joint)
 
 void add_sign_remarks(const LinearModel& model, const TrialSamples& samples, const TrialFit& plain,
                       std::vector<Remark>& remarks) {
-  const Reading base = Reading::plain(model.joints());
+  Reading turned = Reading::plain(model.joints());
+  std::vector<Index> suspects;
   for (Index j = 0; j < model.joints(); ++j) {
-    const bool negative = plain.inertia[j] < 0, drives = friction_drives(model, plain, j);
-    if (!negative && !drives) continue;
-    Reading turned = base;
+    if (plain.inertia[j] >= 0 && !friction_drives(model, plain, j)) continue;
     turned.torque_factor[j] = -1;
-    const TrialFit other = samples.fit(model, turned);
+    suspects.push_back(j);
+  }
+  if (suspects.empty()) return;
+  const TrialFit other = samples.fit(model, turned);
+  for (const Index j : suspects) {
     const bool mends = other.left[j] <= kAsGood * plain.left[j] && other.inertia[j] > 0 &&
                        other.power[j] > plain.power[j];
     if (!mends) continue;
@@ -56,8 +58,8 @@ void add_sign_remarks(const LinearModel& model, const TrialSamples& samples, con
         {"torque_sign", true, static_cast<int>(j) + 1, "",
          fmt::format("{} of joint {} comes out negative: is the sign of tau{} turned? With the "
                      "other sign {:.2g} % of its torque is left, as it stands {:.2g} %",
-                     negative ? "inertia" : "friction", j + 1, j + 1, 100 * other.left[j],
-                     100 * plain.left[j])});
+                     plain.inertia[j] < 0 ? "inertia" : "friction", j + 1, j + 1,
+                     100 * other.left[j], 100 * plain.left[j])});
   }
 }
 

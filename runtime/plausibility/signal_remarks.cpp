@@ -23,7 +23,7 @@ constexpr double kCounts = 50;          // range of integers that are no angles
 constexpr double kBeyondTorque = 30;    // times taumax: a unit, not a peak
 constexpr double kBeyondLimits = 0.05;  // of the range between limits: calibration, not a mistake
 constexpr double kSlope = 0.05;         // of velocities beside differences of positions
-constexpr double kGoesWith = 0.5;          // correlation below which velocities say nothing
+constexpr double kGoesWith = 0.5;       // correlation below which velocities say nothing
 
 class Remarks {
  public:
@@ -189,6 +189,40 @@ void judge_velocities(const Recording& recording, double sample_time, Remarks& r
   }
 }
 
+/// For how many samples a position is held: the length that most stretches of equal values have; 1
+/// where they have none.
+Index held_samples(const VectorXd& q) {
+  constexpr double kMost = 0.7;  // of the stretches, without those that are longer: the joint rests
+  constexpr Index kLongest = 64;
+  std::vector<Index> stretches(kLongest + 1, 0);
+  Index length = 1, all = 0;
+  for (Index k = 1; k < q.size(); ++k) {
+    if (q[k] == q[k - 1]) {
+      ++length;
+      continue;
+    }
+    if (length <= kLongest) {
+      ++stretches[static_cast<std::size_t>(length)];
+      ++all;
+    }
+    length = 1;
+  }
+  const auto most = std::max_element(stretches.begin(), stretches.end());
+  const bool regular = all > 64 && static_cast<double>(*most) > kMost * static_cast<double>(all);
+  return regular ? most - stretches.begin() : 1;
+}
+
+void judge_held_positions(const Recording& recording, double sample_time, Remarks& remarks) {
+  for (Index j = 0; j < recording.joints(); ++j) {
+    const Index held = held_samples(recording.q.col(j));
+    if (held < 2) continue;
+    remarks.add("lag", false, j + 1,
+                fmt::format("q{} changes every {} samples only (held between them): it lags behind "
+                            "torque by some {:.2g} ms",
+                            j + 1, held, 0.5e3 * sample_time * static_cast<double>(held - 1)));
+  }
+}
+
 void judge_dead_torque(const MotionSource& source, const Recording& recording, Remarks& remarks) {
   const std::vector<bool>& dead = source.condition.torque_dead;
   for (std::size_t j = 0; j < dead.size(); ++j) {
@@ -214,6 +248,7 @@ void add_signal_remarks(const JudgedRobot& robot, const MotionSource& source,
     judge_dead_torque(source, recording, own);
   }
   judge_velocities(recording, source.sample_time, own);
+  judge_held_positions(recording, source.sample_time, own);
 }
 
 }  // namespace dyngen::runtime

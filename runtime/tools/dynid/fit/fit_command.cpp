@@ -66,6 +66,31 @@ Conditioning examine_conditioning(const FitReport& report) {
   return result;
 }
 
+/// Noise that is larger than what a combination of parameters shows: (4.1) has no bound then.
+void warn_of_hidden_directions(FitReport& report) {
+  if (std::isfinite(report.trust.perturbation_bound) || report.main().estimate.unseen.cols() > 0) {
+    return;
+  }
+  report.notes.emplace_back(
+      "warning: noise of accelerations is larger than what the weakest combination of parameters "
+      "shows: values that share in it may be wrong beyond their deviations (more motion, longer "
+      "recordings or a lower --cutoff would show it)");
+}
+
+/// Torque of held-out recordings that is not predicted.
+void warn_of_held_out(FitReport& report) {
+  constexpr double kMostLeft = 50;  // % of a joint's torque
+  const VectorXd& left = report.main().heldout_percent;
+  for (Index j = 0; j < left.size(); ++j) {
+    if (!(left[j] > kMostLeft)) continue;
+    report.notes.push_back(fmt::format(
+        "warning: {:.0f} % of joint {}'s held-out torque is not predicted: another motion than was "
+        "fitted, another state of the robot, or physics that the model leaves out ('dynid "
+        "diagnose')",
+        left[j], j + 1));
+  }
+}
+
 /// Recordings, or files of their summaries: not both.
 bool are_summaries(const std::vector<std::string>& paths) {
   const auto count = std::count_if(paths.begin(), paths.end(), is_summary_file);
@@ -255,6 +280,7 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   progress.show("trust", 0, 1);
   report.trust = measure_trust(report.data.summary.equations, report.main().estimate,
                                report.data.summary.regressor_noise, report.data.summary.row_time);
+  warn_of_hidden_directions(report);
   report.conditioning = examine_conditioning(report);
   // what a method leaves out on purpose is not what the data do not see
   const Estimate plain = weighted_least_squares(report.data.summary.equations);
@@ -263,6 +289,7 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     progress.show("physical consistency", 0, 1);
     report.consistent = fit_consistently(report);
   }
+  warn_of_held_out(report);
   const std::vector<std::string> made = write_outputs(options, report, progress);
   progress.clear();
   std::cout << fit_table(report);

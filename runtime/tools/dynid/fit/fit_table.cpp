@@ -100,7 +100,7 @@ std::string joint_rows(const FitReport& report) {
   text += fmt::format("{:>16}\n", "correlated over");
   for (int j = 0; j < model.joints(); ++j) {
     const double rows = report.data.summary.equations.joints[static_cast<std::size_t>(j)].rows;
-    text += fmt::format("{:<14}{:>10.0f}{:>8} {:<3}{:>12}", fmt::format("joint {}", j + 1), rows,
+    text += fmt::format("{:<14}{:>9.0f} {:>8} {:<3}{:>12}", fmt::format("joint {}", j + 1), rows,
                         number_text(fit.estimate.residual_rms[j]),
                         model.revolute[static_cast<std::size_t>(j)] ? "N m" : "N",
                         percent_text(fit.percent[j]));
