@@ -10,7 +10,7 @@
 #include "tests/support/compiled_model.h"
 #include "tests/support/relative_error.h"
 
-namespace dyngen::test {
+namespace dyngen::test::catalogue_tests {
 namespace {
 
 struct CatalogueCase {
@@ -131,4 +131,4 @@ INSTANTIATE_TEST_SUITE_P(Robots, Catalogue, testing::ValuesIn(cases()),
                          [](const auto& entry) { return entry.param.name; });
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::catalogue_tests

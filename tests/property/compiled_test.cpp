@@ -9,7 +9,7 @@
 #include "tests/support/compiled_model.h"
 #include "tests/support/relative_error.h"
 
-namespace dyngen::test {
+namespace dyngen::test::compiled_tests {
 namespace {
 
 constexpr int kSamples = 50;
@@ -121,4 +121,4 @@ INSTANTIATE_TEST_SUITE_P(Files, EveryRobot, testing::ValuesIn(all_robots()), [](
 });
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::compiled_tests

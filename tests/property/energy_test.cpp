@@ -17,7 +17,7 @@
 #include "tests/support/random_robot.h"
 #endif
 
-namespace dyngen::test {
+namespace dyngen::test::energy_tests {
 namespace {
 
 constexpr double kTolerance = 1e-10;
@@ -191,4 +191,4 @@ RC_GTEST_PROP(EnergyOfRandomRobot, IsTheJudgesAndItsRateThePower, ()) {
 #endif
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::energy_tests

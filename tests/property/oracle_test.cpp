@@ -6,7 +6,7 @@
 #include "tests/support/oracle_data.h"
 #include "tests/support/relative_error.h"
 
-namespace dyngen::test {
+namespace dyngen::test::oracle_tests {
 namespace {
 
 // The oracles are good to 1e-14 of the largest torque; double arithmetic of some 600 operations
@@ -127,4 +127,4 @@ TEST(Puma3, TorqueIsTheThesisRegressorTimesTable71) {
 }
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::oracle_tests
