@@ -54,9 +54,10 @@ class EnergyModel {
  public:
   EnergyModel(const RobotModel& model, const RobotModel& values, const GeneratorOptions& options)
       : code_(model, values, with_functions(options)) {
-    GeneratorOptions regrouped = with_functions(options);
+    GeneratorOptions regrouped = options;
+    regrouped.functions = {"friction"};  // chi is the same for all functions
     regrouped.regroup = true;
-    beta_ = EvaluatedModel(model, values, regrouped).chi();
+    beta_ = options.regroup ? code_.chi() : EvaluatedModel(model, values, regrouped).chi();
   }
 
   [[nodiscard]] double energy(const MotionSample& sample) const {
