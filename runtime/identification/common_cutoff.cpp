@@ -22,7 +22,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kBlocks = 10;
-constexpr Index kMostEquations = 6000;     // of a joint, in a trial: enough for any robot
+constexpr Index kMostEquations = 2500;     // of a joint, in a trial: enough for any robot
 constexpr Index kMostFiltered = 400'000;   // samples that are filtered again for each trial
 constexpr double kNoWorse = 0.05;          // of the squares of held-out torque
 constexpr double kConfidence = 0.9;        // of both sides: 0.95 that a trial is worse

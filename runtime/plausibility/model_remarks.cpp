@@ -111,7 +111,9 @@ class ModelJudge {
   bool other_reading() {
     const Reading base = Reading::plain(model_.joints());
     if (named(best_of(other_units(model_, base)))) return true;
-    if (named(best_of(swapped_columns(model_, base)))) return true;
+    Index worst = 0;
+    plain_.left.maxCoeff(&worst);
+    if (named(best_of(swapped_columns(base, static_cast<int>(worst))))) return true;
     return turned(base);
   }
 

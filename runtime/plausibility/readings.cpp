@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -64,23 +65,23 @@ std::vector<NamedReading> turned_signs(const Reading& base) {
   return all;
 }
 
-std::vector<NamedReading> swapped_columns(const LinearModel& model, const Reading& base) {
+std::vector<NamedReading> swapped_columns(const Reading& base, int joint) {
   std::vector<NamedReading> all;
-  for (int a = 0; a < model.joints(); ++a) {
-    for (int b = a + 1; b < model.joints(); ++b) {
-      const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
-      const auto named = [&](const char* columns, bool position, bool torque) {
-        NamedReading reading{"swapped", 0, {}, {}, base};
-        reading.what = fmt::format("{} of joints {} and {} look swapped", columns, a + 1, b + 1);
-        reading.cure = "exchange the columns' names in the header";
-        if (position) std::swap(reading.reading.position_from[i], reading.reading.position_from[k]);
-        if (torque) std::swap(reading.reading.torque_from[i], reading.reading.torque_from[k]);
-        all.push_back(std::move(reading));
-      };
-      named("positions", true, false);
-      named("torques", false, true);
-      named("positions and torques", true, true);
-    }
+  const auto i = static_cast<std::size_t>(joint);
+  for (std::size_t k = 0; k < base.position_from.size(); ++k) {
+    if (k == i) continue;
+    const auto named = [&](const char* columns, bool position, bool torque) {
+      NamedReading reading{"swapped", 0, {}, {}, base};
+      reading.what = fmt::format("{} of joints {} and {} look swapped", columns, std::min(i, k) + 1,
+                                 std::max(i, k) + 1);
+      reading.cure = "exchange the columns' names in the header";
+      if (position) std::swap(reading.reading.position_from[i], reading.reading.position_from[k]);
+      if (torque) std::swap(reading.reading.torque_from[i], reading.reading.torque_from[k]);
+      all.push_back(std::move(reading));
+    };
+    named("positions", true, false);
+    named("torques", false, true);
+    named("positions and torques", true, true);
   }
   return all;
 }

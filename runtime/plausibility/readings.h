@@ -24,7 +24,8 @@ std::vector<NamedReading> other_units(const LinearModel& model, const Reading& b
 /// Turned signs of each joint's position, torque, and both.
 std::vector<NamedReading> turned_signs(const Reading& base);
 
-/// Two columns in each other's place: positions, torques, and both.
-std::vector<NamedReading> swapped_columns(const LinearModel& model, const Reading& base);
+/// A joint's columns and another's in each other's place: positions, torques, and both.
+/// @param joint  from 0
+std::vector<NamedReading> swapped_columns(const Reading& base, int joint);
 
 }  // namespace dyngen::runtime

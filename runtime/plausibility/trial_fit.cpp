@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kTrialSamples = 1200;  // of all recordings
+constexpr Index kTrialSamples = 500;  // of all recordings
 
 Index samples_in(const std::vector<Motion>& runs) {
   Index count = 0;
