@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "runtime/control/velocity_filter.h"
@@ -31,8 +32,8 @@ class Sensors {
 
   /// A sample time after the one before.
   void read(const Plant& plant) {
-    q = rounded(plant.q());
-    dq = filter_ ? filter_->update(q.data()) : plant.dq();
+    q = rounded(plant.q().head(q.size()));
+    dq = filter_ ? filter_->update(q.data()) : VectorXd(plant.dq().head(q.size()));
   }
 
   VectorXd q, dq;
@@ -84,6 +85,44 @@ class Drive {
   double late_ = 0;
 };
 
+/// What drives give that follow a command late, as first-order lags.
+class LaggingTorque {
+ public:
+  /// @param lag  (n) s; empty: none
+  explicit LaggingTorque(VectorXd lag) : lag_(std::move(lag)) {}
+
+  [[nodiscard]] bool exists() const { return (lag_.array() > kLeastLag).any(); }
+  /// What acts right after a command, which is held for a while.
+  VectorXd at_once(const VectorXd& command) {
+    if (given_.size() == 0) given_ = command;
+    VectorXd result = command;
+    for (Index j = 0; j < lag_.size(); ++j) {
+      if (lag_[j] > kLeastLag) result[j] = given_[j];
+    }
+    return result;
+  }
+  /// From `now` on. @param given  at_once() then
+  [[nodiscard]] TorqueSource following(const VectorXd& command, const VectorXd& given,
+                                       double now) const {
+    return
+        [command, given, now, lag = lag_](double time, const double*, const double*, double* tau) {
+          for (Index j = 0; j < command.size(); ++j) {
+            tau[j] = command[j];
+            if (given[j] != command[j]) {
+              tau[j] += (given[j] - command[j]) * std::exp((now - time) / lag[j]);
+            }
+          }
+        };
+  }
+  void set(const VectorXd& given) { given_ = given; }
+
+ private:
+  static constexpr double kLeastLag = 1e-6;  // s: what follows faster follows at once
+
+  VectorXd lag_, given_;
+};
+
+/// Nothing drives what is behind the drives' coordinates.
 TorqueSource held(const VectorXd& torque) {
   return [torque](double, const double*, const double*, double* tau) {
     std::copy(torque.begin(), torque.end(), tau);
@@ -99,6 +138,27 @@ Recording empty_recording(Index samples, Index joints, const char* name) {
   return recording;
 }
 
+/// Coordinates of a plant where it begins: springs carry the links, which move with the drives.
+StartState whole_start(const PlantModel& model, const StartState& drives) {
+  if (model.drives() == model.joints) return drives;
+  StartState start{model.at_rest(drives.q, drives.dq), VectorXd::Zero(model.joints)};
+  for (int j = model.drives() - 1; j >= 0; --j) {
+    start.dq[j] = start.dq[model.links[static_cast<std::size_t>(j)]] = drives.dq[j];
+  }
+  return start;
+}
+
+/// Of each drive, the coordinate of its link.
+std::vector<int> links_of(const PlantModel& model) {
+  std::vector<int> links = model.links;
+  for (int j = static_cast<int>(links.size()); j < model.drives(); ++j) links.push_back(j);
+  return links;
+}
+
+Plant plant_at(const PlantModel& model, const ClosedLoopOptions& options, const StartState& start) {
+  return {model, options.integration, start.q, start.dq};
+}
+
 class Loop {
  public:
   Loop(const PlantModel& model, Controller& controller, const Trajectory& trajectory,
@@ -106,10 +166,12 @@ class Loop {
       : controller_(controller),
         trajectory_(trajectory),
         options_(options),
-        n_(model.joints),
-        plant_(model, options.integration, start.q, start.dq),
+        n_(model.drives()),
+        links_(links_of(model)),
+        lagging_(model.lag),
+        plant_(plant_at(model, options, whole_start(model, start))),
         sensors_(options, start),
-        noise_(options.torque_noise, model.joints, options.seed),
+        noise_(options.torque_noise, model.drives(), options.seed),
         q_ref_(n_),
         dq_ref_(n_),
         ddq_ref_(n_) {
@@ -119,7 +181,8 @@ class Loop {
     samples_ = 1 + static_cast<Index>(std::floor(duration * options.rate * (1 + 1e-12)));
     run_.measured = empty_recording(samples_, n_, "measured");
     run_.truth = empty_recording(samples_, n_, "truth");
-    run_.truth.ddq.resize(samples_, n_);
+    run_.links = empty_recording(samples_, n_, "links");
+    for (Recording* part : {&run_.truth, &run_.links}) part->ddq.resize(samples_, n_);
     run_.reference.resize(samples_, n_);
     run_.largest_torque = VectorXd::Zero(n_);
     run_.saturated_share = VectorXd::Zero(n_);
@@ -147,12 +210,12 @@ class Loop {
         plant_.advance(continuous, next);
         continue;
       }
-      if (drive->late() > 0) plant_.advance(held(drive->before()), now + drive->late());
-      plant_.advance(held(drive->after()), next);
+      if (drive->late() > 0) advance(drive->before(), now + drive->late());
+      advance(drive->after(), next);
       before = drive->after();
     }
     run_.saturated_share /= static_cast<double>(samples_);
-    run_.stuck_share = plant_.stuck_time() / std::max(plant_.time(), 1e-300);
+    run_.stuck_share = plant_.stuck_time().head(n_) / std::max(plant_.time(), 1e-300);
     run_.counts = plant_.counts();
     return std::move(run_);
   }
@@ -166,16 +229,35 @@ class Loop {
     controller_.step({q, dq, q_ref_.data(), dq_ref_.data(), ddq_ref_.data()}, tau);
   }
 
+  /// Under a command that is held.
+  void advance(const VectorXd& command, double until) {
+    if (!lagging_.exists()) return plant_.advance(held(command), until);
+    const VectorXd given = lagging_.at_once(command);
+    const TorqueSource following = lagging_.following(command, given, plant_.time());
+    plant_.advance(following, until);
+    VectorXd reached(n_);
+    following(until, nullptr, nullptr, reached.data());
+    lagging_.set(reached);
+  }
+
   void record(Index k, const VectorXd& before, const VectorXd& after) {
     const VectorXd mean = (before + after) / 2;
-    run_.measured.time[k] = run_.truth.time[k] = trajectory_.time[0] + time_of(k);
+    const VectorXd q = plant_.q(), dq = plant_.dq();
+    VectorXd acting = VectorXd::Zero(q.size());
+    acting.head(n_) = lagging_.at_once(after);
+    const VectorXd ddq = plant_.acceleration(acting);
+    run_.measured.time[k] = run_.truth.time[k] = run_.links.time[k] =
+        trajectory_.time[0] + time_of(k);
     run_.measured.q.row(k) = sensors_.q;
     run_.measured.dq.row(k) = sensors_.dq;
     run_.measured.tau.row(k) = mean + noise_.next();
-    run_.truth.q.row(k) = plant_.q();
-    run_.truth.dq.row(k) = plant_.dq();
-    run_.truth.ddq.row(k) = plant_.acceleration(after);
-    run_.truth.tau.row(k) = mean;
+    run_.truth.q.row(k) = q.head(n_);
+    run_.truth.dq.row(k) = dq.head(n_);
+    run_.truth.ddq.row(k) = ddq.head(n_);
+    run_.links.q.row(k) = q(links_);
+    run_.links.dq.row(k) = dq(links_);
+    run_.links.ddq.row(k) = ddq(links_);
+    run_.truth.tau.row(k) = run_.links.tau.row(k) = mean;
     run_.reference.row(k) = q_ref_;
     run_.largest_torque = run_.largest_torque.cwiseMax(after.cwiseAbs());
     const VectorXd& limit = controller_.options().torque_limit;
@@ -189,6 +271,8 @@ class Loop {
   const ClosedLoopOptions& options_;
   Index n_;
   Index samples_ = 0;
+  std::vector<int> links_;
+  LaggingTorque lagging_;
   Plant plant_;
   Sensors sensors_;
   TorqueNoise noise_;
@@ -239,12 +323,16 @@ ClosedLoopRun simulate(const PlantModel& plant, Controller& controller,
                        const std::function<void(double)>& progress) {
   plant.validate();
   trajectory.validate();
-  options.validate(plant.joints);
-  check_joints("the controller", controller.joints(), plant.joints);
-  check_joints("the trajectory", trajectory.joints(), plant.joints);
+  options.validate(plant.drives());
+  check_joints("the controller", controller.joints(), plant.drives());
+  check_joints("the trajectory", trajectory.joints(), plant.drives());
   StartState from = start.value_or(StartState{trajectory.q.row(0), trajectory.dq.row(0)});
-  check_joints("the start", from.q.size(), plant.joints);
-  check_joints("the start", from.dq.size(), plant.joints);
+  check_joints("the start", from.q.size(), plant.drives());
+  check_joints("the start", from.dq.size(), plant.drives());
+  if (options.continuous && (plant.lag.array() > 0).any()) {
+    throw std::invalid_argument(
+        "simulate(): a continuous controller's drives have no lag, expected a rate");
+  }
   return Loop(plant, controller, trajectory, options, from).run(progress);
 }
 

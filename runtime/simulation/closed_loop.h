@@ -45,7 +45,10 @@ struct ClosedLoopRun {
   /// What sensors saw, one row a sample: time, q, dq as the controller got them, tau with its
   /// noise. tau of a sample is the mean of what the drive held before and after it.
   Recording measured;
-  Recording truth;                  ///< q, dq, ddq and tau without noise, at the same times
+  /// q, dq, ddq and tau without noise, at the same times; of drives, where joints have springs.
+  Recording truth;
+  /// The same of the links: another motion behind springs alone.
+  Recording links;
   Eigen::MatrixXd reference;        ///< (N x n) q_ref
   Eigen::VectorXd largest_torque;   ///< (n) N m or N, of the drive
   Eigen::VectorXd saturated_share;  ///< (n) of the samples at the torque limit
@@ -53,7 +56,8 @@ struct ClosedLoopRun {
   PlantCounts counts;
 };
 
-/// A robot that follows a trajectory under a controller.
+/// A robot that follows a trajectory under a controller. Sensors, controller and torque are those
+/// of the drives; springs carry the links where it begins.
 ///
 /// Each sample: the encoder's position and its velocity go to the controller, whose torque acts
 /// `delay` later and is held. Before the first torque arrives the drive holds the first one. The

@@ -50,6 +50,17 @@ void PlantModel::validate() const {
                     "ones that are not negative",
                     coulomb.size(), joints));
   }
+  const auto outside = [this](int link) { return link < 0 || link >= joints; };
+  if (std::any_of(links.begin(), links.end(), outside) ||
+      links.size() > static_cast<std::size_t>(joints) || (drives() < joints && !at_rest)) {
+    throw std::invalid_argument(
+        "PlantModel: expected links that are coordinates, and at_rest where there are springs");
+  }
+  if (lag.size() != 0 && (lag.size() != drives() || !lag.allFinite() || (lag.array() < 0).any())) {
+    throw std::invalid_argument(
+        fmt::format("PlantModel: lag has {} values, expected {} finite ones that are not negative",
+                    lag.size(), drives()));
+  }
 }
 
 void IntegrationOptions::validate() const {

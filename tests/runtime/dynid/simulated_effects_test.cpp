@@ -10,6 +10,7 @@
 
 #include "runtime/control/gains.h"
 #include "runtime/simulation/closed_loop.h"
+#include "runtime/simulation/twisting_effects.h"
 #include "runtime/tools/dynid/effects/effect_laws.h"
 #include "runtime/tools/dynid/effects/recorded_effects.h"
 #include "runtime/tools/dynid/simulate/simulated_robot.h"
@@ -126,7 +127,7 @@ class EveryActingEffect : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryActingEffect, ActsOnTheRobotAsItsFileSays) {
   const EffectLaw law = effect_law(*catalogue().find(GetParam()));
-  if (!acts_on_plant(law)) GTEST_SKIP() << "it is recorded: SimulatedEffects.OthersAreRecorded";
+  if (!acts_on_plant(law)) GTEST_SKIP() << "SimulatedEffects.OthersAreRecordedOrPartsOfTheDrive";
   const ArmFile bare(arm_text(""));
   const SimulatedRobot without = read_simulated_robot(bare.path(), RobotUse::kPlant, catalogue());
   const VectorXd parameters = typical(law, arm_scales(without, 1));
@@ -204,12 +205,28 @@ TEST_P(EveryActingEffect, ActsOnTheRobotAsItsFileSays) {
 INSTANTIATE_TEST_SUITE_P(Catalogue, EveryActingEffect, testing::ValuesIn(test::effect_names()),
                          [](const auto& own) { return own.param; });
 
-TEST(SimulatedEffects, OthersAreRecorded) {
-  const auto& all = catalogue().all();
-  int recorded = 0;
-  for (const auto& effect : all) recorded += acts_on_plant(effect_law(*effect)) ? 0 : 1;
+TEST(SimulatedEffects, OthersAreRecordedOrPartsOfTheDrive) {
+  int acting = 0, recorded = 0;
+  std::vector<std::string> twisting, lagging;
+  for (const auto& effect : catalogue().all()) {
+    EffectInstance instance{.law = effect_law(*effect), .joint = 0, .link = 1, .other = 1};
+    instance.parameters = typical(instance.law, EffectScales{.tau_max = 20});
+    if (acts_on_plant(instance.law)) {
+      ++acting;
+      EXPECT_FALSE(twists_joint(instance));
+    } else if (instance.law.alignment == AlignmentOperator::kLag) {
+      lagging.push_back(effect->name);
+    } else if (twists_joint(instance)) {
+      twisting.push_back(effect->name);
+    } else {
+      ++recorded;
+    }
+  }
+  EXPECT_GT(acting, 40);
   EXPECT_GT(recorded, 15);
-  EXPECT_GT(static_cast<int>(all.size()) - recorded, 40);
+  EXPECT_EQ(lagging, std::vector<std::string>{"actuator_lag"});
+  EXPECT_EQ(twisting,
+            (std::vector<std::string>{"backlash", "joint_elasticity", "joint_elasticity_cubic"}));
 }
 
 TEST(SimulatedEffects, BristlesHoldAnArmThatCoulombFrictionWouldHold) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -169,6 +170,47 @@ TEST(ClosedLoop, DelayShiftsTheTorque) {
       EXPECT_NEAR(run.truth.ddq(k, 0), asked / 2, 1e-9) << delay << " " << k;
     }
   }
+}
+
+TEST(ClosedLoop, ALagLetsTheJointHaveItsTorqueLater) {
+  test::NumericRobot mass = test::slide();
+  mass.joints[0].Fs = 0;
+  ControllerOptions chosen;
+  chosen.law = ControlLaw::kPd;
+  chosen.gains = torque_gains(VectorXd::Constant(1, 2), 0.5, 1);
+  chosen.torque_limit = VectorXd::Constant(1, 12);
+  Controller controller(test::numeric_control(mass), chosen);
+  ClosedLoopOptions options;
+  options.rate = 100;
+  PlantModel plant = test::numeric_plant(mass);
+  plant.lag = VectorXd::Constant(1, 0.05);
+  const StartState start{VectorXd::Zero(1), VectorXd::Zero(1)};
+  for (const double delay : {0.0, 0.013}) {
+    options.delay = delay;
+    const ClosedLoopRun run = simulate(
+        plant, controller, test::constant_trajectory(VectorXd::Ones(1), 1), options, start);
+    // dF/dt = (command - F) / lag with the command held: F from one sample to the next
+    const auto asked = [&](Index k) {
+      k = std::max<Index>(k, 0);
+      const double force =
+          chosen.gains.kp[0] * (1 - run.truth.q(k, 0)) - chosen.gains.kd[0] * run.truth.dq(k, 0);
+      return std::clamp(force, -12.0, 12.0);
+    };
+    const Index whole = static_cast<Index>(delay * 100);
+    const double late = delay - 0.01 * static_cast<double>(whole);
+    double force = asked(0);
+    for (Index k = 0; k + 1 < run.truth.samples(); ++k) {
+      EXPECT_NEAR(run.truth.ddq(k, 0), force / 2, 1e-8) << delay << " " << k;
+      const double before = asked(k - whole - 1), after = asked(k - whole);
+      if (late > 0) force = before + (force - before) * std::exp(-late / 0.05);
+      force = after + (force - after) * std::exp(-(0.01 - late) / 0.05);
+    }
+    EXPECT_LE(run.measured.tau.cwiseAbs().maxCoeff(), 12);
+  }
+  options = {.continuous = true};
+  EXPECT_THROW(
+      simulate(plant, controller, test::constant_trajectory(VectorXd::Ones(1), 1), options, start),
+      std::invalid_argument);
 }
 
 TEST(ClosedLoop, CountsWhatIsSaturatedAndStuck) {

@@ -108,9 +108,9 @@ struct Squares {
 
 /// What the simulated machine's sensors would have recorded as torque.
 MatrixXd torque_of(const SimulatedRobot& plant, const DescribedRobot& described,
-                   const Recording& truth) {
-  if (plant.recorded_effects.empty()) return truth.tau;
-  return recorded_torque(described, plant.recorded_effects, truth);
+                   const Recording& links) {
+  if (plant.recorded_effects.empty()) return links.tau;
+  return recorded_torque(described, plant.recorded_effects, links, TorqueOfGains::kRecorded);
 }
 
 void add_errors(const Part& part, const ClosedLoopRun& run, const MatrixXd& torque, double from,
@@ -228,7 +228,7 @@ class ForwardSimulation {
                        if (tell_) tell_(done + share * (static_cast<double>(i) + own));
                      });
         const double settled = run.truth.time[0] + 1 / task_.loop.bandwidth;
-        add_errors(part, run, torque_of(plant, described, run.truth), settled, squares);
+        add_errors(part, run, torque_of(plant, described, run.links), settled, squares);
       } catch (const std::runtime_error& error) {
         return {{}, {}, fmt::format("{} on {}: {}", candidate.words, part.name, error.what())};
       }

@@ -50,10 +50,17 @@ MatrixXd aligned(const EffectInstance& effect, const VectorXd& time, MatrixXd to
   return torque;
 }
 
+/// `torque` is what was given.
+void read_torque(const EffectLaw& law, const VectorXd& given, MatrixXd& variables) {
+  for (std::size_t v = 0; v < law.variables.size(); ++v) {
+    if (law.variables[v] == "torque") variables.col(static_cast<Index>(v)) = given;
+  }
+}
+
 }  // namespace
 
 MatrixXd recorded_torque(const DescribedRobot& robot, const std::vector<EffectInstance>& effects,
-                         const Recording& motion) {
+                         const Recording& motion, TorqueOfGains gains) {
   const EffectRecordings recordings = recordings_of(robot, motion);
   EffectSignals signals(recordings);
   signals.set_beta(robot.grouping * robot.standard);
@@ -64,7 +71,10 @@ MatrixXd recorded_torque(const DescribedRobot& robot, const std::vector<EffectIn
     const std::vector<int> joints = joints_of(effect, motion.joints());
     const bool all = effect.law.acts_on_all;  // evaluated for each joint; else for all outputs
     for (const int target : all ? joints : std::vector<int>{joints.front()}) {
-      const MatrixXd variables = signals.variables(0, effect, target);
+      MatrixXd variables = signals.variables(0, effect, target);
+      if (gains == TorqueOfGains::kRecorded) {
+        read_torque(effect.law, motion.tau.col(target), variables);
+      }
       VectorXd state = first_states(effect.law, variables);
       const MatrixXd own =
           effect.law.evaluate(variables, effect.parameters, sample_time, state, {}).torque;

@@ -10,6 +10,12 @@
 
 namespace dyngen::runtime {
 
+/// What gains of the reading multiply.
+enum class TorqueOfGains {
+  kModel,    ///< the model's torque in this motion, as estimation does
+  kRecorded  ///< `tau` of the recording: right also where friction holds a joint
+};
+
 /// Adds to recorded torques what effects of the rigid model and of the measurement change in them.
 /// The motion is that of a robot without them.
 ///
@@ -23,7 +29,7 @@ namespace dyngen::runtime {
 ///                 effect reads it
 /// @return         (N x n) the recorded torque, without noise
 Eigen::MatrixXd recorded_torque(const DescribedRobot& robot,
-                                const std::vector<EffectInstance>& effects,
-                                const Recording& motion);
+                                const std::vector<EffectInstance>& effects, const Recording& motion,
+                                TorqueOfGains gains = TorqueOfGains::kModel);
 
 }  // namespace dyngen::runtime

@@ -47,7 +47,9 @@ Eigen::MatrixXd temperatures(const SimulatedTemperature& temperature, const Vect
 void record_effects(const std::string& path, const SimulatedRobot& plant, ClosedLoopRun& run) {
   const DescribedRobot robot = describe_robot(path, OpenParameters::kAsWritten);
   const Eigen::MatrixXd noise = run.measured.tau - run.truth.tau;
-  run.truth.tau = recorded_torque(robot, plant.recorded_effects, run.truth);
+  // the rigid model moves with the links
+  run.truth.tau =
+      recorded_torque(robot, plant.recorded_effects, run.links, TorqueOfGains::kRecorded);
   run.measured.tau = run.truth.tau + noise;
 }
 
@@ -81,6 +83,7 @@ std::string robustness(const Controller& controller, const SimulatedRobot& model
 
 std::string table(const SimulatedRobot& plant, const ClosedLoopRun& run, const VectorXd& limit) {
   const Tracking tracking = tracking_of(run);
+  const VectorXd peak = run.measured.tau.cwiseAbs().colwise().maxCoeff();  // the file's
   std::string text =
       fmt::format("\n{:<16}{:>12}{:>12}{:>4}{:>13}{:>11}{:>4}{:>11}{:>8}\n", "joint", "rms error",
                   "worst", "", "peak torque", "limit", "", "saturated", "stuck");
@@ -89,7 +92,7 @@ std::string table(const SimulatedRobot& plant, const ClosedLoopRun& run, const V
     text += fmt::format(
         "{:<16}{:>12.4g}{:>12.4g} {:<3}{:>13.5g}{:>11} {:<3}{:>9.1f} %{:>6.1f} %\n",
         fmt::format("{} {}", j + 1, plant.joint_names[static_cast<std::size_t>(j)]).substr(0, 15),
-        tracking.rms[j], tracking.worst[j], revolute ? "rad" : "m", run.largest_torque[j],
+        tracking.rms[j], tracking.worst[j], revolute ? "rad" : "m", peak[j],
         std::isfinite(limit[j]) ? fmt::format("{:.5g}", limit[j]) : "none", revolute ? "N m" : "N",
         100 * run.saturated_share[j], 100 * run.stuck_share[j]);
   }
@@ -115,6 +118,10 @@ int run_simulate(const SimulateOptions& options) {
   if (!same) progress.show("equations of " + options.plant, 0, 1);
   const SimulatedRobot plant =
       same ? model : read_simulated_robot(options.plant, RobotUse::kPlant, catalogue, temperature);
+  if (!plant.remarks.empty()) progress.clear();
+  for (const std::string& remark : plant.remarks) {
+    std::cerr << fmt::format("{}: {}\n", same ? options.robot : options.plant, remark);
+  }
   check_joints(options.trajectory, trajectory.joints(), model);
   check_joints("the plant " + plant.name, plant.joints(), model);
 
@@ -143,7 +150,7 @@ int run_simulate(const SimulateOptions& options) {
     return kCannotAnswer;
   }
   if (plant.reads_temperature)
-    run.truth.temperature = run.measured.temperature =
+    run.truth.temperature = run.measured.temperature = run.links.temperature =
         temperatures(temperature, run.truth.time, plant.joints());
   if (!plant.recorded_effects.empty()) {
     progress.show("effects of the recording", 0, 1);

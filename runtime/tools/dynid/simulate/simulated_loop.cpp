@@ -45,7 +45,7 @@ VectorXd per_joint(const char* option, const std::vector<double>& values, int jo
 
 Eigen::MatrixXd mass_matrix_of(const SimulatedRobot& robot, const VectorXd& q) {
   Eigen::MatrixXd M(robot.joints(), robot.joints());
-  robot.plant.mass_matrix(q.data(), M.data());
+  robot.mass_matrix(q.data(), M.data());
   return M;
 }
 

@@ -13,7 +13,11 @@
 #include "gen/program/evaluator.h"
 #include "gen/robot_file/robot_file.h"
 #include "gen/symbols/exact.h"
+#include "runtime/effects/effect_rows.h"
+#include "runtime/simulation/elastic_plant.h"
+#include "runtime/simulation/twisting_effects.h"
 #include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/simulate/simulated_gears.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -96,12 +100,14 @@ class Programs {
   std::map<std::string, ProgramEvaluator> programs_;
 };
 
-/// What acts on the motion into the plant, the rest beside it.
-void add_effects(SimulatedRobot& robot, const std::vector<EffectInstance>& effects,
-                 const RobotModel& model, const SimulatedTemperature& temperature, RobotUse use) {
+/// What acts on the motion or twists joints into the plant, the rest beside it.
+void add_effects(SimulatedRobot& robot, const RobotFile& file,
+                 const std::vector<EffectInstance>& effects, const RobotModel& model,
+                 const SimulatedTemperature& temperature, RobotUse use) {
+  const int n = robot.joints();
   EffectSurroundings surroundings;
   for (VectorXd* part : {&surroundings.coulomb, &surroundings.viscous, &surroundings.rotor}) {
-    part->setZero(robot.joints());
+    part->setZero(n);
   }
   for (const JointModel& joint : model.joints) {
     if (joint.coordinate < 0) continue;
@@ -111,14 +117,35 @@ void add_effects(SimulatedRobot& robot, const std::vector<EffectInstance>& effec
   }
   surroundings.temperature = temperature.start;
   surroundings.warming = temperature.rate;
-  std::vector<EffectInstance> acting;
-  for (const EffectInstance& effect : effects) {
+  std::vector<EffectInstance> acting, twisting;
+  std::vector<std::size_t> rows;  // of those that twist
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const EffectInstance& effect = effects[i];
     if (effect.law.reads("temp")) robot.reads_temperature = true;
-    (acts_on_plant(effect.law) ? acting : robot.recorded_effects).push_back(effect);
+    if (acts_on_plant(effect.law)) {
+      acting.push_back(effect);
+    } else if (effect.law.alignment == AlignmentOperator::kLag) {
+      // what is recorded is the command
+      robot.plant.lag.conservativeResizeLike(VectorXd::Zero(n));
+      for (const int joint : joints_of(effect, n)) {
+        robot.plant.lag[joint] += effect.parameters[effect.law.alignment_parameter];
+      }
+    } else if (twists_joint(effect)) {
+      twisting.push_back(effect);
+      rows.push_back(i);
+    } else {
+      robot.recorded_effects.push_back(effect);
+    }
   }
-  if (use == RobotUse::kPlant) {
-    robot.plant.effects = PlantEffects(std::move(acting), std::move(surroundings));
+  if (use != RobotUse::kPlant) return;
+  std::vector<ElasticJoint> gears =
+      elastic_joints(file, twisting, rows, surroundings.rotor, robot.mass_matrix, robot.remarks);
+  // links behind gears have neither friction nor rotors
+  for (VectorXd* part : {&surroundings.coulomb, &surroundings.viscous, &surroundings.rotor}) {
+    part->conservativeResizeLike(VectorXd::Zero(n + static_cast<int>(gears.size())));
   }
+  robot.plant.effects = PlantEffects(std::move(acting), std::move(surroundings));
+  if (!gears.empty()) robot.plant = elastic_plant(std::move(robot.plant), std::move(gears));
 }
 
 auto three(ProgramEvaluator program) {
@@ -165,7 +192,7 @@ SimulatedRobot simulated_robot(const RobotFile& file, RobotUse use,
   robot.control.rigid = robot.plant.rigid = three(programs.at("id_rigid"));
   robot.control.friction = robot.plant.friction = one(programs.at("friction"));
   robot.control.gravity = one(programs.at("gravity"));
-  robot.plant.mass_matrix = one(programs.at("mass_matrix"));
+  robot.mass_matrix = robot.plant.mass_matrix = one(programs.at("mass_matrix"));
   if (use == RobotUse::kPlant) robot.plant.forward = three(programs.at("fd"));
 
   robot.plant.coulomb.resize(n);
@@ -177,7 +204,7 @@ SimulatedRobot simulated_robot(const RobotFile& file, RobotUse use,
     robot.plant.coulomb[joint.coordinate] = to_double(joint.chi[index(Chi::kFS)].value);
     if (taumax.present) robot.torque_limit[joint.coordinate] = to_double(taumax.values[i].value);
   }
-  add_effects(robot, effect_instances(whole, catalogue), whole, temperature, use);
+  add_effects(robot, file, effect_instances(whole, catalogue), whole, temperature, use);
   return robot;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,17 @@ struct SimulatedRobot {
   std::vector<std::string> joint_names;
   std::vector<bool> revolute;
   ControlModel control;
-  PlantModel plant;              ///< without `forward` unless it was asked for
+  /// What moves; without `forward` unless it was asked for. A joint that an effect twists has two
+  /// coordinates in it (elastic_plant()).
+  PlantModel plant;
+  /// (n x n) of the rigid robot, row by row: what controllers are tuned by.
+  std::function<void(const double* q, double* M)> mass_matrix;
   Eigen::VectorXd torque_limit;  ///< (n) taumax of the file; infinite where there is none
-  /// Rows `effect` that change what is recorded, not the motion; those that act on the motion are
-  /// in the plant.
+  /// Rows `effect` that change what is recorded, not the motion; those that act on the motion,
+  /// twist a joint or let a drive lag are in the plant.
   std::vector<EffectInstance> recorded_effects;
-  bool reads_temperature = false;  ///< some effect does
+  bool reads_temperature = false;    ///< some effect does
+  std::vector<std::string> remarks;  ///< what was left out and why, a sentence each
 
   [[nodiscard]] int joints() const { return control.joints; }
 };
@@ -44,7 +50,8 @@ struct SimulatedTemperature {
 
 /// A plant's effects act; a controller's model is without them.
 /// @throws ModelError  positioned: something is '*' (numbers are needed), Fs is negative; an effect
-///         is not known; or the mass matrix of a plant is singular everywhere
+///         is not known, or twists a joint whose drive has no inertia; or the mass matrix of a
+///         plant is singular everywhere
 SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use,
                                     const EffectCatalogue& catalogue = {},
                                     const SimulatedTemperature& temperature = {});
