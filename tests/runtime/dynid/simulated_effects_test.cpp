@@ -209,7 +209,10 @@ TEST(SimulatedEffects, OthersAreRecordedOrPartsOfTheDrive) {
   int acting = 0, recorded = 0;
   std::vector<std::string> twisting, lagging;
   for (const auto& effect : catalogue().all()) {
-    EffectInstance instance{.law = effect_law(*effect), .joint = 0, .link = 1, .other = 1};
+    EffectInstance instance;
+    instance.law = effect_law(*effect);
+    instance.joint = 0;
+    instance.other = 1;
     instance.parameters = typical(instance.law, EffectScales{.tau_max = 20});
     if (acts_on_plant(instance.law)) {
       ++acting;
