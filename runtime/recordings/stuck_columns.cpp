@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/recordings/stuck_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace dyngen::runtime {
+namespace {
+
+using Eigen::Index;
+using ConstColumn = Eigen::Ref<const Eigen::VectorXd>;
+
+/// Calls `visit(first, last)` for each stretch of equal values that is long enough.
+void for_each_plateau(const ConstColumn& time, const ConstColumn& values,
+                      const std::function<void(Index, Index)>& visit) {
+  for (Index first = 0; first < values.size();) {
+    Index last = first;
+    while (last + 1 < values.size() && values(last + 1) == values(first)) ++last;
+    if (last - first + 1 >= kFewestStuck && time(last) - time(first) >= kShortestStuck) {
+      visit(first, last);
+    }
+    first = last + 1;
+  }
+}
+
+double largest_step(const ConstColumn& values, Index from, Index to) {
+  double largest = 0;
+  for (Index i = std::max<Index>(from, 0) + 1; i <= std::min(to, values.size() - 1); ++i) {
+    largest = std::max(largest, std::abs(values(i) - values(i - 1)));
+  }
+  return largest;
+}
+
+double slope(const ConstColumn& time, const ConstColumn& values, Index from, Index to) {
+  from = std::max<Index>(from, 0);
+  to = std::min(to, values.size() - 1);
+  return from < to ? (values(to) - values(from)) / (time(to) - time(from)) : 0;
+}
+
+}  // namespace
+
+std::vector<Stuck> find_frozen_positions(const ConstColumn& time, const ConstColumn& position,
+                                         double sample_time, double resolution) {
+  constexpr Index kNear = 8;
+  constexpr double kLeast = 0.002, kHalfOfAcceleration = 400;  // 800 rad/s^2 make no such jump
+  constexpr double kSteps = 5, kManySteps = 20, kResolutions = 10, kMissed = 0.5;
+  std::vector<Stuck> found;
+  for_each_plateau(time, position, [&](Index first, Index last) {
+    if (first < kNear || last + 1 >= position.size()) return;
+    const double jump = position(last + 1) - position(last);
+    const double step = std::max(largest_step(position, first - kNear, first),
+                                 largest_step(position, last + 1, last + 1 + kNear));
+    if (std::abs(jump) < std::max({kLeast, kHalfOfAcceleration * sample_time * sample_time,
+                                   kSteps * step, kResolutions * resolution})) {
+      return;
+    }
+    const double speed = (slope(time, position, first - kNear, first) +
+                          slope(time, position, last + 1, last + 1 + kNear)) /
+                         2;
+    const double missed = speed * (time(last + 1) - time(first));
+    const bool agrees =
+        std::abs(jump - missed) <= kMissed * std::max(std::abs(jump), std::abs(missed));
+    if (!agrees && std::abs(jump) < kManySteps * step) return;
+    found.push_back({first + 1, last - first});  // the first of them is a measurement
+  });
+  return found;
+}
+
+std::vector<Stuck> find_stuck_torques(const ConstColumn& time, const ConstColumn& position,
+                                      const ConstColumn& torque, double moved) {
+  std::vector<Stuck> candidates;
+  Index equal = 0, in_candidates = 0;
+  for (Index i = 1; i < torque.size(); ++i) equal += torque(i) == torque(i - 1) ? 1 : 0;
+  const double least = torque.size() > 0 ? torque.minCoeff() : 0;
+  const double largest = torque.size() > 0 ? torque.maxCoeff() : 0;
+  for_each_plateau(time, torque, [&](Index first, Index last) {
+    const auto positions = position.segment(first, last - first + 1);
+    const bool limited = torque(first) == least || torque(first) == largest;
+    if (limited || positions.maxCoeff() - positions.minCoeff() < moved) return;
+    candidates.push_back({first + 1, last - first});
+    in_candidates += last - first;
+  });
+  constexpr double kRare = 0.1;
+  const Index others = torque.size() - 1 - in_candidates;
+  const bool rare =
+      static_cast<double>(equal - in_candidates) <= kRare * static_cast<double>(others);
+  return others > 0 && rare ? candidates : std::vector<Stuck>();
+}
+
+}  // namespace dyngen::runtime
