@@ -381,16 +381,16 @@ bool read_unit_row(std::string_view line, std::size_t line_number, Columns& colu
   if (fields.size() != columns.target.size()) return false;
   std::size_t used = 0, units = 0;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (columns.target[i] < 0) continue;
+    const std::string_view text = without_brackets(fields[i].text);
+    if (columns.target[i] < 0 || text.empty() || text == "-") continue;
     ++used;
     const bool is_unit = unit_conversion(fields[i].text, columns.quantities[i]).has_value();
     units += is_unit ? 1 : 0;
-    const std::string_view text = without_brackets(fields[i].text);
     constexpr std::string_view kNumberBegins = "+-.0123456789";
     const bool number = !text.empty() && kNumberBegins.find(text.front()) != kNumberBegins.npos;
     if (columns.target[i] == 0 && number && !is_unit) return false;
   }
-  if (2 * units < used) return false;
+  if (units == 0 || 2 * units < used) return false;
 
   std::vector<std::string> names(fields.size());
   for (std::size_t i = 0; i < fields.size(); ++i) {

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kLongestGlitch = 3;
-constexpr Index kNear = 8;  // samples on either side that say what is usual
+constexpr Index kNearGlitch = 8;  // samples on either side that say what is usual
 
 /// The value below which a part of them lies; reorders.
 double quantile_of(std::vector<double>& values, double part) {
@@ -56,7 +56,7 @@ class PositionGlitches {
     return std::clamp(kEighthOfAcceleration * duration * duration, kLeast, kMost);
   }
 
-  /// Samples left - kNear .. left and right .. right + kNear; -1: none on that side.
+  /// Samples left - kNearGlitch .. left and right .. right + kNearGlitch; -1: none on that side.
   [[nodiscard]] Neighbourhood around(Index left, Index right) const {
     std::vector<double> steps, seconds;
     Neighbourhood near;
@@ -66,8 +66,8 @@ class PositionGlitches {
         if (i > from + 1) seconds.push_back(std::abs(x_(i) - 2 * x_(i - 1) + x_(i - 2)));
       }
     };
-    if (left >= 0) collect(std::max<Index>(0, left - kNear), left);
-    if (right >= 0) collect(right, std::min(x_.size() - 1, right + kNear));
+    if (left >= 0) collect(std::max<Index>(0, left - kNearGlitch), left);
+    if (right >= 0) collect(right, std::min(x_.size() - 1, right + kNearGlitch));
     constexpr std::size_t kFewest = 5;
     constexpr double kUsual = 0.7;
     near.known = seconds.size() >= kFewest;
@@ -165,7 +165,7 @@ class PositionGlitches {
 std::vector<Glitch> repair_position_glitches(const Eigen::Ref<const Eigen::VectorXd>& time,
                                              Eigen::Ref<Eigen::VectorXd> position,
                                              double sample_time, double resolution) {
-  if (position.size() < kNear || !(sample_time > 0)) return {};
+  if (position.size() < kNearGlitch || !(sample_time > 0)) return {};
   return PositionGlitches(time, position, sample_time, resolution).repair();
 }
 
@@ -174,7 +174,7 @@ std::vector<Glitch> repair_torque_glitches(const Eigen::Ref<const Eigen::VectorX
   constexpr double kRanges = 2;
   std::vector<Glitch> found;
   const Index size = torque.size();
-  if (size < kNear || !(range > 0)) return found;
+  if (size < kNearGlitch || !(range > 0)) return found;
   const auto far = [&](Index k, double from) {
     return std::abs(torque(k) - from) > kRanges * range;
   };

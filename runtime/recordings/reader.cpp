@@ -260,7 +260,7 @@ struct Attempt {
   bool sorted = false;
 };
 
-Attempt attempt(const std::string& path, const ReadOptions& options) {
+Attempt read_once(const std::string& path, const ReadOptions& options) {
   RecordingReader reader(path, options);
   Attempt result;
   try {
@@ -284,11 +284,11 @@ bool can_be_read_again(const std::string& path) {
 
 Recording read_recording(const std::string& path, const ReadOptions& options,
                          std::vector<Notice>* notices) {
-  Attempt result = attempt(path, options);
+  Attempt result = read_once(path, options);
   if (result.backward_steps >= kFewestBackwardSteps && can_be_read_again(path)) {
     ReadOptions sorting = options;
     sorting.sort_rows = true;
-    Attempt sorted = attempt(path, sorting);
+    Attempt sorted = read_once(path, sorting);
     if (sorted.sorted) result = std::move(sorted);
   }
   if (!result.error && options.repair_signals && options.torque_required) {

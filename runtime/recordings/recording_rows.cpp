@@ -22,7 +22,7 @@ char told_separator(std::string_view line) {
   return word == "sep=" && text.size() - begin == 5 ? text[begin + 4] : '\0';
 }
 
-bool is_number(std::string_view text) {
+bool reads_as_number(std::string_view text) {
   std::string word(text);
   if (!word.empty() && word[0] == '+') word.erase(0, 1);
   for (char& c : word) {
@@ -145,7 +145,7 @@ Columns RecordingRows::find_header(const ExpectedColumns& expected) {
   const std::string_view text = trimmed(line_.text);
   const char separator = told != '\0' ? told : separator_of(text);
   const std::vector<Field> fields = split_fields(text, {separator});
-  const bool numbers = !fields.empty() && is_number(fields.front().text);
+  const bool numbers = !fields.empty() && reads_as_number(fields.front().text);
   constexpr std::string_view kNumberBegins = "+-.0123456789";
   if (!comment_.empty() && (numbers || kNumberBegins.find(text.front()) != text.npos)) {
     log_->add_once("comment header", comment_line_, 1, "the header is a comment; accepted");

@@ -24,6 +24,12 @@ void for_each_plateau(const ConstColumn& time, const ConstColumn& values,
   }
 }
 
+Index equal_steps(const ConstColumn& values) {
+  Index equal = 0;
+  for (Index i = 1; i < values.size(); ++i) equal += values(i) == values(i - 1) ? 1 : 0;
+  return equal;
+}
+
 double largest_step(const ConstColumn& values, Index from, Index to) {
   double largest = 0;
   for (Index i = std::max<Index>(from, 0) + 1; i <= std::min(to, values.size() - 1); ++i) {
@@ -32,7 +38,7 @@ double largest_step(const ConstColumn& values, Index from, Index to) {
   return largest;
 }
 
-double slope(const ConstColumn& time, const ConstColumn& values, Index from, Index to) {
+double mean_speed(const ConstColumn& time, const ConstColumn& values, Index from, Index to) {
   from = std::max<Index>(from, 0);
   to = std::min(to, values.size() - 1);
   return from < to ? (values(to) - values(from)) / (time(to) - time(from)) : 0;
@@ -42,36 +48,42 @@ double slope(const ConstColumn& time, const ConstColumn& values, Index from, Ind
 
 std::vector<Stuck> find_frozen_positions(const ConstColumn& time, const ConstColumn& position,
                                          double sample_time, double resolution) {
-  constexpr Index kNear = 8;
+  constexpr Index kBeside = 8;
   constexpr double kLeast = 0.002, kHalfOfAcceleration = 400;  // 800 rad/s^2 make no such jump
-  constexpr double kSteps = 5, kManySteps = 20, kResolutions = 10, kMissed = 0.5;
+  constexpr double kSteps = 5, kManySteps = 8, kResolutions = 10, kMissed = 0.5;
+  constexpr double kHeld = 0.85;
   std::vector<Stuck> found;
+  Index in_found = 0;
   for_each_plateau(time, position, [&](Index first, Index last) {
-    if (first < kNear || last + 1 >= position.size()) return;
+    if (first < kBeside || last + 1 >= position.size()) return;
     const double jump = position(last + 1) - position(last);
-    const double step = std::max(largest_step(position, first - kNear, first),
-                                 largest_step(position, last + 1, last + 1 + kNear));
+    const double step = std::max(largest_step(position, first - kBeside, first),
+                                 largest_step(position, last + 1, last + 1 + kBeside));
     if (std::abs(jump) < std::max({kLeast, kHalfOfAcceleration * sample_time * sample_time,
                                    kSteps * step, kResolutions * resolution})) {
       return;
     }
-    const double speed = (slope(time, position, first - kNear, first) +
-                          slope(time, position, last + 1, last + 1 + kNear)) /
+    const double speed = (mean_speed(time, position, first - kBeside, first) +
+                          mean_speed(time, position, last + 1, last + 1 + kBeside)) /
                          2;
     const double missed = speed * (time(last + 1) - time(first));
     const bool agrees =
         std::abs(jump - missed) <= kMissed * std::max(std::abs(jump), std::abs(missed));
     if (!agrees && std::abs(jump) < kManySteps * step) return;
     found.push_back({first + 1, last - first});  // the first of them is a measurement
+    in_found += last - first;
   });
-  return found;
+  // A sensor that holds most of its values, or a coarse one, is as it always is.
+  const Index others = position.size() - 1 - in_found;
+  const Index held = equal_steps(position) - in_found;
+  return static_cast<double>(held) > kHeld * static_cast<double>(others) ? std::vector<Stuck>()
+                                                                         : found;
 }
 
 std::vector<Stuck> find_stuck_torques(const ConstColumn& time, const ConstColumn& position,
                                       const ConstColumn& torque, double moved) {
   std::vector<Stuck> candidates;
-  Index equal = 0, in_candidates = 0;
-  for (Index i = 1; i < torque.size(); ++i) equal += torque(i) == torque(i - 1) ? 1 : 0;
+  Index in_candidates = 0;
   const double least = torque.size() > 0 ? torque.minCoeff() : 0;
   const double largest = torque.size() > 0 ? torque.maxCoeff() : 0;
   for_each_plateau(time, torque, [&](Index first, Index last) {
@@ -83,8 +95,8 @@ std::vector<Stuck> find_stuck_torques(const ConstColumn& time, const ConstColumn
   });
   constexpr double kRare = 0.1;
   const Index others = torque.size() - 1 - in_candidates;
-  const bool rare =
-      static_cast<double>(equal - in_candidates) <= kRare * static_cast<double>(others);
+  const bool rare = static_cast<double>(equal_steps(torque) - in_candidates) <=
+                    kRare * static_cast<double>(others);
   return others > 0 && rare ? candidates : std::vector<Stuck>();
 }
 

@@ -14,7 +14,7 @@ struct NamedUnit {
   UnitConversion conversion;
 };
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kRadPerTurn = 2 * std::numbers::pi;
 
 constexpr std::array<NamedUnit, 13> kTimes = {{{"s", {}},
                                                {"ms", {1, 1e3}},
@@ -36,8 +36,8 @@ constexpr std::array<NamedUnit, 17> kLengths = {{{"rad", {}},
                                                  {"urad", {1, 1e6}},
                                                  {"deg", {std::numbers::pi, 180}},
                                                  {"degree", {std::numbers::pi, 180}},
-                                                 {"turn", {kTurn, 1}},
-                                                 {"rev", {kTurn, 1}},
+                                                 {"turn", {kRadPerTurn, 1}},
+                                                 {"rev", {kRadPerTurn, 1}},
                                                  {"arcmin", {std::numbers::pi, 10800}},
                                                  {"arcsec", {std::numbers::pi, 648000}},
                                                  {"m", {}},
@@ -83,8 +83,8 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 }
 
 /// A rate of a length: "deg/s" of power 1, "deg/s2" of power 2.
-std::optional<UnitConversion> rate(std::string_view word, int power) {
-  if (power == 1 && (word == "rpm" || word == "1/min")) return UnitConversion{kTurn, 60, 0};
+std::optional<UnitConversion> rate_unit(std::string_view word, int power) {
+  if (power == 1 && (word == "rpm" || word == "1/min")) return UnitConversion{kRadPerTurn, 60, 0};
   const std::array<std::string_view, 4> first = {"/s", "ps", "s-1", "/min"};
   const std::array<std::string_view, 4> second = {"/s2", "/s/s", "s-2", "/(s2)"};
   for (const std::string_view end : power == 1 ? first : second) {
@@ -147,9 +147,9 @@ std::optional<UnitConversion> unit_conversion(std::string_view word, Quantity qu
     case Quantity::kPosition:
       return find_unit(kLengths, normal);
     case Quantity::kVelocity:
-      return rate(normal, 1);
+      return rate_unit(normal, 1);
     case Quantity::kAcceleration:
-      return rate(normal, 2);
+      return rate_unit(normal, 2);
     case Quantity::kTorque:
       return find_unit(kTorques, normal);
     case Quantity::kTemperature:

@@ -6,6 +6,20 @@
 #include <iostream>
 
 namespace dyngen::runtime {
+namespace {
+
+/// Prints repairs when it goes: also where the recording is refused then.
+struct PrintedAtEnd {
+  explicit PrintedAtEnd(const std::vector<Notice>& notices) : repairs(notices) {}
+  ~PrintedAtEnd() {
+    for (const Notice& notice : repairs) std::cerr << notice.text() << "\n";
+  }
+  PrintedAtEnd(const PrintedAtEnd&) = delete;
+  PrintedAtEnd& operator=(const PrintedAtEnd&) = delete;
+  const std::vector<Notice>& repairs;
+};
+
+}  // namespace
 
 OpenParameters opened_by(const ToolOptions& options) {
   return options.consistent ? OpenParameters::kEverything : OpenParameters::kAbsentRows;
@@ -32,10 +46,9 @@ LoadedRecordings load_recordings(const std::vector<std::string>& paths, const To
   LoadedRecordings loaded;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     progress.show("reading " + paths[i], i, paths.size());
-    loaded.sources.push_back(motion_of_file(paths[i], options.motion));
-    for (const Notice& notice : loaded.sources.back().condition.repairs) {
-      std::cerr << notice.text() << "\n";
-    }
+    std::vector<Notice> repairs;
+    const PrintedAtEnd printed{repairs};
+    loaded.sources.push_back(motion_of_file(paths[i], options.motion, &repairs));
     loaded.lines.push_back(describe(loaded.sources.back(), options, heldout));
   }
   return loaded;
