@@ -106,6 +106,13 @@ std::optional<Meaning> meaning_of(std::string_view name) {
   return std::nullopt;
 }
 
+/// A unit as it was written, or in ASCII.
+std::string shown_unit(std::string_view word) {
+  const bool ascii =
+      std::all_of(word.begin(), word.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  return ascii ? std::string(word) : plain_unit(word);
+}
+
 /// "q1 and q2 in deg, time in ms" of the columns that have a unit which is not SI.
 std::string converted_columns(const Columns& columns, const std::vector<std::string>& units) {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_unit;
@@ -196,7 +203,7 @@ void HeaderReader::read_unit(const Field& field, const Meaning& meaning, std::si
   }
   columns_.conversions[place] = *conversion;
   columns_.converts = columns_.converts || conversion->changes();
-  units_[place] = plain_unit(meaning.unit);
+  units_[place] = shown_unit(meaning.unit);
 }
 
 void HeaderReader::sort_out_names() {
@@ -412,7 +419,7 @@ bool read_unit_row(std::string_view line, std::size_t line_number, Columns& colu
     }
     columns.conversions[i] = *conversion;
     columns.converts = columns.converts || conversion->changes();
-    names[i] = plain_unit(text);
+    names[i] = shown_unit(text);
   }
   const std::string converted = converted_columns(columns, names);
   log.add_once("unit row", line_number, 1,

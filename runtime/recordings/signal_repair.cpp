@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "runtime/recordings/glitches.h"
+#include "runtime/recordings/jumps.h"
 #include "runtime/recordings/notice_log.h"
 #include "runtime/recordings/row_repair.h"
 #include "runtime/recordings/stuck_columns.h"
@@ -51,6 +54,7 @@ class SignalRepair {
     if (recording_.samples() == 0) return;
     for (Index j = 0; j < recording_.q.cols(); ++j) repair_position(j);
     for (Index j = 0; j < recording_.tau.cols(); ++j) repair_torque(j);
+    judge_jumps();
     take_out();
   }
 
@@ -93,6 +97,9 @@ class SignalRepair {
       const auto position = recording_.q.col(j).segment(first(run), count(run));
       append(glitches, repair_position_glitches(time, position, sample_time_, small), run);
       append(stuck, find_frozen_positions(time, position, sample_time_, small), run);
+      for (const Jump& jump : find_jumps(time, position, sample_time_, small)) {
+        jumps_[first(run) + jump.row].push_back({j, run, jump});
+      }
     }
     tell_glitches(fmt::format("q{}", j + 1), recording_.q.col(j), glitches);
     tell_stuck(fmt::format("q{} freezes while the joint moves, and jumps after it", j + 1), stuck);
@@ -165,6 +172,10 @@ class SignalRepair {
     tell(one.first, message);
   }
 
+  [[nodiscard]] bool splits(Index row) const {
+    return std::binary_search(splits_.begin(), splits_.end(), row);
+  }
+
   static std::string left_out(Index rows) {
     return rows == 1 ? "the row is left out" : fmt::format("{} rows are left out", rows);
   }
@@ -186,19 +197,77 @@ class SignalRepair {
     first_stuck_ = std::min(first_stuck_, line(one.first));
   }
 
+  void judge_jumps();
   void take_out();
+
+  struct JumpOfJoint {
+    Index joint = 0;
+    std::size_t run = 0;
+    Jump jump;
+  };
 
   Recording& recording_;
   std::vector<Notice>& notices_;
   std::vector<bool> left_out_;
+  std::map<Index, std::vector<JumpOfJoint>> jumps_;  ///< by row
+  std::vector<Index> splits_;                        ///< rows before which a run ends, increasing
   double sample_time_ = 0;
   std::size_t first_stuck_ = static_cast<std::size_t>(-1);
 };
 
+/// Several joints that jump at once, or one that jumps along its way, say that rows are missing. A
+/// joint that jumps alone and back was off between; one that does not come back has lost its zero.
+void SignalRepair::judge_jumps() {
+  constexpr double kMissingRows = 50;
+  std::vector<std::vector<std::pair<Index, JumpOfJoint>>> alone(
+      static_cast<std::size_t>(recording_.q.cols()));
+  for (const auto& [row, jumps] : jumps_) {
+    if (left_out_[static_cast<std::size_t>(row - 1)]) continue;  // after what was stuck
+    const JumpOfJoint& one = jumps.front();
+    if (jumps.size() == 1 && !(one.jump.steps >= 0 && one.jump.steps <= kMissingRows)) {
+      alone[static_cast<std::size_t>(one.joint)].emplace_back(row, one);
+      continue;
+    }
+    if (splits_.empty()) {
+      tell(row, fmt::format("q{} jumps from {:.6g} to {:.6g} as if rows were missing; a new run "
+                            "begins here, and at each such jump",
+                            one.joint + 1, recording_.q(row - 1, one.joint),
+                            recording_.q(row, one.joint)));
+    }
+    splits_.push_back(row);
+  }
+  for (const auto& jumps : alone) {
+    for (std::size_t i = 0; i < jumps.size(); ++i) {
+      constexpr double kBack = 0.2, kMostOff = 0.2;
+      const auto& [row, one] = jumps[i];
+      const Index end = i + 1 < jumps.size() ? jumps[i + 1].first : row;
+      const bool comes_back =
+          i + 1 < jumps.size() && jumps[i + 1].second.run == one.run &&
+          std::abs(one.jump.size + jumps[i + 1].second.jump.size) <=
+              kBack * std::abs(one.jump.size) &&
+          static_cast<double>(end - row) <= kMostOff * static_cast<double>(recording_.samples());
+      if (!comes_back) {
+        throw recording_error(
+            recording_.file_name, line(row), 0,
+            fmt::format(
+                "found q{} at {:.6g} after {:.6g}, from where it goes on, expected no jump: "
+                "was its zero lost? Leave out the rows on one side",
+                one.joint + 1, recording_.q(row, one.joint), recording_.q(row - 1, one.joint)));
+      }
+      tell(row,
+           fmt::format("q{} is off by {:.4g} for {} samples, and comes back; {}, and a new run "
+                       "begins after them",
+                       one.joint + 1, one.jump.size, end - row, left_out(end - row)));
+      mark(row, end - row);
+      ++i;
+    }
+  }
+}
+
 /// Takes out the rows that are marked, splits runs there, and leaves out what is too short then.
 void SignalRepair::take_out() {
   const auto marked = std::count(left_out_.begin(), left_out_.end(), true);
-  if (marked == 0) return;
+  if (marked == 0 && splits_.empty()) return;
   const auto refuse = [&](const std::string& message) {
     const std::size_t place = first_stuck_ == static_cast<std::size_t>(-1) ? 0 : first_stuck_;
     throw recording_error(recording_.file_name, place, 0, message);
@@ -214,13 +283,15 @@ void SignalRepair::take_out() {
     const Index end = first(run) + count(run);
     for (Index from = first(run); from < end;) {
       Index to = from;
-      while (to < end && !left_out_[static_cast<std::size_t>(to)]) ++to;
+      while (to < end && !left_out_[static_cast<std::size_t>(to)] && (to == from || !splits(to))) {
+        ++to;
+      }
       const bool whole = from == first(run) && to == end;
       if (whole || to - from >= static_cast<Index>(kShortestRun)) {
         run_starts.push_back(static_cast<Index>(kept.size()));
         for (Index k = from; k < to; ++k) kept.push_back(k);
       }
-      from = to + 1;
+      from = to < end && left_out_[static_cast<std::size_t>(to)] ? to + 1 : to;
     }
   }
   if (kept.empty()) refuse("found no run that is left where no column is stuck");

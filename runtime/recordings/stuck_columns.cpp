@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace dyngen::runtime {
 namespace {
@@ -28,6 +29,37 @@ Index equal_steps(const ConstColumn& values) {
   Index equal = 0;
   for (Index i = 1; i < values.size(); ++i) equal += values(i) == values(i - 1) ? 1 : 0;
   return equal;
+}
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Is there noise on a column, so that no two of its values are equal but by chance?
+bool is_noisy(const ConstColumn& values) {
+  constexpr double kSmooth =
+      0.5;  // of the steps: a signal far below the sampling frequency has less
+  std::vector<double> steps, seconds;
+  for (Index i = 2; i < values.size(); ++i) {
+    if (values(i) == values(i - 1)) continue;
+    steps.push_back(std::abs(values(i) - values(i - 1)));
+    seconds.push_back(std::abs(values(i) - 2 * values(i - 1) + values(i - 2)));
+  }
+  return median_of(std::move(seconds)) > kSmooth * median_of(std::move(steps));
+}
+
+/// How far positions are off the line through the first and the last of them.
+double off_line(const ConstColumn& time, const ConstColumn& position, Index first, Index last) {
+  const double rise = (position(last) - position(first)) / (time(last) - time(first));
+  double farthest = 0;
+  for (Index i = first; i <= last; ++i) {
+    farthest = std::max(farthest,
+                        std::abs(position(i) - position(first) - rise * (time(i) - time(first))));
+  }
+  return farthest;
 }
 
 double largest_step(const ConstColumn& values, Index from, Index to) {
@@ -82,7 +114,9 @@ std::vector<Stuck> find_frozen_positions(const ConstColumn& time, const ConstCol
 
 std::vector<Stuck> find_stuck_torques(const ConstColumn& time, const ConstColumn& position,
                                       const ConstColumn& torque, double moved) {
+  constexpr double kBent = 0.2;
   std::vector<Stuck> candidates;
+  const bool noisy = is_noisy(torque);
   Index in_candidates = 0;
   const double least = torque.size() > 0 ? torque.minCoeff() : 0;
   const double largest = torque.size() > 0 ? torque.maxCoeff() : 0;
@@ -90,6 +124,8 @@ std::vector<Stuck> find_stuck_torques(const ConstColumn& time, const ConstColumn
     const auto positions = position.segment(first, last - first + 1);
     const bool limited = torque(first) == least || torque(first) == largest;
     if (limited || positions.maxCoeff() - positions.minCoeff() < moved) return;
+    // Without noise, the torque of a joint of constant speed may well be constant.
+    if (!noisy && off_line(time, position, first, last) < kBent * moved) return;
     candidates.push_back({first + 1, last - first});
     in_candidates += last - first;
   });

@@ -158,17 +158,11 @@ TEST(SignalRepair, DoesNotUnwrapWhatGoesBeyondATurn) {
   std::mt19937 generator(1);
   Recording recording = moving_arm({}, generator);
   recording.q.col(0) *= 5;
-  recording.q.col(0).tail(1000).array() +=
-      2 * M_PI;  // a jump of a turn, of what is no angle within one
+  recording.q.col(0).tail(1000).array() += 2 * M_PI;  // of what is no angle within a turn
   const Recording before = recording;
-  EXPECT_TRUE(repair(recording).empty());
+  EXPECT_THROW(repair(recording), runtime::RecordingError);
   EXPECT_TRUE(same(recording, before));
 }
-
-/// A glitch of a random joint, strength and sign, of one to three samples.
-struct MadeGlitch {
-  Index row, count;
-};
 
 TEST(SignalRepair, InterpolatesEncoderGlitches) {
   for (unsigned seed = 0; seed < 3 * kSeeds; ++seed) {
@@ -321,6 +315,102 @@ TEST(SignalRepair, AStuckColumnBecomesAGap) {
     EXPECT_EQ(recording.lines[static_cast<std::size_t>(begin) + 1],
               static_cast<std::uint32_t>(begin + length) + 2);
   }
+}
+
+TEST(SignalRepair, APositionThatIsOffForAWhileBecomesAGap) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    std::mt19937 generator(seed);
+    const ArmMotion motion = any_motion(generator);
+    const Recording truth = moving_arm(motion, generator);
+    Recording recording = truth;
+    const Index joint = whole_between(0, motion.joints - 1, generator);
+    const Index length = whole_between(4, 400, generator), row = whole_between(20, 2500, generator);
+    const double least = std::max(0.1, 8 * motion.speed * motion.sample_time);
+    const double size = (seed % 2 == 0 ? 1 : -1) * between(least, 2, generator);
+    recording.q.col(joint).segment(row, length).array() += size;
+    const auto notices = repair(recording);
+    ASSERT_EQ(notices.size(), 1U) << seed << "\n" << texts(notices);
+    EXPECT_EQ(notices[0].line, static_cast<std::size_t>(row) + 2) << texts(notices);
+    ASSERT_EQ(recording.samples(), truth.samples() - length) << seed << texts(notices);
+    EXPECT_EQ(recording.run_starts, (std::vector<Index>{0, row}));
+    EXPECT_TRUE(recording.q.topRows(row) == truth.q.topRows(row));
+    const Index rest = truth.samples() - row - length;
+    EXPECT_TRUE(recording.q.bottomRows(rest) == truth.q.bottomRows(rest));
+  }
+}
+
+TEST(SignalRepair, RefusesAPositionThatHasLostItsZero) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    std::mt19937 generator(seed);
+    const ArmMotion motion = any_motion(generator);
+    Recording recording = moving_arm(motion, generator);
+    const Index joint = whole_between(0, motion.joints - 1, generator);
+    const Index row = whole_between(20, 2900, generator);
+    const double least = std::max(0.3, 80 * motion.speed * motion.sample_time);
+    const double size = (seed % 2 == 0 ? 1 : -1) * between(least, least + 1, generator);
+    recording.q.col(joint).tail(recording.samples() - row).array() += size;
+    std::string what = "nothing was thrown";
+    try {
+      repair(recording);
+    } catch (const runtime::RecordingError& error) {
+      what = error.what();
+    }
+    EXPECT_NE(what.find("run.csv:" + std::to_string(row + 2) + ":1: error: found q" +
+                        std::to_string(joint + 1)),
+              std::string::npos)
+        << seed << what;
+  }
+}
+
+TEST(SignalRepair, MissingRowsWithoutAGapInTimeEndARun) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    std::mt19937 generator(seed);
+    ArmMotion motion = any_motion(generator);
+    motion.speed = 2;
+    motion.joints = 6;
+    motion.encoder_step = 0;  // a coarse one may stand still just then
+    const Recording truth = moving_arm(motion, generator);
+    const Index lost = std::lround(0.2 / motion.sample_time),
+                row = whole_between(50, 2500, generator);
+    const Index rest = truth.samples() - row - lost;
+    Recording recording = truth;
+    recording.time.conservativeResize(row + rest);
+    recording.lines.resize(static_cast<std::size_t>(row + rest));
+    for (const auto part : {&Recording::q, &Recording::tau}) {
+      (recording.*part).middleRows(row, rest) = (truth.*part).bottomRows(rest).eval();
+      (recording.*part).conservativeResize(row + rest, Eigen::NoChange);
+    }
+    const Recording before = recording;
+    const auto notices = repair(recording);
+    ASSERT_EQ(notices.size(), 1U) << seed << "\n" << texts(notices);
+    EXPECT_NE(notices[0].message.find("as if rows were missing"), std::string::npos)
+        << seed << texts(notices);
+    ASSERT_EQ(recording.samples(), before.samples());
+    EXPECT_EQ(recording.run_starts, (std::vector<Index>{0, row})) << seed;
+    EXPECT_TRUE(recording.q == before.q);
+  }
+}
+
+TEST(SignalRepair, TorqueOfAConstantSpeedIsNotStuck) {
+  Recording recording;
+  recording.file_name = "run.csv";
+  recording.run_starts = {0};
+  recording.time = Eigen::VectorXd::LinSpaced(3001, 0, 3);
+  recording.q.resize(3001, 1);
+  recording.tau.resize(3001, 1);
+  double q = 0;
+  for (Index k = 0; k < recording.samples(); ++k) {  // there and back, friction alone, no noise
+    const double phase = std::fmod(recording.time(k), 1.0);
+    const double speed = std::min({1.0, 5 * phase, 5 * (1 - phase)});
+    q += 0.001 * (recording.time(k) < 2 ? speed : -speed);
+    recording.q(k, 0) = q;
+    recording.tau(k, 0) =
+        (recording.time(k) < 2 ? 1 : -1) * (2 + speed * speed * speed) + (k > 2900 ? 5 : 0);
+  }
+  const Recording before = recording;
+  const auto notices = repair(recording);
+  EXPECT_TRUE(notices.empty()) << texts(notices);
+  EXPECT_TRUE(same(recording, before));
 }
 
 TEST(SignalRepair, ALimitedOrDeadTorqueIsNotStuck) {

@@ -98,16 +98,16 @@ TEST(Units, AreConvertedToSi) {
   };
   const std::vector<Way> ways = {
       {in_degrees("time,q1,tau1,qd1", "ms,deg,mNm,deg/s"),
-       "run.csv:2:1: warning: found a row of units: 'time' in ms; 'q1' in deg; 'tau1' in mnm; "
+       "run.csv:2:1: warning: found a row of units: 'time' in ms; 'q1' in deg; 'tau1' in mNm; "
        "'qd1' "
        "in deg/s; converted to SI"},
       {in_degrees("time [ms],q1 [\xC2\xB0],tau1 [N mm],qd1 [\xC2\xB0/s]", ""),
-       "run.csv:1:1: warning: found 'time [ms]' in ms; 'q1 [??]' in deg; 'tau1 [N mm]' in nmm; "
+       "run.csv:1:1: warning: found 'time [ms]' in ms; 'q1 [??]' in deg; 'tau1 [N mm]' in N mm; "
        "'qd1 "
        "[?"
        "?/s]' in deg/s; converted to SI"},
       {in_degrees("time_ms,q1_deg,tau1_mNm,qd1_deg/s", ""),
-       "run.csv:1:1: warning: found 'time_ms' in ms; 'q1_deg' in deg; 'tau1_mNm' in mnm; "
+       "run.csv:1:1: warning: found 'time_ms' in ms; 'q1_deg' in deg; 'tau1_mNm' in mNm; "
        "'qd1_deg/s' "
        "in deg/s; converted to SI"},
       {in_degrees("Time (ms),Q1 (deg),Tau1,qd1 (deg/s)", ",,(mN m),-"), ""}};
