@@ -105,7 +105,9 @@ MotionSource motion_of(Recording recording, const MotionOptions& options);
 
 /// The same of a file; a large one is read again each time it is gone through, in constant memory.
 /// @throws RecordingError; std::invalid_argument; TooLittleDataError
-MotionSource motion_of_file(const std::string& path, const MotionOptions& options);
+/// @param repairs  what the reader repaired, also where something is thrown then; may be null
+MotionSource motion_of_file(const std::string& path, const MotionOptions& options,
+                            std::vector<Notice>* repairs = nullptr);
 
 /// The same recording, other pieces of it; with no other joint state, of which they are not.
 MotionSource with_pieces(

@@ -9,6 +9,20 @@
 #include "runtime/identification/common_cutoff.h"
 
 namespace dyngen::runtime {
+namespace {
+
+/// Prints repairs when it goes: also where the recording is refused then.
+struct PrintedAtEnd {
+  explicit PrintedAtEnd(const std::vector<Notice>& notices) : repairs(notices) {}
+  ~PrintedAtEnd() {
+    for (const Notice& notice : repairs) std::cerr << notice.text() << "\n";
+  }
+  PrintedAtEnd(const PrintedAtEnd&) = delete;
+  PrintedAtEnd& operator=(const PrintedAtEnd&) = delete;
+  const std::vector<Notice>& repairs;
+};
+
+}  // namespace
 
 OpenParameters opened_by(const ToolOptions& options) {
   return options.consistent ? OpenParameters::kEverything : OpenParameters::kAbsentRows;
@@ -35,14 +49,13 @@ LoadedRecordings load_recordings(const std::vector<std::string>& paths, const To
   LoadedRecordings loaded;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     progress.show("reading " + paths[i], i, paths.size());
+    std::vector<Notice> repairs;
     try {
-      loaded.sources.push_back(motion_of_file(paths[i], options.motion));
+      const PrintedAtEnd printed{repairs};
+      loaded.sources.push_back(motion_of_file(paths[i], options.motion, &repairs));
     } catch (const TooLittleDataError& error) {
       loaded.left_out.emplace_back(error.what());
       continue;
-    }
-    for (const Notice& notice : loaded.sources.back().condition.repairs) {
-      std::cerr << notice.text() << "\n";
     }
     loaded.lines.push_back(describe(loaded.sources.back(), options, heldout));
   }
