@@ -208,7 +208,7 @@ Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,
   options.validate();
   try {
     return Diagnostician(input, options, progress, witness).run();
-  } catch (const TooShortError& error) {
+  } catch (const TooLittleDataError& error) {
     Diagnosis answer;
     answer.condition = condition_lines(input, {}, nullptr);
     answer.sentence = error.what();

@@ -73,8 +73,9 @@ Estimate least_squares(const TorqueFactor& factor, const VectorXd& joint_weights
   const SingularValues svd = decomposed(A);
   const VectorXd& singular = svd.values;
   estimate.condition = condition_number(singular);
-  estimate.rank = static_cast<int>(
-      (singular.array() > options.tolerance * std::max(singular[0], 1e-300)).count());
+  const double largest = singular.size() > 0 ? singular[0] : 0;
+  estimate.rank =
+      static_cast<int>((singular.array() > options.tolerance * std::max(largest, 1e-300)).count());
   const bool deficient = estimate.rank < parameters;
   const int rank =
       std::min(estimate.rank, static_cast<int>(parameters) - options.dropped_directions);
@@ -110,10 +111,15 @@ VectorXd residual_deviation(const TorqueFactor& factor, const VectorXd& beta) {
   for (Index j = 0; j < deviation.size(); ++j) {
     const std::size_t k = static_cast<std::size_t>(j);
     const double count = factor.joints[k].rows;
-    const double degrees = std::max(1.0, count - static_cast<double>(factor.columns[k].size()));
-    // a fit without a residual would give an infinite weight
-    const double least = 1e-24 * torque[j] + std::numeric_limits<double>::min();
-    deviation[j] = std::sqrt(std::max(deviation[j], least) / degrees);
+    const double degrees = count - static_cast<double>(factor.columns[k].size());
+    if (!(torque[j] > 0)) {
+      deviation[j] = 1;
+    } else if (degrees < 1) {
+      deviation[j] = std::sqrt(torque[j] / count);
+    } else {
+      // a fit without a residual would give an infinite weight
+      deviation[j] = std::sqrt(std::max(deviation[j], 1e-24 * torque[j]) / degrees);
+    }
   }
   return deviation;
 }

@@ -223,8 +223,9 @@ Residual residual_of(const TorqueFactor& equations, const VectorXd& beta) {
   for (Index j = 0; j < result.rms.size(); ++j) {
     const double squares = result.rms[j], torque = result.percent[j];
     const double rows = equations.joints[static_cast<std::size_t>(j)].rows;
-    result.rms[j] = rows > 0 ? std::sqrt(squares / rows) : 0;
-    result.percent[j] = torque > 0 ? 100 * std::sqrt(squares / torque) : 0;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    result.rms[j] = rows > 0 ? std::sqrt(squares / rows) : none;
+    result.percent[j] = torque > 0 ? 100 * std::sqrt(squares / torque) : none;
   }
   return result;
 }

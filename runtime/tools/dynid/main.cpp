@@ -9,6 +9,7 @@
 #include "gen/tool/output_files.h"
 #include "runtime/estimation/matrix_products.h"
 #include "runtime/identification/summary_file.h"
+#include "runtime/plausibility/remark.h"
 #include "runtime/plots/figure.h"
 #include "runtime/recordings/notice.h"
 #include "runtime/tools/dynid/fit/file_summaries.h"
@@ -78,6 +79,12 @@ int guarded_run(const ToolOptions& parsed, ProcessGroup& group) {
   } catch (const FigureError& error) {
     std::cerr << "dynid: error: " << error.what() << "\n";
     return kInputWrong;
+  } catch (const TooLittleDataError& error) {
+    std::cerr << error.what() << "\ndynid: these recordings hold too little for an answer\n";
+    return kCannotAnswer;
+  } catch (const ImplausibleError& error) {
+    std::cerr << error.what() << "\n";
+    return kCannotAnswer;
   } catch (const std::invalid_argument& error) {
     std::cerr << "dynid: error: " << error.what() << "\n";
     return kInputWrong;

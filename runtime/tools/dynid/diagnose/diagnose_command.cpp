@@ -21,6 +21,7 @@
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/arm_drawing.h"
 #include "runtime/tools/dynid/page/page_output.h"
+#include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 
 namespace dyngen::runtime {
@@ -62,12 +63,27 @@ DiagnosedMotions read_motions(const std::vector<std::string>& paths, const std::
                                       ? load_unexplained(paths, options, progress)
                                       : load_recordings(paths, options, false, progress);
   DiagnosedMotions motions;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+  for (std::size_t i = 0; i < loaded.sources.size(); ++i) {
     motions.sources.push_back(without_effects(loaded.sources[i], known));
     motions.recorded.push_back(loaded.sources[i]);
-    motions.recordings.push_back({paths[i], use, loaded.lines[i].seconds});
+    motions.recordings.push_back({loaded.lines[i].name, use, loaded.lines[i].seconds});
   }
   return motions;
+}
+
+/// Structure that is sought in all joints at once needs the torque of all.
+/// @throws TooLittleDataError  if one was not measured
+void refuse_dead_torque(const std::vector<MotionSource>& sources) {
+  for (const MotionSource& source : sources) {
+    const std::vector<bool>& dead = source.condition.torque_dead;
+    for (std::size_t j = 0; j < dead.size(); ++j) {
+      if (!dead[j]) continue;
+      throw TooLittleDataError(fmt::format(
+          "{}: the torque of joint {} was not measured (one number throughout), and a diagnosis "
+          "needs that of all joints.",
+          source.name, j + 1));
+    }
+  }
 }
 
 std::vector<MotionSource> joined_sources(const DiagnosisInput& input) {
@@ -178,6 +194,10 @@ int run_diagnose(const ToolOptions& options) {
   };
   try {
     input.train = read(options.recordings, "fitted");
+    if (!settings.residual_only) {
+      judge_recordings(robot, input.train, options, progress);
+      refuse_dead_torque(input.train);
+    }
     input.heldout = read(options.heldout, "held out");
     input.reference = read(options.diagnose.reference, "reference");
     input.hypotheses = competing_effects(robot, catalogue, joined_sources(input));
@@ -185,8 +205,12 @@ int run_diagnose(const ToolOptions& options) {
       progress.show(stage, static_cast<std::size_t>(100 * done), 100);
     };
     diagnosis = diagnose(input, settings, tell, witness);
-  } catch (const TooShortError& error) {
+  } catch (const TooLittleDataError& error) {
     diagnosis.sentence = error.what();
+  } catch (const ImplausibleError& error) {
+    progress.clear();
+    std::cerr << error.what() << "\n";
+    diagnosis.sentence = error.sentence();
   }
   DiagnosisReport report = diagnosis_report(std::move(diagnosis), robot, catalogue);
   report.views = std::move(views);

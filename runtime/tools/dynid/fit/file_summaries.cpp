@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "gen/diagnostic/diagnostic.h"
+#include "runtime/identification/common_cutoff.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/process/message.h"
 #include "runtime/tools/dynid/recordings/loading.h"
@@ -36,10 +37,16 @@ std::string summary_bytes(const std::string& path, const DescribedRobot& robot,
   if (path.ends_with(".qr") || is_summary_file(path)) {
     return write_summaries(read_summary_file(path));
   }
-  const MotionSource source = motion_of_file(path, options.motion);
+  MotionSource source = motion_of_file(path, options.motion);
+  source = at_cutoff({source}, common_cutoff(robot.linear, {source})).front();
   for (const Notice& notice : source.condition.repairs) warnings += notice.text() + "\n";
   RobotSummaries one = empty_summaries(robot.linear);
-  one.robots.emplace("", summarise(robot.linear, source, options.rows));
+  const RecordingSummary summary = summarise(robot.linear, source, options.rows);
+  RecordingLine line = describe(source, options, false);
+  line.equations = equations_of(summary.equations);
+  const std::string reason = why_no_equations(line, options.rows);
+  if (!reason.empty()) throw TooLittleDataError(reason);
+  one.robots.emplace("", summary);
   return write_summaries(one);
 }
 

@@ -15,6 +15,7 @@
 #include "runtime/tools/dynid/fit/fit_with_effects.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/page_output.h"
+#include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 
 namespace dyngen::runtime {
@@ -63,6 +64,31 @@ Conditioning examine_conditioning(const FitReport& report) {
   result.weakest = drop_weakest(equations, weights, -1);
   result.essential = essential_parameters(equations, weights);
   return result;
+}
+
+/// Noise that is larger than what a combination of parameters shows: (4.1) has no bound then.
+void warn_of_hidden_directions(FitReport& report) {
+  if (std::isfinite(report.trust.perturbation_bound) || report.main().estimate.unseen.cols() > 0) {
+    return;
+  }
+  report.notes.emplace_back(
+      "warning: noise of accelerations is larger than what the weakest combination of parameters "
+      "shows: values that share in it may be wrong beyond their deviations (more motion, longer "
+      "recordings or a lower --cutoff would show it)");
+}
+
+/// Torque of held-out recordings that is not predicted.
+void warn_of_held_out(FitReport& report) {
+  constexpr double kMostLeft = 50;  // % of a joint's torque
+  const VectorXd& left = report.main().heldout_percent;
+  for (Index j = 0; j < left.size(); ++j) {
+    if (!(left[j] > kMostLeft)) continue;
+    report.notes.push_back(fmt::format(
+        "warning: {:.0f} % of joint {}'s held-out torque is not predicted: another motion than was "
+        "fitted, another state of the robot, or physics that the model leaves out ('dynid "
+        "diagnose')",
+        left[j], j + 1));
+  }
 }
 
 /// Recordings, or files of their summaries: not both.
@@ -212,14 +238,17 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     train = load_recordings(options.recordings, reading, false, progress);
     heldout = load_recordings(options.heldout, reading, true, progress);
     hold_out_parts(options.heldout_part, train, heldout, options);
-    report.recordings = train.lines;
+    settle_cutoff(with_effects ? nullptr : &model, train, heldout, reading, progress);
+    report.notes = judge_recordings(report.robot, train.sources, options, progress);
     if (with_effects) {
       fit_with_effects(task, options, train.sources, heldout.sources, progress, report);
     } else {
-      report.data.summary = summarise_together(model, train.sources, options, progress);
+      report.data.summary = summarise_together(model, train, options, progress);
       report.data.rows = joined(rows_of_all(model, train.sources, options));
       make_instruments(options, train, report);
     }
+    report.recordings = train.lines;
+    report.notes.insert(report.notes.end(), train.left_out.begin(), train.left_out.end());
   }
   if (!options.heldout.empty() && heldout.sources.empty()) {
     heldout = load_recordings(options.heldout, options, true, progress);
@@ -227,9 +256,17 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   if (!heldout.sources.empty()) {
     if (!with_effects) {
       report.heldout_rows = joined(rows_of_all(model, heldout.sources, options));
-      report.data.heldout = factor_of(report.heldout_rows, model.columns, model.size());
+      report.data.heldout = heldout_equations(model, heldout, options);
     }
     report.recordings.insert(report.recordings.end(), heldout.lines.begin(), heldout.lines.end());
+  }
+  report.notes.insert(report.notes.end(), heldout.left_out.begin(), heldout.left_out.end());
+  const bool heldout_wanted = !options.heldout.empty() || options.heldout_part > 0;
+  const bool nothing_heldout =
+      heldout_wanted && !(report.data.heldout && report.data.heldout->samples() > 0);
+  if (nothing_heldout) {
+    report.data.heldout.reset();
+    report.heldout_rows = {};
   }
   if (!with_effects) {
     FitOptions fit_options = options.fit;
@@ -243,6 +280,7 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   progress.show("trust", 0, 1);
   report.trust = measure_trust(report.data.summary.equations, report.main().estimate,
                                report.data.summary.regressor_noise, report.data.summary.row_time);
+  warn_of_hidden_directions(report);
   report.conditioning = examine_conditioning(report);
   // what a method leaves out on purpose is not what the data do not see
   const Estimate plain = weighted_least_squares(report.data.summary.equations);
@@ -251,10 +289,16 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     progress.show("physical consistency", 0, 1);
     report.consistent = fit_consistently(report);
   }
+  warn_of_held_out(report);
   const std::vector<std::string> made = write_outputs(options, report, progress);
   progress.clear();
   std::cout << fit_table(report);
   tell_written(made);
+  if (nothing_heldout) {
+    std::cerr
+        << "dynid: what was held out has no equations: nothing is known of the fit beyond the "
+           "recordings that were fitted\n";
+  }
   if (!report.unseen.empty()) {
     std::cerr << fmt::format(
         "dynid: these recordings do not determine {} combination{} of parameters (listed above)\n",
@@ -266,7 +310,7 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
                  "above)\n";
     return kCannotAnswer;
   }
-  return kDone;
+  return nothing_heldout ? kCannotAnswer : kDone;
 }
 
 }  // namespace dyngen::runtime

@@ -17,6 +17,16 @@ std::string number_text(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
 }
 
+std::string percent_text(double value) {
+  return std::isfinite(value) ? fmt::format("{:.1f}", value) : std::string("-");
+}
+
+std::string percents_text(const VectorXd& values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(percent_text(value));
+  return fmt::format("{}", fmt::join(texts, " "));
+}
+
 /// Long sums are whole in the robot file and the JSON.
 std::string shortened(const std::string& formula) {
   constexpr std::size_t kMost = 44;
@@ -89,13 +99,18 @@ std::string joint_rows(const FitReport& report) {
   const VectorXd times = report.data.summary.noise.correlation_time();
   text += fmt::format("{:>16}\n", "correlated over");
   for (int j = 0; j < model.joints(); ++j) {
-    text += fmt::format("{:<14}{:>10.0f}{:>8.4g} {:<3}{:>12.1f}", fmt::format("joint {}", j + 1),
-                        report.data.summary.equations.joints[static_cast<std::size_t>(j)].rows,
-                        fit.estimate.residual_rms[j],
-                        model.revolute[static_cast<std::size_t>(j)] ? "N m" : "N", fit.percent[j]);
-    if (heldout)
-      text += fmt::format("{:>12.4g}{:>12.1f}", fit.heldout_rms[j], fit.heldout_percent[j]);
-    text += fmt::format("{:>14.3g} s\n", std::max(1.0, times[j]) * report.data.summary.row_time);
+    const double rows = report.data.summary.equations.joints[static_cast<std::size_t>(j)].rows;
+    text += fmt::format("{:<14}{:>9.0f} {:>8} {:<3}{:>12}", fmt::format("joint {}", j + 1), rows,
+                        number_text(fit.estimate.residual_rms[j]),
+                        model.revolute[static_cast<std::size_t>(j)] ? "N m" : "N",
+                        percent_text(fit.percent[j]));
+    if (heldout) {
+      text += fmt::format("{:>12}{:>12}", number_text(fit.heldout_rms[j]),
+                          percent_text(fit.heldout_percent[j]));
+    }
+    text += rows > 0 ? fmt::format("{:>14.3g} s\n",
+                                   std::max(1.0, times[j]) * report.data.summary.row_time)
+                     : fmt::format("{:>14}\n", "-");
   }
   return text;
 }
@@ -171,13 +186,12 @@ std::string unseen_rows(const FitReport& report) {
 std::string consistent_rows(const FitReport& report) {
   if (!report.consistent) return "";
   const ConsistentFit& fit = *report.consistent;
-  std::string text = fmt::format(
-      "\nphysically consistent: residual per joint {:.1f} % of torque (free: {:.1f} %)\n",
-      fmt::join(fit.percent, " "), fmt::join(report.main().percent, " "));
+  std::string text =
+      fmt::format("\nphysically consistent: residual per joint {} % of torque (free: {} %)\n",
+                  percents_text(fit.percent), percents_text(report.main().percent));
   if (fit.heldout_percent.size() != 0) {
-    text +=
-        fmt::format("  held-out: {:.1f} % (free: {:.1f} %)\n", fmt::join(fit.heldout_percent, " "),
-                    fmt::join(report.main().heldout_percent, " "));
+    text += fmt::format("  held-out: {} % (free: {} %)\n", percents_text(fit.heldout_percent),
+                        percents_text(report.main().heldout_percent));
   }
   std::vector<int> pulling;
   for (Index i = 0; i < fit.pull.size(); ++i) {
@@ -250,8 +264,7 @@ std::string method_columns(const FitReport& report) {
       text += fmt::format("{:<10}", fmt::format("{} {}", name, j + 1));
       for (const MethodFit& fit : report.fits) {
         const VectorXd& of_fit = values(fit);
-        text +=
-            of_fit.size() != 0 ? fmt::format("{:>11.1f}", of_fit[j]) : fmt::format("{:>11}", "-");
+        text += fmt::format("{:>11}", of_fit.size() != 0 ? percent_text(of_fit[j]) : "-");
       }
       text += "\n";
     }

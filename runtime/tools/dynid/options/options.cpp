@@ -59,6 +59,11 @@ void add_state_options(CLI::App& command, ToolOptions& options, Words& words) {
       ->capture_default_str();
 }
 
+void add_as_recorded(CLI::App& command, ToolOptions& options) {
+  command.add_flag("--as-recorded", options.as_recorded,
+                   "believe recordings that cannot be meant (units, signs, columns)");
+}
+
 void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
   add_state_options(command, options, words);
   command
@@ -69,6 +74,7 @@ void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
       .add_option("--period", words.period,
                   "seconds, auto (periods are looked for and averaged) or off")
       ->capture_default_str();
+  add_as_recorded(command, options);
 }
 
 void add_recordings(CLI::App& command, ToolOptions& options, const char* text) {
@@ -164,6 +170,7 @@ void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
   add_page_options(*diagnose, options.page);
   add_diagnose_options(*diagnose, options.diagnose);
   add_state_options(*diagnose, options, words);
+  add_as_recorded(*diagnose, options);
 }
 
 void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
