@@ -13,7 +13,7 @@ namespace {
 constexpr double kTail = 0.005;  // of the values on either side that do not decide the range
 constexpr double kMargin = 1;    // of the range between the tails, on either side
 
-double quantile(std::vector<double>& values, double part) {
+double value_at(std::vector<double>& values, double part) {
   const auto place = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + place, values.end());
   return values[static_cast<std::size_t>(place)];
@@ -30,7 +30,7 @@ void RobustRange::settle() {
   low_ = -std::numeric_limits<double>::infinity();
   high_ = std::numeric_limits<double>::infinity();
   if (values_.empty()) return;
-  const double low = quantile(values_, kTail), high = quantile(values_, 1 - kTail);
+  const double low = value_at(values_, kTail), high = value_at(values_, 1 - kTail);
   if (high > low) {
     low_ = low - kMargin * (high - low);
     high_ = high + kMargin * (high - low);
