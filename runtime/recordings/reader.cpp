@@ -299,11 +299,18 @@ Recording read_all(RecordingReader& reader) {
 Recording read_recording(const std::string& path, const ReadOptions& options,
                          std::vector<Notice>* notices) {
   RecordingReader reader(path, options);
-  Recording recording = read_all(reader);
-  if (notices != nullptr) {
+  const auto tell = [&] {
+    if (notices == nullptr) return;
     notices->insert(notices->end(), reader.notices().begin(), reader.notices().end());
+  };
+  try {
+    Recording recording = read_all(reader);
+    tell();
+    return recording;
+  } catch (const RecordingError&) {
+    tell();
+    throw;
   }
-  return recording;
 }
 
 }  // namespace dyngen::runtime

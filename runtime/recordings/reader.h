@@ -63,7 +63,8 @@ class RecordingReader {
 
 /// Reads a whole recording into memory.
 ///
-/// @param notices  what was repaired is appended, if not null
+/// @param notices  what was repaired is appended, if not null; also if the recording is then
+/// refused
 /// @throws RecordingError
 Recording read_recording(const std::string& path, const ReadOptions& options = {},
                          std::vector<Notice>* notices = nullptr);

@@ -37,9 +37,19 @@ std::string summary_bytes(const std::string& path, const DescribedRobot& robot,
   if (path.ends_with(".qr") || is_summary_file(path)) {
     return write_summaries(read_summary_file(path));
   }
-  MotionSource source = motion_of_file(path, options.motion);
+  std::vector<Notice> repairs;
+  const auto tell = [&] {
+    for (const Notice& notice : repairs) warnings += notice.text() + "\n";
+  };
+  MotionSource source;
+  try {
+    source = motion_of_file(path, options.motion, &repairs);
+  } catch (...) {
+    tell();
+    throw;
+  }
+  tell();
   source = at_cutoff({source}, common_cutoff(robot.linear, {source})).front();
-  for (const Notice& notice : source.condition.repairs) warnings += notice.text() + "\n";
   RobotSummaries one = empty_summaries(robot.linear);
   const RecordingSummary summary = summarise(robot.linear, source, options.rows);
   RecordingLine line = describe(source, options, false);

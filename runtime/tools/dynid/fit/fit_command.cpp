@@ -137,7 +137,8 @@ void make_instruments(const ToolOptions& options, const LoadedRecordings& train,
   }
   MotionOptions motion = options.motion;
   motion.state.cutoff_hz = train.sources.front().cutoff.hz;
-  MotionSource commanded = motion_of_file(options.tracked, motion);
+  ToldRepairs repairs;
+  MotionSource commanded = motion_of_file(options.tracked, motion, &repairs.notices);
   if (options.heldout_part > 0) commanded = part_of(commanded, 0, 1 - options.heldout_part);
   const Estimate start = weighted_least_squares(report.data.summary.equations);
   report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
