@@ -104,8 +104,8 @@ struct MotionSource {
 MotionSource motion_of(Recording recording, const MotionOptions& options);
 
 /// The same of a file; a large one is read again each time it is gone through, in constant memory.
+/// @param repairs  what was repaired is appended, if not null; also where an error is thrown
 /// @throws RecordingError; std::invalid_argument; TooLittleDataError
-/// @param repairs  what the reader repaired, also where something is thrown then; may be null
 MotionSource motion_of_file(const std::string& path, const MotionOptions& options,
                             std::vector<Notice>* repairs = nullptr);
 

@@ -9,20 +9,10 @@
 #include "runtime/identification/common_cutoff.h"
 
 namespace dyngen::runtime {
-namespace {
 
-/// Prints repairs when it goes: also where the recording is refused then.
-struct PrintedAtEnd {
-  explicit PrintedAtEnd(const std::vector<Notice>& notices) : repairs(notices) {}
-  ~PrintedAtEnd() {
-    for (const Notice& notice : repairs) std::cerr << notice.text() << "\n";
-  }
-  PrintedAtEnd(const PrintedAtEnd&) = delete;
-  PrintedAtEnd& operator=(const PrintedAtEnd&) = delete;
-  const std::vector<Notice>& repairs;
-};
-
-}  // namespace
+ToldRepairs::~ToldRepairs() {
+  for (const Notice& notice : notices) std::cerr << notice.text() << "\n";
+}
 
 OpenParameters opened_by(const ToolOptions& options) {
   return options.consistent ? OpenParameters::kEverything : OpenParameters::kAbsentRows;
@@ -49,10 +39,9 @@ LoadedRecordings load_recordings(const std::vector<std::string>& paths, const To
   LoadedRecordings loaded;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     progress.show("reading " + paths[i], i, paths.size());
-    std::vector<Notice> repairs;
+    ToldRepairs repairs;
     try {
-      const PrintedAtEnd printed{repairs};
-      loaded.sources.push_back(motion_of_file(paths[i], options.motion, &repairs));
+      loaded.sources.push_back(motion_of_file(paths[i], options.motion, &repairs.notices));
     } catch (const TooLittleDataError& error) {
       loaded.left_out.emplace_back(error.what());
       continue;
