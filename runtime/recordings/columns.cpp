@@ -121,7 +121,7 @@ std::string converted_columns(const Columns& columns, const std::vector<std::str
     auto same = std::find_if(by_unit.begin(), by_unit.end(),
                              [&](const auto& entry) { return entry.first == units[i]; });
     if (same == by_unit.end()) same = by_unit.insert(by_unit.end(), {units[i], {}});
-    same->second.push_back(quoted(columns.names[i]));
+    same->second.push_back(quoted(std::string_view(columns.names[i])));
   }
   std::string text;
   for (const auto& [unit, names] : by_unit) {
@@ -406,16 +406,16 @@ bool read_unit_row(std::string_view line, std::size_t line_number, Columns& colu
     if (text.empty() || text == "-") continue;  // as the header says, or SI
     const auto conversion = unit_conversion(text, columns.quantities[i]);
     if (!conversion) {
-      throw recording_error(
-          log.file(), line_number, fields[i].column,
-          fmt::format("found unit {} of column {}, expected {}", quoted(text),
-                      quoted(columns.names[i]), known_units(columns.quantities[i])));
+      throw recording_error(log.file(), line_number, fields[i].column,
+                            fmt::format("found unit {} of column {}, expected {}", quoted(text),
+                                        quoted(std::string_view(columns.names[i])),
+                                        known_units(columns.quantities[i])));
     }
     if (columns.conversions[i].changes() && *conversion != columns.conversions[i]) {
       throw recording_error(
           log.file(), line_number, fields[i].column,
           fmt::format("found unit {} of column {}, expected the unit in its name, or none",
-                      quoted(text), quoted(columns.names[i])));
+                      quoted(text), quoted(std::string_view(columns.names[i]))));
     }
     columns.conversions[i] = *conversion;
     columns.converts = columns.converts || conversion->changes();

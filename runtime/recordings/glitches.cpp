@@ -68,9 +68,9 @@ class PositionGlitches {
     };
     if (left >= 0) collect(std::max<Index>(0, left - kNearGlitch), left);
     if (right >= 0) collect(right, std::min(x_.size() - 1, right + kNearGlitch));
-    constexpr std::size_t kFewest = 5;
+    constexpr std::size_t kFewestSeconds = 5;
     constexpr double kUsual = 0.7;
-    near.known = seconds.size() >= kFewest;
+    near.known = seconds.size() >= kFewestSeconds;
     near.moves = std::any_of(steps.begin(), steps.end(), [](double step) { return step > 0; });
     near.step = quantile_of(steps, kUsual);
     near.second = quantile_of(seconds, kUsual);
