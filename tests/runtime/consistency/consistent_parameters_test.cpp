@@ -152,9 +152,11 @@ TEST(FitConsistent, InconsistentAndMissingPriorsAreReportedAndReplaced) {
   EXPECT_LT((estimate.chi.segment<10>(28) - ball).norm(), 1e-6);
   EXPECT_EQ(estimate.pull.norm(), 0);
   EXPECT_EQ(estimate.message,
-            "Links 3: not all ten parameters have a prior; a ball of 2 kg, radius 0.5 m stands for "
+            "Links 3: not all ten parameters have a prior; a ball of their mass (2 kg where there "
+            "is none), radius 0.5 m stands for "
             "it.\n"
-            "Links 2: the prior is of no physical body; a ball of 2 kg, radius 0.5 m stands for "
+            "Links 2: the prior is of no physical body; a ball of their mass (2 kg where there "
+            "is none), radius 0.5 m stands for "
             "it.\n"
             "The prior of FV1 is negative; 0 stands for it.\n" +
                 std::string("The data determine 0 of ") + std::to_string(robot.problem.R.cols()) +

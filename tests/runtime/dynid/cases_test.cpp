@@ -115,7 +115,9 @@ TEST_F(Cases, PosesThatAreHeldGiveGravity) {
       {"MXR1", 1.8}, {"MY1", 0.04}, {"MX2", 0.3}, {"MY2", -0.02}};
   expect_near(fit, gravity);
   for (auto& [name, parameter] : parameters(fit)) {
-    if (!gravity.contains(name)) EXPECT_EQ(parameter.at("seen"), "no") << name;
+    if (!gravity.contains(name)) {
+      EXPECT_EQ(parameter.at("seen"), "no") << name;
+    }
   }
   // without it no joint moves, and nothing is fitted
   const Outcome moving = dynid("fit " + call);
@@ -180,6 +182,17 @@ TEST_F(Cases, MissingGravityIsNoPhysics) {
   EXPECT_EQ(diagnosis.at("verdict"), "insufficient_data");
   EXPECT_TRUE(diagnosis.at("findings").empty());
 }
+
+#ifdef DYNGEN_WITH_CERES
+TEST_F(Cases, ExactZerosOfAPriorAreNumbers) {
+  // masses are not identifiable: the prior decides them
+  const CaseJson fit =
+      answer("fit --consistent " + file("restart/true2.robot") + " " + file("gap/run.csv.gz"), 0);
+  const CaseJson& standard = fit.at("consistent").at("standard");
+  EXPECT_NEAR(standard.at(9).get<double>(), 4, 0.2) << outcome_.out;
+  EXPECT_NEAR(standard.at(23).get<double>(), 2, 0.1) << outcome_.out;
+}
+#endif
 
 }  // namespace
 }  // namespace dyngen::test

@@ -32,23 +32,29 @@ std::string named(const std::string& path, const std::string& reason) {
                                                 : fmt::format("{}: error: {}", path, reason);
 }
 
+/// @param warnings  what was repaired, also where the recording is refused then
+MotionSource motion_and_warnings(const std::string& path, const ToolOptions& options,
+                                 std::string& warnings) {
+  std::vector<Notice> repairs;
+  const auto add = [&] {
+    for (const Notice& notice : repairs) warnings += notice.text() + "\n";
+  };
+  try {
+    MotionSource source = motion_of_file(path, options.motion, &repairs);
+    add();
+    return source;
+  } catch (...) {
+    add();
+    throw;
+  }
+}
+
 std::string summary_bytes(const std::string& path, const DescribedRobot& robot,
                           const ToolOptions& options, std::string& warnings) {
   if (path.ends_with(".qr") || is_summary_file(path)) {
     return write_summaries(read_summary_file(path));
   }
-  std::vector<Notice> repairs;
-  const auto tell = [&] {
-    for (const Notice& notice : repairs) warnings += notice.text() + "\n";
-  };
-  MotionSource source;
-  try {
-    source = motion_of_file(path, options.motion, &repairs);
-  } catch (...) {
-    tell();
-    throw;
-  }
-  tell();
+  MotionSource source = motion_and_warnings(path, options, warnings);
   source = at_cutoff({source}, common_cutoff(robot.linear, {source})).front();
   RobotSummaries one = empty_summaries(robot.linear);
   const RecordingSummary summary = summarise(robot.linear, source, options.rows);
