@@ -9,6 +9,7 @@
 #include "runtime/identification/common_cutoff.h"
 
 namespace dyngen::runtime {
+
 ToldRepairs::~ToldRepairs() {
   for (const Notice& notice : notices) std::cerr << notice.text() << "\n";
 }
