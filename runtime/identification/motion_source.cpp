@@ -261,12 +261,16 @@ MotionSource motion_of(Recording recording, const MotionOptions& options) {
   return motion_in_memory(std::move(recording), {}, options);
 }
 
-MotionSource motion_of_file(const std::string& path, const MotionOptions& options) {
+MotionSource motion_of_file(const std::string& path, const MotionOptions& options,
+                            std::vector<Notice>* repairs) {
   if (bytes_of_text(path) > options.stream_above && options.state.method == StateMethod::kLowPass) {
     return stream_of_file(path, options);
   }
   RecordingCondition condition;
-  Recording recording = read_recording(path, {}, &condition.repairs);
+  std::vector<Notice> own;
+  std::vector<Notice>& told = repairs != nullptr ? *repairs : own;
+  Recording recording = read_recording(path, {}, &told);
+  condition.repairs = told;
   return motion_in_memory(std::move(recording), std::move(condition), options);
 }
 

@@ -104,8 +104,10 @@ struct MotionSource {
 MotionSource motion_of(Recording recording, const MotionOptions& options);
 
 /// The same of a file; a large one is read again each time it is gone through, in constant memory.
+/// @param repairs  what was repaired is appended, if not null; also where an error is thrown
 /// @throws RecordingError; std::invalid_argument; TooLittleDataError
-MotionSource motion_of_file(const std::string& path, const MotionOptions& options);
+MotionSource motion_of_file(const std::string& path, const MotionOptions& options,
+                            std::vector<Notice>* repairs = nullptr);
 
 /// The same recording, other pieces of it; with no other joint state, of which they are not.
 MotionSource with_pieces(

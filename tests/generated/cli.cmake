@@ -182,3 +182,38 @@ file(READ ${WORK}/kept.c kept)
 if(NOT kept STREQUAL "kept")
   message(FATAL_ERROR "a failed run changed kept.c")
 endif()
+
+# Files that can be read but are hardly meant: warnings at their rows, and what was asked for.
+set(cases ${SOURCE_DIR}/tests/data/cases)
+run(text 0 ${DYNGEN} ${cases}/inertia_at_com/com.robot -o com.c)
+expect_text("inertia at the centre of mass" "${text}" "com.robot:8:9: warning: 'ZZ' of link 2 is 0.02, below"
+  "= 0.18" "given at the centre of mass?")
+run(text 0 ${DYNGEN} ${cases}/millimetres/mm.robot --count)
+expect_text(millimetres "${text}" "mm.robot:2:5: warning: 'd' of joint 2 is 450: a length of 450 m"
+  "millimetres? write 0.45")
+run(text 0 ${DYNGEN} ${cases}/pendulum_gradient/pend.robot --functions base_regressor_gradient -o pend.c)
+expect_text("gradient of a pendulum" "[${text}]" "[]")
+file(WRITE ${WORK}/nothing.robot "number_link 1\ngz 9.81\nstop\n")
+run(text 0 ${DYNGEN} nothing.robot -o nothing.c)
+expect_text("no mass at all" "${text}" "nothing.robot:3:1: warning: joint 1 carries neither mass nor inertia"
+  "nothing.robot: warning: fd is left out: joint 1")
+file(WRITE ${WORK}/friction.robot
+  "number_link 1\nm 1\nmX 0.1\nZZ 1\nFs 2\ngy 9.81\neffect stribeck joint=1 Fs=1 vs=0.1\nstop\n")
+run(text 0 ${DYNGEN} friction.robot -o friction.c)
+expect_text("Fs below Coulomb friction" "${text}" "friction.robot:7:28: warning: effect 'stribeck' of joint 1"
+  "expected Fc <= Fs")
+
+# What is wrong is reported together, also in rows of effects; XML is refused in one sentence.
+file(WRITE ${WORK}/several.robot
+  "number_link 1\nd L\ngy 9.81\neffect stribek joint=1\neffect stribeck joint=2\nstop\n")
+refuse(1 "several mistakes" ARGUMENTS several.robot -o out/x.c SAYS "several.robot:2:3: error: unknown symbol 'L'"
+  "several.robot:4:8: error: unknown effect 'stribek'" "several.robot:5:23: error: '2' is no joint")
+refuse(1 URDF ARGUMENTS ${cases}/urdf/rr.urdf --count SAYS "rr.urdf:1:1: error: this is XML")
+
+# Misspelt options are corrected, and no link leads to an input.
+refuse(2 "a misspelt option" ARGUMENTS ${robot} --functons id -o out/x.c
+  SAYS "unknown option '--functons'; did you mean '--functions'?")
+refuse(2 "one dash" ARGUMENTS ${robot} -count SAYS "did you mean '--count'?")
+file(COPY ${robot} DESTINATION ${WORK}/linked)
+file(CREATE_LINK ${WORK}/linked/puma560.robot ${WORK}/linked/puma.c)
+refuse(2 "a hard link to the robot file" ARGUMENTS linked/puma560.robot -o linked/puma.c SAYS "same file")

@@ -47,10 +47,8 @@ LoadedRecordings load_unexplained(const std::vector<std::string>& paths, const T
   LoadedRecordings loaded;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     progress.show("reading " + paths[i], i, paths.size());
-    loaded.sources.push_back(unexplained_motion(paths[i], options.motion));
-    for (const Notice& notice : loaded.sources.back().condition.repairs) {
-      std::cerr << notice.text() << "\n";
-    }
+    ToldRepairs repairs;
+    loaded.sources.push_back(unexplained_motion(paths[i], options.motion, &repairs.notices));
     loaded.lines.push_back(describe(loaded.sources.back(), options, false));
   }
   return loaded;
@@ -117,7 +115,8 @@ ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& r
   ForwardTask task{
       options.diagnose.loop, options.diagnose.controller_model, std::move(heldout), {}};
   for (const std::string& path : options.diagnose.commanded) {
-    task.commanded.push_back(read_trajectory(path));
+    ToldRepairs repairs;
+    task.commanded.push_back(read_trajectory(path, &repairs.notices));
   }
   return compare_forward(report, robot, catalogue, task, [&](double done) {
     progress.show("simulation", static_cast<std::size_t>(1000 * done), 1000);

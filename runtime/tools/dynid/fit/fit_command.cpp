@@ -10,6 +10,7 @@
 #include "gen/tool/progress_line.h"
 #include "runtime/identification/simulated_motion.h"
 #include "runtime/identification/summary_file.h"
+#include "runtime/recordings/trajectory_file.h"
 #include "runtime/tools/dynid/fit/consistent_fit.h"
 #include "runtime/tools/dynid/fit/file_summaries.h"
 #include "runtime/tools/dynid/fit/fit_with_effects.h"
@@ -130,18 +131,26 @@ void make_instruments(const ToolOptions& options, const LoadedRecordings& train,
   if (options.tracked.empty()) {
     if (!wanted) return;
     throw std::invalid_argument(
-        "method iv needs the motion that was commanded: --tracked FILE, a recording of it");
+        "method iv needs the motion that was commanded: --tracked FILE, a trajectory (time, q1.., "
+        "as "
+        "'dynid excite' writes it) or a recording of it");
   }
   if (train.sources.size() != 1) {
     throw std::invalid_argument("--tracked goes with one recording, of the same samples");
   }
-  MotionOptions motion = options.motion;
-  motion.state.cutoff_hz = train.sources.front().cutoff.hz;
-  MotionSource commanded = motion_of_file(options.tracked, motion);
-  if (options.heldout_part > 0) commanded = part_of(commanded, 0, 1 - options.heldout_part);
+  ToldRepairs repairs;
+  const MotionSource commanded = commanded_motion(
+      read_trajectory(options.tracked, &repairs.notices), options.tracked, train.sources.front());
   const Estimate start = weighted_least_squares(report.data.summary.equations);
-  report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
-                                                  commanded, options.rows, start.beta);
+  try {
+    report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
+                                                    commanded, options.rows, start.beta);
+  } catch (const std::runtime_error& error) {
+    throw TooLittleDataError(fmt::format(
+        "method iv: the model that least squares give cannot track the commanded motion: "
+        "{}",
+        error.what()));
+  }
 }
 
 /// "arm.robot" -> "arm.NAME.robot"

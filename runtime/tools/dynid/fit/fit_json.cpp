@@ -108,6 +108,7 @@ Json methods(const FitReport& report) {
       entry["hausman"] = {{"chi_square", fit.instrumental->hausman},
                           {"degrees", fit.instrumental->degrees},
                           {"p", fit.instrumental->p_value},
+                          {"largest_move", number(fit.instrumental->largest_move)},
                           {"relevance", fit.instrumental->relevance}};
     }
     array.push_back(std::move(entry));

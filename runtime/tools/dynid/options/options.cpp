@@ -12,6 +12,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "gen/tool/usage_hint.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/options/parts.h"
 
@@ -265,7 +266,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     parsed.exit_code = tool.exit(version);
     return parsed;
   } catch (const CLI::ParseError& error) {
-    parsed.exit_code = usage(error.what());
+    parsed.exit_code = usage(usage_message(tool, argc, argv, error.what()));
     return parsed;
   }
   const std::string name = tool.get_subcommands().front()->get_name();

@@ -10,6 +10,10 @@
 
 namespace dyngen::runtime {
 
+ToldRepairs::~ToldRepairs() {
+  for (const Notice& notice : notices) std::cerr << notice.text() << "\n";
+}
+
 OpenParameters opened_by(const ToolOptions& options) {
   return options.consistent ? OpenParameters::kEverything : OpenParameters::kAbsentRows;
 }
@@ -35,14 +39,12 @@ LoadedRecordings load_recordings(const std::vector<std::string>& paths, const To
   LoadedRecordings loaded;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     progress.show("reading " + paths[i], i, paths.size());
+    ToldRepairs repairs;
     try {
-      loaded.sources.push_back(motion_of_file(paths[i], options.motion));
+      loaded.sources.push_back(motion_of_file(paths[i], options.motion, &repairs.notices));
     } catch (const TooLittleDataError& error) {
       loaded.left_out.emplace_back(error.what());
       continue;
-    }
-    for (const Notice& notice : loaded.sources.back().condition.repairs) {
-      std::cerr << notice.text() << "\n";
     }
     loaded.lines.push_back(describe(loaded.sources.back(), options, heldout));
   }

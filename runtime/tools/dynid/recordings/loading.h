@@ -33,6 +33,17 @@ struct LoadedRecordings {
   std::vector<std::string> left_out;  ///< why a file holds too little, in a sentence for each
 };
 
+/// What was repaired in a recording: printed to standard error when it goes out of scope, also
+/// where reading the recording or what follows fails.
+class ToldRepairs {
+ public:
+  ToldRepairs() = default;
+  ~ToldRepairs();
+  ToldRepairs(const ToldRepairs&) = delete;
+  ToldRepairs& operator=(const ToldRepairs&) = delete;
+  std::vector<Notice> notices;
+};
+
 /// What of the robot file a fit asks about.
 OpenParameters opened_by(const ToolOptions& options);
 
