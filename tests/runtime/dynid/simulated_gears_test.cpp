@@ -201,6 +201,18 @@ TEST_F(SimulatedGears, SaysWhatCannotTwist) {
           "under a small load the gear twists by 0");
 }
 
+TEST_F(SimulatedGears, SaysWhatASmallRotorNeeds) {
+  const std::string motion = waves("waves.csv", 0.5, 0.2, 0.5);
+  const std::string robot =
+      arm("small.robot", kDry, "effect joint_elasticity joint=1 c=1e-4\n", "0.01 0.3");
+  const std::string options = "--controller pd --bandwidth 4 --saturate off --rate ";
+  const Outcome slow = simulate(robot, motion, options + "1000");
+  EXPECT_EQ(slow.exit_code, 3) << slow.out;
+  EXPECT_NE(slow.out.find("meets its rotor alone"), std::string::npos) << slow.out;
+  const Outcome fast = simulate(robot, motion, options + "20000");
+  EXPECT_EQ(fast.exit_code, 0) << fast.out;
+}
+
 TEST_F(SimulatedGears, AGearThatIsStiffOrDoesNotTwistIsRigid) {
   const std::string motion = waves("waves.csv", 0.5, 0.2, 0.5);
   ASSERT_EQ(simulate(arm("rigid.robot", kDry, ""), motion, "").exit_code, 0);

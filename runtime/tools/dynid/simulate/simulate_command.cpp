@@ -151,6 +151,11 @@ int run_simulate(const SimulateOptions& options) {
   } catch (const std::runtime_error& error) {
     progress.clear();
     std::cerr << "dynid: " << error.what() << "\n";
+    if (!plant.plant.links.empty()) {
+      std::cerr << "Gears give here: fast motion of a drive meets its rotor alone ('IA'), while "
+                   "gains are those of rotor and links. A higher --rate or a lower --bandwidth may "
+                   "help.\n";
+    }
     return kCannotAnswer;
   }
   if (plant.reads_temperature)
