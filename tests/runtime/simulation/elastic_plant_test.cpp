@@ -155,8 +155,8 @@ TEST(ElasticPlant, StiffGearsAreARigidRobot) {
     const ClosedLoopRun elastic = run_of(plant, robot);
     ASSERT_EQ(elastic.truth.joints(), 3);
     const double apart = (elastic.truth.q - rigid.truth.q).cwiseAbs().maxCoeff();
-    EXPECT_LT(apart, 100 * c);  // N m of load, nearly
-    EXPECT_LT(apart, 0.3 * before);
+    EXPECT_LT(apart, 200 * c);  // N m of load, nearly
+    EXPECT_LT(apart, 0.5 * before);
     before = apart;
     // the links are behind by c of their load
     EXPECT_GT((elastic.truth.q - elastic.links.q).col(0).cwiseAbs().maxCoeff(), 10 * c);
