@@ -16,6 +16,7 @@
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/page_output.h"
 #include "runtime/tools/dynid/recordings/loading.h"
+#include "runtime/tools/dynid/robot/identified_file.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -172,21 +173,23 @@ std::vector<FitMethod> methods_of(const ToolOptions& options, const FitData& dat
   return methods;
 }
 
+/// The JSON and the page, before the robot files: an answer is not lost with one of them.
 /// @return  paths of the page and its figures
 std::vector<std::string> write_outputs(const ToolOptions& options, const FitReport& report,
                                        ProgressLine& progress) {
-  std::vector<OutputFile> files;
-  if (!options.output.empty()) {
-    files.push_back({options.output, identified_file(report)});
-    for (std::size_t i = 0; report.hierarchy && i < report.hierarchy->robots.size(); ++i) {
-      files.push_back({path_of_robot(options.output, report.hierarchy->robots[i].name),
-                       identified_file(report, i)});
-    }
-  }
-  if (!options.json.empty()) files.push_back({options.json, fit_json(report)});
-  return write_with_page(
+  std::vector<OutputFile> answer;
+  if (!options.json.empty()) answer.push_back({options.json, fit_json(report)});
+  std::vector<std::string> made = write_with_page(
       options.page, [&] { return fit_document(report, options.page.command); }, progress,
-      std::move(files));
+      std::move(answer));
+  if (options.output.empty()) return made;
+  std::vector<OutputFile> robots = {{options.output, identified_file(report)}};
+  for (std::size_t i = 0; report.hierarchy && i < report.hierarchy->robots.size(); ++i) {
+    robots.push_back({path_of_robot(options.output, report.hierarchy->robots[i].name),
+                      identified_file(report, i)});
+  }
+  write_robot_files(robots);
+  return made;
 }
 
 }  // namespace
@@ -251,9 +254,10 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     progress.show("physical consistency", 0, 1);
     report.consistent = fit_consistently(report);
   }
+  progress.clear();
+  std::cout << fit_table(report) << std::flush;
   const std::vector<std::string> made = write_outputs(options, report, progress);
   progress.clear();
-  std::cout << fit_table(report);
   tell_written(made);
   if (!report.unseen.empty()) {
     std::cerr << fmt::format(

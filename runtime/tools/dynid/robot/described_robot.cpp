@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <set>
@@ -22,6 +23,7 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 constexpr int kStandard = static_cast<int>(kChiCount);
 
@@ -111,21 +113,75 @@ MatrixXd grouping_matrix(const SymbolicRobot& robot,
   return K;
 }
 
+/// The base parameters that are left where the file's zeros tie some of them together: beta =
+/// combination * beta(kept).
+struct IndependentParameters {
+  std::vector<std::size_t> kept;
+  MatrixXd combination;  ///< (nb x kept)
+};
+
+/// A base parameter whose standard parameters stand in others too, in the same ratio, is no unknown
+/// of its own: of a link of which only YY is open, XXR2 = -YY2 and ZZR1 = YY2.
+IndependentParameters independent_parameters(const MatrixXd& grouping) {
+  constexpr double kDependent = 1e-10;  // of a row's norm; rounding leaves some 1e-16
+  IndependentParameters result;
+  MatrixXd basis(grouping.cols(), 0);  // orthonormal
+  for (Index i = 0; i < grouping.rows(); ++i) {
+    VectorXd rest = grouping.row(i).transpose();
+    const double norm = rest.norm();
+    for (int round = 0; round < 2; ++round) rest -= basis * (basis.transpose() * rest).eval();
+    if (rest.norm() <= kDependent * norm) continue;
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    basis.rightCols(1) = rest.normalized();
+    result.kept.push_back(static_cast<std::size_t>(i));
+  }
+  if (result.kept.empty()) return result;
+  const MatrixXd own = grouping(result.kept, Eigen::all).transpose();
+  result.combination = own.colPivHouseholderQr().solve(grouping.transpose()).transpose();
+  for (std::size_t k = 0; k < result.kept.size(); ++k) {
+    result.combination.row(static_cast<Index>(result.kept[k])).setZero();
+    result.combination(static_cast<Index>(result.kept[k]), static_cast<Index>(k)) = 1;
+  }
+  result.combination =
+      (result.combination.array().abs() > kDependent).select(result.combination, 0.0);
+  return result;
+}
+
+/// Which standard parameters rather carry base parameters: a first moment or an element of a tensor
+/// may have any sign, a mass or a rotor inertia that is negative looks like a mistake.
+int reluctance(Index place) {
+  const Chi kind = static_cast<Chi>(place % kStandard);
+  if (is_of_actuator(kind)) return 2;
+  return kind == Chi::kM ? 1 : 0;
+}
+
 /// Columns of the grouping that carry the base parameters: a parameter's own place where it is one,
 /// else chosen so that the system is well conditioned.
 std::vector<Index> choose_places(const MatrixXd& grouping,
                                  const std::vector<GroupedParameter>& parameters) {
+  constexpr double kWeak = 1e-3;  // of a pivot beside the largest: other columns say it better
   std::vector<Index> places;
-  MatrixXd own(grouping.rows(), grouping.rows());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const Column& column = parameters[i].column;
-    places.push_back(static_cast<Index>(index(column.kind)) + Index{kStandard} * (column.link - 1));
-    own.col(static_cast<Index>(i)) = grouping.col(places.back());
+  for (const GroupedParameter& parameter : parameters) {
+    places.push_back(static_cast<Index>(index(parameter.column.kind)) +
+                     Index{kStandard} * (parameter.column.link - 1));
   }
-  if (own.isIdentity(1e-12)) return places;
-  Eigen::ColPivHouseholderQR<MatrixXd> pivoted(grouping);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    places[i] = pivoted.colsPermutation().indices()(static_cast<Index>(i));
+  if (places.empty() || grouping(Eigen::all, places).isIdentity(1e-12)) return places;
+  places.clear();
+  MatrixXd rest = grouping;
+  for (int most = 0; most <= 3; ++most) {  // at last all columns, weak or not
+    MatrixXd allowed = rest;
+    for (Index c = 0; c < allowed.cols(); ++c) {
+      if (reluctance(c) > most) allowed.col(c).setZero();
+    }
+    const Eigen::ColPivHouseholderQR<MatrixXd> pivoted(allowed);
+    const Eigen::VectorXd pivots = pivoted.matrixQR().diagonal().cwiseAbs();
+    const Index wanted = grouping.rows() - static_cast<Index>(places.size());
+    Index taken = 0;
+    while (taken < wanted && (most == 3 || pivots[taken] > kWeak * grouping.norm())) {
+      places.push_back(pivoted.colsPermutation().indices()(taken++));
+    }
+    const MatrixXd Q = MatrixXd(pivoted.householderQ()).leftCols(taken);
+    rest -= Q * (Q.transpose() * rest).eval();
   }
   return places;
 }
@@ -188,15 +244,41 @@ void check_motion(const MatrixXd& matrix, const char* name, Index rows, Index co
                                           matrix.rows(), matrix.cols(), rows, columns));
 }
 
+/// Columns of the parameters that are left.
+std::vector<std::vector<int>> combined(const std::vector<std::vector<int>>& columns,
+                                       const MatrixXd& combination) {
+  std::vector<std::vector<int>> result(columns.size());
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    for (Index c = 0; c < combination.cols(); ++c) {
+      const bool seen = std::any_of(columns[j].begin(), columns[j].end(),
+                                    [&](int column) { return combination(column, c) != 0; });
+      if (seen) result[j].push_back(static_cast<int>(c));
+    }
+  }
+  return result;
+}
+
+/// Every joint's block of a matrix (N x n * from) times another one (from x to).
+MatrixXd blocks_times(const MatrixXd& blocks, Index joints, const MatrixXd& factor) {
+  MatrixXd result(blocks.rows(), joints * factor.cols());
+  for (Index j = 0; j < joints; ++j) {
+    result.middleCols(j * factor.cols(), factor.cols()) =
+        blocks.middleCols(j * factor.rows(), factor.rows()) * factor;
+  }
+  return result;
+}
+
 /// The base regressor as a program that is evaluated over many samples.
-void add_regressor(LinearModel& linear, CodeModel& code) {
+/// @param combination  of the program's parameters from those of the model
+void add_regressor(LinearModel& linear, CodeModel& code, const MatrixXd& combination) {
   const std::vector<RobotFunction> functions =
       write_functions({parse_function_name("base_regressor")}, code, {.patience = 0, .work = 0});
   auto program = std::make_shared<const Program>(lower(functions.front().trace));
-  linear.columns = visible_columns(*program, linear.joints(), linear.size());
-  const Index joints = linear.joints(), size = linear.size();
-  linear.regressor = [program, joints, size](const MatrixXd& q, const MatrixXd& dq,
-                                             const MatrixXd& ddq, MatrixXd& Y) {
+  const Index joints = linear.joints(), size = combination.rows();
+  linear.columns =
+      combined(visible_columns(*program, linear.joints(), static_cast<int>(size)), combination);
+  linear.regressor = [program, joints, size, combination](const MatrixXd& q, const MatrixXd& dq,
+                                                          const MatrixXd& ddq, MatrixXd& Y) {
     check_motion(q, "q", q.rows(), joints);
     check_motion(dq, "dq", q.rows(), joints);
     check_motion(ddq, "ddq", q.rows(), joints);
@@ -207,22 +289,26 @@ void add_regressor(LinearModel& linear, CodeModel& code) {
     evaluate(*program, static_cast<std::size_t>(q.rows()),
              {{"q", values(q)}, {"dq", values(dq)}, {"ddq", values(ddq)}},
              {{"Y", std::span<double>(Y.data(), static_cast<std::size_t>(Y.size()))}});
+    if (combination.cols() != size) Y = blocks_times(Y, joints, combination);
   };
 }
 
 /// Its gradient, on request: it costs more to write than the regressor.
-void add_regressor_gradient(LinearModel& linear, CodeModel& code) {
+void add_regressor_gradient(LinearModel& linear, CodeModel& code, const MatrixXd& combination) {
   const RobotFunction function =
       write_plain_function(parse_function_name("base_regressor_gradient"), code);
   auto program = std::make_shared<const Program>(lower(function.trace));
-  const Index joints = linear.joints(), size = linear.size();
-  linear.regressor_gradient = [program, joints, size](const JointMotion& motion,
-                                                      const MatrixXd& A) {
+  const Index joints = linear.joints(), size = combination.cols();
+  linear.regressor_gradient = [program, joints, size, combination](const JointMotion& motion,
+                                                                   const MatrixXd& weights) {
     const Index samples = motion.q.rows();
     check_motion(motion.q, "q", samples, joints);
     check_motion(motion.dq, "dq", samples, joints);
     check_motion(motion.ddq, "ddq", samples, joints);
-    check_motion(A, "A", samples, joints * size);
+    check_motion(weights, "A", samples, joints * size);
+    const MatrixXd A = combination.rows() == size
+                           ? weights
+                           : blocks_times(weights, joints, combination.transpose());
     JointMotion gradient;
     for (MatrixXd* part : {&gradient.q, &gradient.dq, &gradient.ddq}) part->resize(samples, joints);
     const auto values = [](const MatrixXd& matrix) {
@@ -265,8 +351,11 @@ DescribedRobot describe_robot(RobotFile file, OpenParameters open, const Describ
   linear.name = robot.model.name;
   linear.joint_names = code.coordinate_names;
   linear.revolute = code.coordinate_revolute;
-  robot.grouping = grouping_matrix(symbolic, base.parameters);
-  for (std::size_t i = 0; i < base.parameters.size(); ++i) {
+  const MatrixXd grouping = grouping_matrix(symbolic, base.parameters);
+  const IndependentParameters independent = independent_parameters(grouping);
+  robot.grouping = grouping(independent.kept, Eigen::all);
+  std::vector<GroupedParameter> parameters;
+  for (const std::size_t i : independent.kept) {
     const GroupedParameter& grouped = base.parameters[i];
     LinearParameter parameter;
     parameter.name = grouped.name();
@@ -276,10 +365,11 @@ DescribedRobot describe_robot(RobotFile file, OpenParameters open, const Describ
     parameter.kind = kind_of(grouped.column.kind);
     parameter.value = file_value(grouped, symbolic);
     linear.parameters.push_back(std::move(parameter));
+    parameters.push_back(grouped);
   }
-  robot.places = choose_places(robot.grouping, base.parameters);
-  add_regressor(linear, code);
-  if (options.gradient) add_regressor_gradient(linear, code);
+  robot.places = choose_places(robot.grouping, parameters);
+  add_regressor(linear, code, independent.combination);
+  if (options.gradient) add_regressor_gradient(linear, code, independent.combination);
   return robot;
 }
 
