@@ -177,6 +177,7 @@ int run_diagnose(const ToolOptions& options) {
   const auto shared = std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects));
   const EffectCatalogue& catalogue = *shared;
   const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAbsentRows);
+  refuse_without_parameters(robot);
   const KnownEffects known = known_effects(options.robot, catalogue);
   const ToolOptions how = reading(options);
   std::vector<DiagnosedRecording> recordings;

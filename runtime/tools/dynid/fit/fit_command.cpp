@@ -8,11 +8,13 @@
 #include <utility>
 
 #include "gen/tool/progress_line.h"
+#include "runtime/effects/effect_signals.h"
 #include "runtime/identification/simulated_motion.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/fit/consistent_fit.h"
 #include "runtime/tools/dynid/fit/file_summaries.h"
 #include "runtime/tools/dynid/fit/fit_with_effects.h"
+#include "runtime/tools/dynid/fit/held_torque.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/page_output.h"
 #include "runtime/tools/dynid/recordings/loading.h"
@@ -173,6 +175,39 @@ std::vector<FitMethod> methods_of(const ToolOptions& options, const FitData& dat
   return methods;
 }
 
+/// What held numbers cannot go with. Their torque is taken off every sample before the fit.
+void refuse_with_hold(const ToolOptions& options, const EffectTask& task, bool file_by_file,
+                      bool summaries) {
+  if (options.hold.empty()) return;
+  if (file_by_file || summaries) {
+    throw std::invalid_argument(
+        "--hold goes with recordings that are given directly to one process, not with .qr files, "
+        "--list or mpirun");
+  }
+  if (options.consistent) {
+    throw std::invalid_argument(
+        "--hold and --consistent: expected one of them. Bodies that can exist are near the file's "
+        "numbers, and change with each other");
+  }
+  const auto& methods = options.fit.methods;
+  if (std::find(methods.begin(), methods.end(), FitMethod::kIv) != methods.end()) {
+    throw std::invalid_argument(
+        "--hold and --method iv: expected another method, since the instruments are simulated with "
+        "all parameters");
+  }
+  for (const EffectInstance& effect : task.effects) {
+    const auto& variables = effect.law.variables;
+    if (effect.law.kind != EffectKind::kAlignment &&
+        std::none_of(variables.begin(), variables.end(), depends_on_model)) {
+      continue;
+    }
+    throw std::invalid_argument(fmt::format(
+        "--hold: the file has a row 'effect {}', which reads the torque of the whole model: "
+        "leave the row or --hold out",
+        effect.law.name));
+  }
+}
+
 /// The JSON and the page, before the robot files: an answer is not lost with one of them.
 /// @return  paths of the page and its figures
 std::vector<std::string> write_outputs(const ToolOptions& options, const FitReport& report,
@@ -197,7 +232,8 @@ std::vector<std::string> write_outputs(const ToolOptions& options, const FitRepo
 int run_fit(const ToolOptions& options, ProcessGroup& group) {
   ProgressLine progress("dynid");
   FitReport report;
-  report.robot = describe_robot(options.robot, opened_by(options));
+  report.robot = describe_robot(options.robot, opened_by(options), {.hold = options.hold});
+  refuse_without_parameters(report.robot);
   const LinearModel& model = report.robot.linear;
   LoadedRecordings train, heldout;
   const bool file_by_file = !options.list.empty() || group.size() > 1;
@@ -206,6 +242,8 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   const EffectTask task = EffectTask::of(report.robot, options);
   const bool with_effects = !task.effects.empty();
   if (with_effects) refuse_with_effects(options, file_by_file, summaries);
+  refuse_with_hold(options, task, file_by_file, summaries);
+  report.notes = notes_of_numbers(report.robot, task);
   if (file_by_file) {
     load_by_file(options, group, progress, report);
   } else if (summaries) {
@@ -214,6 +252,9 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     const ToolOptions reading = task.reading(options);
     train = load_recordings(options.recordings, reading, false, progress);
     heldout = load_recordings(options.heldout, reading, true, progress);
+    for (LoadedRecordings* loaded : {&train, &heldout}) {
+      for (MotionSource& source : loaded->sources) source = without_held(source, report.robot);
+    }
     hold_out_parts(options.heldout_part, train, heldout, options);
     report.recordings = train.lines;
     if (with_effects) {

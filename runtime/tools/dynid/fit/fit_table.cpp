@@ -17,15 +17,17 @@ std::string number_text(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
 }
 
-/// Long sums are whole in the robot file and the JSON.
-std::string shortened(const std::string& formula) {
+/// Long sums are whole in the robot file and the JSON. What is said behind a sum stays.
+std::string shortened(const std::string& whole) {
   constexpr std::size_t kMost = 44;
-  if (formula.size() <= kMost) return formula;
+  const std::size_t behind = std::min(whole.find("; "), whole.size());
+  const std::string formula = whole.substr(0, behind), remark = whole.substr(behind);
+  if (formula.size() <= kMost) return whole;
   const std::size_t plus = formula.rfind(" + ", kMost), minus = formula.rfind(" - ", kMost);
   const std::size_t cut = plus == std::string::npos    ? minus
                           : minus == std::string::npos ? plus
                                                        : std::max(plus, minus);
-  return formula.substr(0, cut == std::string::npos ? kMost : cut) + " ...";
+  return formula.substr(0, cut == std::string::npos ? kMost : cut) + " ..." + remark;
 }
 
 std::string heading(const FitReport& report) {

@@ -14,6 +14,7 @@
 
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/options/parts.h"
+#include "runtime/tools/dynid/robot/held_numbers.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -87,7 +88,7 @@ void add_effects(CLI::App& command, ToolOptions& options) {
 
 void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* fit = tool.add_subcommand("fit", "identify a robot's parameters from recordings");
-  fit->add_option("robot", options.robot, "robot file; its rows that are absent or * are estimated")
+  fit->add_option("robot", options.robot, "robot file: its numbers are where the fit begins")
       ->required();
   add_recordings(*fit, options, "recordings, or .qr files of 'dynid accumulate'");
   fit->add_option("--holdout", options.heldout,
@@ -99,6 +100,11 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
                   fmt::format("{}, or all: side by side", fmt::join(fit_method_names(), ", ")))
       ->allow_extra_args(false)
       ->default_str("wls");
+  fit->add_option("--hold", options.hold,
+                  fmt::format("numbers of the robot file that are kept, not estimated: {}; may be "
+                              "given again",
+                              kHoldForms))
+      ->allow_extra_args(false);
   fit->add_flag("--consistent", options.consistent,
                 "full parameters of bodies that can exist, near the file's values");
   fit->add_option("-o,--output", options.output, "the identified robot file");

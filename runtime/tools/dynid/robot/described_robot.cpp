@@ -17,6 +17,7 @@
 #include "gen/generator/generator.h"
 #include "gen/program/program.h"
 #include "gen/symbols/exact.h"
+#include "runtime/tools/dynid/robot/base_grouping.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -87,107 +88,20 @@ ParameterKind kind_of(Chi kind) {
   }
 }
 
-/// Place of a symbol of the file among the standard parameters.
-Index place_of(const FileSymbol& symbol, int links) {
-  for (int link = 1; link <= links; ++link) {
-    for (std::size_t k = 0; k < kChiCount; ++k) {
-      if (symbol.name == chi_name(static_cast<Chi>(k), link)) {
-        return static_cast<Index>(k) + kStandard * (link - 1);
-      }
-    }
-  }
-  throw std::logic_error("describe_robot(): '" + symbol.name + "' is no standard parameter");
-}
-
-MatrixXd grouping_matrix(const SymbolicRobot& robot,
-                         const std::vector<GroupedParameter>& parameters) {
-  MatrixXd K =
-      MatrixXd::Zero(static_cast<Index>(parameters.size()), Index{kStandard} * robot.size());
-  for (const FileSymbol& symbol : robot.parameters) {
-    const Index place = place_of(symbol, robot.size());
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      const GiNaC::ex coefficient = parameters[i].value.coeff(symbol.symbol, 1);
-      if (!coefficient.is_zero()) K(static_cast<Index>(i), place) = to_double(coefficient);
-    }
-  }
-  return K;
-}
-
-/// The base parameters that are left where the file's zeros tie some of them together: beta =
-/// combination * beta(kept).
-struct IndependentParameters {
-  std::vector<std::size_t> kept;
-  MatrixXd combination;  ///< (nb x kept)
-};
-
-/// A base parameter whose standard parameters stand in others too, in the same ratio, is no unknown
-/// of its own: of a link of which only YY is open, XXR2 = -YY2 and ZZR1 = YY2.
-IndependentParameters independent_parameters(const MatrixXd& grouping) {
-  constexpr double kDependent = 1e-10;  // of a row's norm; rounding leaves some 1e-16
-  IndependentParameters result;
-  MatrixXd basis(grouping.cols(), 0);  // orthonormal
-  for (Index i = 0; i < grouping.rows(); ++i) {
-    VectorXd rest = grouping.row(i).transpose();
-    const double norm = rest.norm();
-    for (int round = 0; round < 2; ++round) rest -= basis * (basis.transpose() * rest).eval();
-    if (rest.norm() <= kDependent * norm) continue;
-    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-    basis.rightCols(1) = rest.normalized();
-    result.kept.push_back(static_cast<std::size_t>(i));
-  }
-  if (result.kept.empty()) return result;
-  const MatrixXd own = grouping(result.kept, Eigen::all).transpose();
-  result.combination = own.colPivHouseholderQr().solve(grouping.transpose()).transpose();
-  for (std::size_t k = 0; k < result.kept.size(); ++k) {
-    result.combination.row(static_cast<Index>(result.kept[k])).setZero();
-    result.combination(static_cast<Index>(result.kept[k]), static_cast<Index>(k)) = 1;
-  }
-  result.combination =
-      (result.combination.array().abs() > kDependent).select(result.combination, 0.0);
-  return result;
-}
-
-/// Which standard parameters rather carry base parameters: a first moment or an element of a tensor
-/// may have any sign, a mass or a rotor inertia that is negative looks like a mistake.
-int reluctance(Index place) {
-  const Chi kind = static_cast<Chi>(place % kStandard);
-  if (is_of_actuator(kind)) return 2;
-  return kind == Chi::kM ? 1 : 0;
-}
-
-/// Columns of the grouping that carry the base parameters: a parameter's own place where it is one,
-/// else chosen so that the system is well conditioned.
-std::vector<Index> choose_places(const MatrixXd& grouping,
-                                 const std::vector<GroupedParameter>& parameters) {
-  constexpr double kWeak = 1e-3;  // of a pivot beside the largest: other columns say it better
-  std::vector<Index> places;
-  for (const GroupedParameter& parameter : parameters) {
-    places.push_back(static_cast<Index>(index(parameter.column.kind)) +
-                     Index{kStandard} * (parameter.column.link - 1));
-  }
-  if (places.empty() || grouping(Eigen::all, places).isIdentity(1e-12)) return places;
-  places.clear();
-  MatrixXd rest = grouping;
-  for (int most = 0; most <= 3; ++most) {  // at last all columns, weak or not
-    MatrixXd allowed = rest;
-    for (Index c = 0; c < allowed.cols(); ++c) {
-      if (reluctance(c) > most) allowed.col(c).setZero();
-    }
-    const Eigen::ColPivHouseholderQR<MatrixXd> pivoted(allowed);
-    const Eigen::VectorXd pivots = pivoted.matrixQR().diagonal().cwiseAbs();
-    const Index wanted = grouping.rows() - static_cast<Index>(places.size());
-    Index taken = 0;
-    while (taken < wanted && (most == 3 || pivots[taken] > kWeak * grouping.norm())) {
-      places.push_back(pivoted.colsPermutation().indices()(taken++));
-    }
-    const MatrixXd Q = MatrixXd(pivoted.householderQ()).leftCols(taken);
-    rest -= Q * (Q.transpose() * rest).eval();
-  }
-  return places;
+/// A base parameter that is one other parameter, as where held numbers or zeros leave IA1 alone in
+/// ZZR1: "IA1", "0.25 * M3"; of more terms its own name.
+std::string sum_of_few(const GroupedParameter& parameter, const Eigen::RowVectorXd& row) {
+  if ((row.array() != 0).count() != 1) return parameter.name();
+  Index place = 0;
+  row.cwiseAbs().maxCoeff(&place);
+  const std::string name =
+      chi_name(static_cast<Chi>(place % kStandard), static_cast<int>(place / kStandard) + 1);
+  return row[place] == 1 ? name : fmt::format("{:.6g} * {}", row[place], name);
 }
 
 /// "ZZ2 + IA2 + ...", or what the parameter is where nothing is grouped into it.
-std::string formula_of(const std::string& comment, const GroupedParameter& parameter) {
+std::string formula_of(const std::string& comment, const GroupedParameter& parameter,
+                       const Eigen::RowVectorXd& row) {
   if (comment.starts_with("= ")) return comment.substr(2);
   const int link = parameter.column.link;
   switch (parameter.column.kind) {
@@ -200,7 +114,7 @@ std::string formula_of(const std::string& comment, const GroupedParameter& param
     case Chi::kOFF:
       return fmt::format("torque offset of joint {}", link);
     default:
-      return parameter.name();
+      return sum_of_few(parameter, row);
   }
 }
 
@@ -329,26 +243,26 @@ void add_regressor_gradient(LinearModel& linear, CodeModel& code, const MatrixXd
   };
 }
 
-}  // namespace
-
-DescribedRobot describe_robot(const std::string& path, OpenParameters open,
-                              const DescribeOptions& options) {
-  return describe_robot(read_robot_file(path), open, options);
+/// The model with zeros for what is held, or for everything else.
+RobotModel with_zeros(RobotModel model, const HeldNumbers& held, bool of_held) {
+  for (std::size_t i = 0; i < held.places.size(); ++i) {
+    if (held.places[i] != of_held) continue;
+    Quantity& quantity = model.joints[i / kChiCount].chi[i % kChiCount];
+    quantity.unknown = false;
+    quantity.value = 0;
+  }
+  return model;
 }
 
-DescribedRobot describe_robot(RobotFile file, OpenParameters open, const DescribeOptions& options) {
-  DescribedRobot robot;
-  robot.file = std::move(file);
-  refuse_unknown_geometry(robot.file);
-  robot.model = opened(build_model(robot.file), open);
-  robot.standard = standard_values(robot.model);
-
-  const SymbolicRobot symbolic = make_symbolic(robot.model);
+/// The linear model of what a robot has besides zeros, its grouping and places.
+void add_linear_model(const RobotModel& model, const DescribeOptions& options,
+                      DescribedRobot& robot) {
+  const SymbolicRobot symbolic = make_symbolic(model);
   const Regrouping base = regroup(symbolic);
   CodeModel code = make_code_model(
       base, base.parameters, {.parameters = ParameterMode::kRuntime, .weights = options.gradient});
   LinearModel& linear = robot.linear;
-  linear.name = robot.model.name;
+  linear.name = model.name;
   linear.joint_names = code.coordinate_names;
   linear.revolute = code.coordinate_revolute;
   const MatrixXd grouping = grouping_matrix(symbolic, base.parameters);
@@ -360,7 +274,8 @@ DescribedRobot describe_robot(RobotFile file, OpenParameters open, const Describ
     LinearParameter parameter;
     parameter.name = grouped.name();
     parameter.unit = code.chi[i].unit;
-    parameter.formula = formula_of(code.chi[i].comment, grouped);
+    parameter.formula =
+        formula_of(code.chi[i].comment, grouped, grouping.row(static_cast<Index>(i)));
     parameter.link = grouped.column.link;
     parameter.kind = kind_of(grouped.column.kind);
     parameter.value = file_value(grouped, symbolic);
@@ -370,7 +285,81 @@ DescribedRobot describe_robot(RobotFile file, OpenParameters open, const Describ
   robot.places = choose_places(robot.grouping, parameters);
   add_regressor(linear, code, independent.combination);
   if (options.gradient) add_regressor_gradient(linear, code, independent.combination);
+}
+
+/// Says at each parameter whose columns some held numbers have too: an error of the number is then
+/// an error of the parameter.
+void name_aliases(DescribedRobot& robot) {
+  constexpr double kAlias = 1e-9;  // of a column's norm
+  const SymbolicRobot symbolic = make_symbolic(robot.model);
+  const MatrixXd all = grouping_matrix(symbolic, regroup(symbolic).parameters);
+  std::vector<Index> open;
+  for (Index c = 0; c < all.cols(); ++c) {
+    if (!robot.held.places[static_cast<std::size_t>(c)]) open.push_back(c);
+  }
+  const MatrixXd columns = all(Eigen::all, open);
+  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(columns);
+  std::vector<std::string> beside(static_cast<std::size_t>(robot.grouping.rows()));
+  std::size_t name = 0;
+  for (std::size_t i = 0; i < robot.held.places.size(); ++i) {
+    if (!robot.held.places[i]) continue;
+    const std::string& own = robot.held.names[name++];
+    const VectorXd column = all.col(static_cast<Index>(i));
+    const VectorXd x = solver.solve(column);
+    if (column.isZero(0) || (columns * x - column).norm() > kAlias * column.norm()) continue;
+    const VectorXd moved = robot.grouping(Eigen::all, open) * x;
+    for (Index b = 0; b < moved.size(); ++b) {
+      if (std::abs(moved[b]) > kAlias * (1 + moved.norm())) {
+        beside[static_cast<std::size_t>(b)] += " " + own;
+      }
+    }
+  }
+  for (std::size_t b = 0; b < beside.size(); ++b) {
+    if (!beside[b].empty()) robot.linear.parameters[b].formula += "; beside held" + beside[b];
+  }
+}
+
+}  // namespace
+
+DescribedRobot describe_robot(const std::string& path, OpenParameters open,
+                              const DescribeOptions& options) {
+  return describe_robot(read_robot_file(path), open, options);
+}
+
+DescribedRobot describe_robot(RobotFile file, OpenParameters open, const DescribeOptions& options) {
+  DescribedRobot robot;
+  robot.file = std::move(file);
+  refuse_unknown_geometry(robot.file);
+  const RobotModel written = build_model(robot.file);
+  robot.model = opened(written, open);
+  robot.standard = standard_values(robot.model);
+  robot.held = held_numbers(written, options.hold);
+  robot.held_values = StandardParameters::Zero(robot.standard.size());
+  if (!robot.held.any()) {
+    add_linear_model(robot.model, options, robot);
+    return robot;
+  }
+  for (Index i = 0; i < robot.standard.size(); ++i) {
+    if (robot.held.places[static_cast<std::size_t>(i)]) robot.held_values[i] = robot.standard[i];
+  }
+  add_linear_model(with_zeros(robot.model, robot.held, true), options, robot);
+  DescribedRobot held;
+  add_linear_model(with_zeros(written, robot.held, false), {}, held);
+  const VectorXd beta = held.grouping * robot.held_values;
+  robot.held_torque = std::make_shared<const DescribedRobot::HeldTorque>(
+      DescribedRobot::HeldTorque{std::move(held.linear), beta});
+  name_aliases(robot);
   return robot;
+}
+
+void refuse_without_parameters(const DescribedRobot& robot) {
+  if (robot.linear.size() > 0) return;
+  throw ModelError(fmt::format(
+      "{}: error: no dynamic parameter is left to estimate: {}\n", robot.file.file_name,
+      robot.held.any() ? "all others are zero, or are seen in no torque. Hold fewer numbers: "
+                         "--hold links=1,2 leaves IA, Fs, Fv and off open"
+                       : "all are zero, or are seen in no torque. Write '*' for those that are "
+                         "unknown"));
 }
 
 }  // namespace dyngen::runtime

@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "gen/model/robot_model.h"
 #include "gen/robot_file/robot_file.h"
 #include "runtime/model/linear_model.h"
+#include "runtime/tools/dynid/robot/held_numbers.h"
 
 namespace dyngen::runtime {
 
@@ -34,11 +36,21 @@ struct DescribedRobot {
   /// Where the value of each base parameter goes in a file in which all others are zero: (nb)
   /// places of standard parameters.
   std::vector<Eigen::Index> places;
+  /// Numbers that are kept as they are: `linear` and `grouping` are of all other parameters.
+  HeldNumbers held;
+  StandardParameters held_values;  ///< their numbers, all others 0
+  /// Their torque: a model of them alone, and its parameters. Null without any.
+  struct HeldTorque {
+    LinearModel model;
+    Eigen::VectorXd beta;
+  };
+  std::shared_ptr<const HeldTorque> held_torque;
 };
 
 /// What else is wanted of a robot.
 struct DescribeOptions {
-  bool gradient = false;  ///< LinearModel::regressor_gradient: some tenths of a second
+  bool gradient = false;            ///< LinearModel::regressor_gradient: some tenths of a second
+  std::vector<std::string> hold{};  ///< which numbers are held: words of held_numbers()
 };
 
 /// Reads a robot file and writes its base regressor as a program.
@@ -48,5 +60,8 @@ DescribedRobot describe_robot(const std::string& path, OpenParameters open,
 /// The same of a file that was read.
 DescribedRobot describe_robot(RobotFile file, OpenParameters open,
                               const DescribeOptions& options = {});
+
+/// @throws ModelError  if the robot has no parameter that an estimate could find
+void refuse_without_parameters(const DescribedRobot& robot);
 
 }  // namespace dyngen::runtime

@@ -72,7 +72,7 @@ StandardParameters carried(const DescribedRobot& robot, const Eigen::VectorXd& b
   for (std::size_t i = 0; i < robot.places.size(); ++i) {
     standard[robot.places[i]] = values[static_cast<Index>(i)];
   }
-  return standard;
+  return standard + robot.held_values;
 }
 
 std::vector<Index> joined_rotors(const DescribedRobot& robot) {
@@ -81,7 +81,10 @@ std::vector<Index> joined_rotors(const DescribedRobot& robot) {
     const JointModel& joint = robot.model.joint(j);
     if (joint.coordinate < 0 || joint.chi[index(Chi::kIA)].unknown) continue;
     if (parameter_of(robot.linear, joint.coordinate, ParameterKind::kRotorInertia) >= 0) continue;
-    places.push_back(static_cast<Index>(index(Chi::kIA)) + static_cast<Index>(kChiCount) * (j - 1));
+    const Index place =
+        static_cast<Index>(index(Chi::kIA)) + static_cast<Index>(kChiCount) * (j - 1);
+    const bool held = robot.held.any() && robot.held.places[static_cast<std::size_t>(place)];
+    if (!held) places.push_back(place);
   }
   return places;
 }
@@ -96,6 +99,7 @@ StandardParameters nearest_standard(const DescribedRobot& robot, const Eigen::Ve
   if (!robot.standard.allFinite()) return carried_beside_rotors(robot, beta);
   Eigen::MatrixXd free = robot.grouping;
   for (const Index place : joined_rotors(robot)) free.col(place).setZero();
+  // the grouping has nothing of what is held, which stays the file's
   const Eigen::VectorXd rest = beta - robot.grouping * robot.standard;
   return robot.standard + Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(free).solve(rest);
 }

@@ -36,7 +36,7 @@ std::string text_with_rows(const RobotFile& file, const std::vector<std::string>
 /// @throws OutputError
 void write_robot_files(const std::vector<OutputFile>& files);
 
-/// The standard parameters that carry base parameters; all others are zero.
+/// The standard parameters that carry base parameters; held numbers are kept, all others are zero.
 StandardParameters carried(const DescribedRobot& robot, const Eigen::VectorXd& beta);
 
 /// Rotor inertias that the file says and that base parameters have joined with the links'.
