@@ -1,5 +1,6 @@
 # dyngen_precompile(<target> <header>...): with DYNGEN_PRECOMPILE, large headers of other libraries are read once for
 # a target instead of once for each file. Only for speed: every file still includes what it uses.
+# Not for a target whose sources are compiled in one group: writing what was read takes longer than reading it.
 function(dyngen_precompile target)
   if(DYNGEN_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${ARGN})

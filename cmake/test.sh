@@ -1,14 +1,16 @@
 #!/bin/sh
-# test.sh [all|build]: the tests, on a bare Debian 12. Installs the packages that are missing, builds everything, and
-# runs all tests but those that are labelled `slow`; with `all`, those too; with `build`, none.
+# test.sh [all|build]: the tests, on a bare Debian 12. Installs the packages that are missing, builds what the tests need,
+# and runs all tests but those that are labelled `slow`. With `all`: builds the studies, benchmarks and the blind suite
+# too, and runs all tests, on five times as many random robots. With `build`: builds the same, and runs none.
 # BUILD is the build folder (build/test).
 set -eu
 cd "$(dirname "$0")/.."
 
 what=${1:-}
 case $what in
-  "") without="--label-exclude slow" ;;
-  all | build) without="" ;;
+  "") without="--label-exclude slow" benchmarks=OFF cases=20 targets=all ;;
+  all) without="" benchmarks=ON cases=100 targets="all studies blind" ;;
+  build) without="" benchmarks=ON cases=33 targets="all studies blind" ;;
   *) echo "usage: sh cmake/test.sh [all|build]" >&2; exit 2 ;;
 esac
 begin=$(date +%s)
@@ -24,10 +26,10 @@ build=${BUILD:-build/test}
 step=$(date +%s)
 # two checkouts share what the cache holds, and precompiled headers are kept in it
 export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$PWD}" CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
-# a third of the random robots that a build by hand tries
-cmake -C cmake/QuickBuild.cmake -G Ninja -S . -B "$build" -DDYNGEN_BUILD_TESTS=ON -DDYNGEN_BUILD_BENCH=ON \
-  -DDYNGEN_RANDOM_CASES=33 -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
-cmake --build "$build" --parallel "$(nproc)"
+cmake -C cmake/QuickBuild.cmake -G Ninja -S . -B "$build" -DDYNGEN_BUILD_TESTS=ON -DDYNGEN_BUILD_BENCH=$benchmarks \
+  -DDYNGEN_RANDOM_CASES=$cases -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
+# shellcheck disable=SC2086  # targets, in words
+cmake --build "$build" --parallel "$(nproc)" --target $targets
 took "build" "$step"
 [ "$what" != build ] || exit 0
 

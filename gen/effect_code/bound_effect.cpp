@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -17,9 +19,10 @@ namespace {
 /// Binds one row; what is wrong goes to the diagnostics of the robot file.
 class Binding {
  public:
-  Binding(const EffectRow& row, const RobotModel& model, const EffectCatalogue& catalogue,
-          Diagnostics& diagnostics)
-      : row_(row), model_(model), catalogue_(catalogue), diagnostics_(diagnostics) {}
+  /// @param joints  types of all joints; empty: not known, and what names a joint is not checked
+  Binding(const EffectRow& row, const std::vector<JointType>& joints,
+          const EffectCatalogue& catalogue, Diagnostics& diagnostics)
+      : row_(row), joints_(joints), catalogue_(catalogue), diagnostics_(diagnostics) {}
 
   std::optional<BoundEffect> run() {
     bound_.position = row_.position;
@@ -70,7 +73,9 @@ class Binding {
     if (found == nullptr) {
       if (needed) {
         error_at_name(fmt::format("effect '{}' has no '{}='", row_.name, key),
-                      fmt::format("expected {}=1 to {}={}", key, key, model_.size()));
+                      joints_.empty()
+                          ? fmt::format("expected {}=1 or another joint", key)
+                          : fmt::format("expected {}=1 to {}={}", key, key, joints_.size()));
       }
       return 0;
     }
@@ -81,16 +86,17 @@ class Binding {
                                                       : "it acts on one joint");
       return 0;
     }
+    if (joints_.empty()) return 0;
     const FieldValue& value = found->value;
     const bool whole = !value.unknown && value.value.info(GiNaC::info_flags::integer);
     const double number = value.unknown ? 0 : to_double(value.value);
-    if (!whole || number < 1 || number > model_.size()) {
+    if (!whole || number < 1 || number > static_cast<double>(joints_.size())) {
       error(value.position, value.length, fmt::format("'{}' is no joint", printable(value.text)),
-            fmt::format("expected a number from 1 to {}", model_.size()));
+            fmt::format("expected a number from 1 to {}", joints_.size()));
       return 0;
     }
     const int joint = static_cast<int>(number);
-    const JointType type = model_.joint(joint).type;
+    const JointType type = joints_[static_cast<std::size_t>(joint - 1)];
     if (type == JointType::kFixed && reads_motion()) {
       error(value.position, value.length, fmt::format("joint {} does not move", joint),
             "an effect acts on a moving joint");
@@ -170,24 +176,120 @@ class Binding {
   }
 
   const EffectRow& row_;
-  const RobotModel& model_;
+  const std::vector<JointType>& joints_;
   const EffectCatalogue& catalogue_;
   Diagnostics& diagnostics_;
   BoundEffect bound_;
 };
 
+/// Types of the joints as far as the rows of a file say them, which may be wrong.
+std::vector<JointType> joint_types(const RobotFile& file) {
+  std::vector<JointType> types(static_cast<std::size_t>(file.joint_count), JointType::kRevolute);
+  const std::vector<FieldValue>& sigma = file.row(RowKey::kSigma).values;
+  for (std::size_t i = 0; i < std::min(sigma.size(), types.size()); ++i) {
+    for (const JointType type : {JointType::kPrismatic, JointType::kFixed}) {
+      if (!sigma[i].unknown && sigma[i].value.is_equal(static_cast<int>(type))) types[i] = type;
+    }
+  }
+  return types;
+}
+
+/// What a condition may read that is known of a row: its parameters and its joint's friction.
+class KnownNumbers {
+ public:
+  KnownNumbers(const BoundEffect& effect, const RobotModel& model) {
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+      add(effect.file->parameters[k].name, effect.parameters[k]);
+    }
+    if (effect.joint == 0) return;
+    const JointModel& joint = model.joint(effect.joint);
+    for (const auto& [name, kind] :
+         {std::pair{"Fc", Chi::kFS}, std::pair{"Fv", Chi::kFV}, std::pair{"Ia", Chi::kIA}}) {
+      const Quantity& quantity = joint.chi[index(kind)];
+      if (quantity.line != 0) add(name, quantity);  // what a file leaves out may be anything
+    }
+  }
+
+  [[nodiscard]] bool has(const std::string& name) const { return numbers_.contains(name); }
+  [[nodiscard]] double at(const std::string& name) const { return numbers_.at(name); }
+
+ private:
+  void add(const std::string& name, const Quantity& quantity) {
+    if (!quantity.unknown) numbers_.emplace(name, to_double(quantity.value));
+  }
+  std::map<std::string, double> numbers_ = {{"pi", std::acos(-1.0)}};
+};
+
+const EffectRow& row_of(const BoundEffect& effect, const RobotModel& model) {
+  return *std::find_if(model.effects.begin(), model.effects.end(), [&](const EffectRow& row) {
+    return row.position.line == effect.position.line &&
+           row.position.column == effect.position.column;
+  });
+}
+
+/// Warns where a requirement does not hold of the numbers that a row gives.
+void check_requirement(const BoundEffect& effect, const EffectCondition& condition,
+                       const RobotModel& model, Diagnostics& diagnostics) {
+  const KnownNumbers known(effect, model);
+  std::vector<std::string> names = names_in(condition.left);
+  for (const std::string& name : names_in(condition.right)) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  if (!std::all_of(names.begin(), names.end(), [&](const auto& name) { return known.has(name); })) {
+    return;
+  }
+  const auto value_of = [&](const std::string& name) { return known.at(name); };
+  const double left = evaluate(condition.left, value_of);
+  const double right = evaluate(condition.right, value_of);
+  constexpr double kRounded = 1e-9;
+  if (!(left > right + kRounded * std::fabs(right))) return;
+  SourcePosition place = effect.position;
+  int length = static_cast<int>(effect.file->name.size());
+  std::string values;
+  for (const std::string& name : names) {
+    values += fmt::format("{}{} = {:g}", values.empty() ? "" : ", ", name, known.at(name));
+    for (const EffectRow::Setting& setting : row_of(effect, model).settings) {
+      if (setting.key != name) continue;
+      place = setting.value.position;
+      length = setting.value.length;
+    }
+  }
+  diagnostics.warning(
+      place, length,
+      fmt::format("effect '{}' of joint {}: {}: expected {} <= {}", effect.file->name, effect.joint,
+                  values, spell(condition.left), spell(condition.right)),
+      condition.text);
+}
+
 }  // namespace
 
 std::vector<BoundEffect> bind_effects(const RobotModel& model, const EffectCatalogue& catalogue) {
   Diagnostics diagnostics(model.file_name, model.text);
+  std::vector<JointType> joints;
+  for (const JointModel& joint : model.joints) joints.push_back(joint.type);
   std::vector<BoundEffect> bound;
   for (const EffectRow& row : model.effects) {
-    if (auto effect = Binding(row, model, catalogue, diagnostics).run()) {
+    if (auto effect = Binding(row, joints, catalogue, diagnostics).run()) {
       bound.push_back(std::move(*effect));
     }
   }
   if (diagnostics.has_errors()) throw ModelError(diagnostics.render());
   return bound;
+}
+
+void check_effect_rows(const RobotFile& file, const EffectCatalogue& catalogue,
+                       Diagnostics& diagnostics) {
+  const std::vector<JointType> joints = joint_types(file);
+  for (const EffectRow& row : file.effects) Binding(row, joints, catalogue, diagnostics).run();
+}
+
+void check_requirements(const std::vector<BoundEffect>& effects, const RobotModel& model,
+                        Diagnostics& diagnostics) {
+  for (const BoundEffect& effect : effects) {
+    for (const EffectCondition& condition : effect.file->requirements) {
+      check_requirement(effect, condition, model, diagnostics);
+    }
+  }
 }
 
 }  // namespace dyngen

@@ -25,4 +25,13 @@ struct BoundEffect {
 /// @throws ModelError  positioned in the robot file, up to 20 messages
 std::vector<BoundEffect> bind_effects(const RobotModel& model, const EffectCatalogue& catalogue);
 
+/// The same checks on a file as it is read, whose other rows may be wrong.
+void check_effect_rows(const RobotFile& file, const EffectCatalogue& catalogue,
+                       Diagnostics& diagnostics);
+
+/// Warns of rows whose numbers contradict a requirement of their effect's file, with the friction
+/// and rotor inertia that the robot file gives their joint.
+void check_requirements(const std::vector<BoundEffect>& effects, const RobotModel& model,
+                        Diagnostics& diagnostics);
+
 }  // namespace dyngen

@@ -6,7 +6,7 @@
 namespace dyngen {
 
 std::string fill_lines(std::string_view first, std::string_view text, std::size_t indent) {
-  constexpr std::size_t kColumns = 100;
+  constexpr std::size_t kColumns = 80;
   std::istringstream words{std::string(text)};
   std::string result;
   std::string line(first);

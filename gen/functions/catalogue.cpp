@@ -145,6 +145,7 @@ const std::vector<FunctionSpec>& function_catalogue() {
        .summary = "ddq = M(q)^-1 (tau - c(q, dq) - g(q) - friction): forward dynamics.",
        .write = write_forward_dynamics,
        .why_absent = why_no_forward_dynamics,
+       .is_missed = true,
        .effects = EffectPart::kIn},
       {"regressor",
        {"q", "dq", "ddq"},

@@ -51,6 +51,7 @@ struct FunctionSpec {
   void (*write_of_link)(Trace&, const CodeModel&, int link) = nullptr;  ///< instead of `write`
   /// Why a robot has no such function; empty if it has. Null: every robot has it.
   std::string (*why_absent)(const CodeModel&) = nullptr;
+  bool is_missed = false;  ///< a robot without it is told so, though nobody asked for it
   EffectPart effects = EffectPart::kLeftOut;
   /// The inputs of a robot with effects; null: they are `inputs` on every robot.
   std::vector<std::string_view> (*inputs_of)(const CodeModel&) = nullptr;

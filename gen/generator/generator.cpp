@@ -82,8 +82,12 @@ bool is_absent(const FunctionName& name, const CodeModel& code, const GeneratorO
     throw ModelError(
         fmt::format("{}: error: --functions: '{}': {}\n", code.file_name, text, reason));
   }
+  if (name.spec->is_missed && options.left_out) options.left_out(name.text(), reason);
   return true;
 }
+
+constexpr const char* kNoBatch =
+    "effects of this robot remember the call before, and the samples of a batch have no order";
 
 /// A batch has no order of samples: what remembers the call before has none.
 /// @throws ModelError  if it was asked for by its name
@@ -96,10 +100,9 @@ void check_batch(const WantedFunction& wanted, const CodeModel& code,
       continue;
     }
     throw ModelError(
-        fmt::format("{}: error: --functions: '{}': effects of this robot remember the call before, "
-                    "and the samples of a batch have no order\n",
-                    code.file_name, text));
+        fmt::format("{}: error: --functions: '{}': {}\n", code.file_name, text, kNoBatch));
   }
+  if (options.left_out) options.left_out(wanted.name.text() + std::string(kBatchEnding), kNoBatch);
 }
 
 }  // namespace
@@ -209,9 +212,8 @@ std::string count_table(const CodeModel& code, const std::vector<RobotFunction>&
   }
   const int n = static_cast<int>(code.coordinate_names.size());
   const int mul = 105 * n - 92, add = 94 * n - 86;
-  text += fmt::format(
-      "{:<18}{:>6}{:>6}{:>8}   (105n - 92, 94n - 86: inverse dynamics of any arm, n = {})\n",
-      "bound", mul, add, mul + add, n);
+  text += fmt::format("{:<18}{:>6}{:>6}{:>8}   (105n - 92, 94n - 86, n = {})\n", "bound", mul, add,
+                      mul + add, n);
   return text;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@
 namespace dyngen {
 
 inline constexpr const char* kAllFunctions = "all";
+
+/// The name of a function that is left out, and why.
+using LeftOut = std::function<void(const std::string& name, const std::string& reason)>;
 
 /// What to generate of a robot.
 struct GeneratorOptions {
@@ -33,6 +37,7 @@ struct GeneratorOptions {
   Trig trig = Trig::kInline;
   SearchOptions search;  ///< how long to look for fewer operations
   Progress progress;     ///< told of each function; may be empty
+  LeftOut left_out;      ///< told of each function that the robot has not; may be empty
   std::string prefix;    ///< empty: the robot's name
   bool effects = true;   ///< those of the robot that run in a controller are in the functions
   /// What rows `effect` mean; null: the effects that are part of the program.

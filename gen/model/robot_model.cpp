@@ -36,23 +36,9 @@ int integer(const RobotFile& file, RowKey key, int index, int absent) {
   return value == nullptr ? absent : GiNaC::ex_to<GiNaC::numeric>(value->value).to_int();
 }
 
-/// A fixed joint has no actuator: what its column says of one is a mistake.
-void check_fixed_joint(const RobotFile& file, int index, Diagnostics& diagnostics) {
-  for (const RowKey key : {RowKey::kIA, RowKey::kFs, RowKey::kFv, RowKey::kOff}) {
-    const FieldValue* value = field(file, key, index);
-    if (value != nullptr && (value->unknown || !value->value.is_zero())) {
-      diagnostics.error(value->position, value->length,
-                        fmt::format("'{}' of joint {} is '{}', but the joint is fixed (sigma 2): "
-                                    "expected 0",
-                                    row_keyword(key), index + 1, value->text));
-    }
-  }
-}
-
 }  // namespace
 
 RobotModel build_model(const RobotFile& file) {
-  Diagnostics diagnostics(file.file_name, file.text);
   RobotModel model;
   model.name = file.name;
   model.file_name = file.file_name;
@@ -73,21 +59,11 @@ RobotModel build_model(const RobotFile& file) {
     joint.qmax = limit(file, RowKey::kQmax, i);
     joint.name = file.joint_names.empty() ? fmt::format("joint{}", i + 1)
                                           : file.joint_names[static_cast<std::size_t>(i)];
-    if (joint.type == JointType::kFixed) {
-      check_fixed_joint(file, i, diagnostics);
-    } else {
-      joint.coordinate = model.coordinate_count++;
-    }
+    if (joint.type != JointType::kFixed) joint.coordinate = model.coordinate_count++;
     model.joints.push_back(std::move(joint));
   }
   constexpr std::array<RowKey, 3> kGravityRows = {RowKey::kGx, RowKey::kGy, RowKey::kGz};
   for (std::size_t k = 0; k < 3; ++k) model.gravity[k] = quantity(file, kGravityRows[k], 0);
-  if (model.coordinate_count == 0) {
-    const Row& sigma = file.row(RowKey::kSigma);
-    diagnostics.error(sigma.keyword, 5,
-                      "every joint is fixed (sigma 2): expected a joint that moves");
-  }
-  if (diagnostics.has_errors()) throw ModelError(diagnostics.render());
   return model;
 }
 

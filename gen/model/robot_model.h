@@ -56,9 +56,7 @@ struct RobotModel {
   }
 };
 
-/// Checks what the rows mean together and builds the model.
-/// @throws ModelError  positioned: no moving joint; a moving joint's IA, Fs, Fv or off on a fixed
-/// one
+/// Builds the model of a file that was checked when it was read.
 RobotModel build_model(const RobotFile& file);
 
 }  // namespace dyngen

@@ -75,7 +75,7 @@ constexpr std::array<LookAlike, 23> kLookAlikes = {{
     {':', "a keyword is followed by a blank and its values, without ':'"},
     {'[', "values stand without brackets: d 0 0.5 0"},
     {'{', "values stand without brackets: d 0 0.5 0"},
-    {'<', "this is a keyword format, not XML; URDF is read from files that end in .urdf"},
+    {'<', "this is a keyword format, not XML: a robot is described by rows, not by tags"},
     {',', "a comma stands between two values"},
 }};
 

@@ -48,7 +48,13 @@ void check_is_text(std::string_view text, Diagnostics& diagnostics) {
                       "save the file with Unix (LF) or Windows (CR LF) line ends");
     return;
   }
-  if (text.find_first_not_of(" \t\r\n") == text.npos) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != text.npos && text[first] == '<') {
+    diagnostics.error(position_of(text, first), 1, "this is XML, not a robot file",
+                      "URDF and other XML is not read: write the DH table and the masses as rows");
+    return;
+  }
+  if (first == text.npos) {
     diagnostics.error({1, 1}, 1, text.empty() ? "the file is empty" : "the file holds only blanks",
                       "a robot file begins with: number_link 6");
   }
@@ -87,19 +93,20 @@ std::string read_bytes(const std::string& path) {
 
 }  // namespace
 
-RobotFile parse_robot_file(std::string text, std::string file_name) {
+RobotFile parse_robot_file(std::string text, std::string file_name, const FurtherCheck& further) {
   Diagnostics diagnostics(file_name, text);
   check_is_text(text, diagnostics);
   throw_if_errors(diagnostics);
   RobotFile file = read_rows(std::move(text), std::move(file_name), diagnostics);
   check_values(file, diagnostics);
+  if (further) further(file, diagnostics);
   throw_if_errors(diagnostics);
   file.warnings = diagnostics.all();
   return file;
 }
 
-RobotFile read_robot_file(const std::string& path) {
-  return parse_robot_file(read_bytes(path), path);
+RobotFile read_robot_file(const std::string& path, const FurtherCheck& further) {
+  return parse_robot_file(read_bytes(path), path, further);
 }
 
 }  // namespace dyngen

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -120,6 +121,7 @@ struct RobotFile {
   std::vector<std::string> joint_names;  ///< empty, or joint_count names
   std::vector<EffectRow> effects;
   std::vector<RowText> texts;  ///< all rows, in the order of the text
+  SourcePosition last_word;  ///< of the file: where messages about what is missing stand
   std::vector<Diagnostic> warnings;
 
   [[nodiscard]] const Row& row(RowKey key) const { return rows[static_cast<std::size_t>(key)]; }
@@ -128,15 +130,20 @@ struct RobotFile {
 /// The keyword of a row as the documentation writes it ("al", "mX", "XX", "Fs", "qmin", ...).
 std::string_view row_keyword(RowKey key);
 
+/// What else is checked of a file, together with the rest: its rows may be wrong and short.
+using FurtherCheck = std::function<void(const RobotFile&, Diagnostics&)>;
+
 /// Reads a robot file from text.
 ///
 /// @param text       the file's content, any bytes
 /// @param file_name  used in messages, and its stem as the robot's name where no `name` row stands
+/// @param further    may be empty
 /// @throws ModelError  with up to 20 positioned messages
-RobotFile parse_robot_file(std::string text, std::string file_name);
+RobotFile parse_robot_file(std::string text, std::string file_name,
+                           const FurtherCheck& further = {});
 
 /// Reads a robot file from disk.
 /// @throws ModelError  if it cannot be read (the message names the file and the reason) or parsed
-RobotFile read_robot_file(const std::string& path);
+RobotFile read_robot_file(const std::string& path, const FurtherCheck& further = {});
 
 }  // namespace dyngen

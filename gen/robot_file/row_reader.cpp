@@ -221,6 +221,7 @@ class RowReader {
           "use it or delete its row");
     }
     if (all.empty()) return;
+    file_.last_word = all.back().position;
     if (!first_.contains(Statement::kStop)) {
       words_.diagnostics().warning(end_of(all.back()), 1,
                                    "the file ends without 'stop': is it cut off?",

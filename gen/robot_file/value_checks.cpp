@@ -8,6 +8,9 @@
 #include <cstdlib>
 #include <numbers>
 #include <string>
+#include <vector>
+
+#include "gen/robot_file/body_checks.h"
 
 namespace dyngen {
 
@@ -95,18 +98,29 @@ std::string right_angles(long count) {
   return fmt::format("{}{}pi{}", sign, factor, quarters % 2 == 0 ? "" : "/2");
 }
 
+void warn_of_degrees(const FieldValue& value, RowKey key, Diagnostics& diagnostics) {
+  const std::string text = printable(value.text);
+  diagnostics.warning(
+      value.position, value.length,
+      fmt::format("{} in '{}' looks like degrees: angles are in radians", text, row_keyword(key)),
+      value.text.find_first_not_of(".0123456789-") == std::string::npos
+          ? fmt::format("write {}*deg", text)
+          : "write 90*deg for 90 degrees");
+}
+
+/// More than two turns, or a round number of more than one: calibrated offsets are not round.
+bool looks_like_degrees(const FieldValue& value) {
+  constexpr double kTurn = 4 * kRightAngle;
+  const double angle = std::fabs(rounded(value.value));
+  return angle > 2 * kTurn || (angle > kTurn && is_integer(2 * value.value));
+}
+
 void check_angles(const RobotFile& file, RowKey key, Diagnostics& diagnostics) {
   for (const FieldValue& value : file.row(key).values) {
     if (value.unknown || is_integer(value.value * 2 / GiNaC::Pi)) continue;
     const double angle = rounded(value.value);
-    if (std::fabs(angle) > 4 * kRightAngle) {
-      const std::string text = printable(value.text);
-      diagnostics.warning(value.position, value.length,
-                          fmt::format("{} in '{}' looks like degrees: angles are in radians", text,
-                                      row_keyword(key)),
-                          value.text.find_first_not_of(".0123456789-") == std::string::npos
-                              ? fmt::format("write {}*deg", text)
-                              : "write 90*deg for 90 degrees");
+    if (looks_like_degrees(value)) {
+      warn_of_degrees(value, key, diagnostics);
       continue;
     }
     const double quarters = std::round(angle / kRightAngle);
@@ -119,6 +133,41 @@ void check_angles(const RobotFile& file, RowKey key, Diagnostics& diagnostics) {
   }
 }
 
+/// Limits of revolute joints; an axis without an end has larger ones.
+void check_limit_angles(const RobotFile& file, RowKey key, Diagnostics& diagnostics) {
+  constexpr double kMostDegrees = 1000;
+  const std::vector<FieldValue>& values = file.row(key).values;
+  const std::vector<FieldValue>& sigma = file.row(RowKey::kSigma).values;
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    const FieldValue& value = values[j];
+    if (value.unknown || (j < sigma.size() && !sigma[j].value.is_zero())) continue;
+    if (is_integer(value.value * 2 / GiNaC::Pi)) continue;
+    if (std::fabs(rounded(value.value)) > kMostDegrees || !looks_like_degrees(value)) continue;
+    warn_of_degrees(value, key, diagnostics);
+  }
+}
+
+/// A fixed joint has no actuator: what its column says of one is a mistake.
+void check_fixed_joints(const RobotFile& file, Diagnostics& diagnostics) {
+  const std::vector<FieldValue>& sigma = file.row(RowKey::kSigma).values;
+  std::size_t fixed = 0;
+  for (std::size_t j = 0; j < sigma.size(); ++j) {
+    if (sigma[j].unknown || !sigma[j].value.is_equal(2)) continue;
+    ++fixed;
+    for (const RowKey key : {RowKey::kIA, RowKey::kFs, RowKey::kFv, RowKey::kOff}) {
+      const std::vector<FieldValue>& values = file.row(key).values;
+      if (j >= values.size() || (!values[j].unknown && values[j].value.is_zero())) continue;
+      diagnostics.error(values[j].position, values[j].length,
+                        fmt::format("'{}' of joint {} is '{}', but the joint is fixed (sigma 2): "
+                                    "expected 0",
+                                    row_keyword(key), j + 1, printable(values[j].text)));
+    }
+  }
+  if (fixed == 0 || fixed != static_cast<std::size_t>(file.joint_count)) return;
+  diagnostics.error(file.row(RowKey::kSigma).keyword, 5,
+                    "every joint is fixed (sigma 2): expected a joint that moves");
+}
+
 }  // namespace
 
 void check_values(const RobotFile& file, Diagnostics& diagnostics) {
@@ -126,6 +175,9 @@ void check_values(const RobotFile& file, Diagnostics& diagnostics) {
   check_ant(file.row(RowKey::kAnt), diagnostics);
   check_angles(file, RowKey::kAl, diagnostics);
   check_angles(file, RowKey::kTh, diagnostics);
+  check_limit_angles(file, RowKey::kQmin, diagnostics);
+  check_limit_angles(file, RowKey::kQmax, diagnostics);
+  check_fixed_joints(file, diagnostics);
   if (file.parameters == ParameterMeaning::kBodies) {  // a sum may have any sign
     check_not_negative(file, RowKey::kM, Severity::kError,
                        "a mass is 0 or more, unless a row says: parameters base", diagnostics);
@@ -141,6 +193,9 @@ void check_values(const RobotFile& file, Diagnostics& diagnostics) {
     check_positive(file, key, diagnostics);
   }
   check_joint_limits(file, diagnostics);
+  check_sizes(file, diagnostics);
+  check_bodies(file, diagnostics);
+  if (!diagnostics.has_errors()) check_masses(file, AbsentRows::kUnknown, diagnostics);
 }
 
 }  // namespace dyngen

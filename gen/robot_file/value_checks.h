@@ -7,7 +7,7 @@
 namespace dyngen {
 
 /// Checks what values mean: joint types, parents, limits in order, masses and inertias not
-/// negative, angles that look like degrees or like a rounded pi/2.
+/// negative, angles that look like degrees or like a rounded pi/2, bodies that cannot exist.
 void check_values(const RobotFile& file, Diagnostics& diagnostics);
 
 }  // namespace dyngen

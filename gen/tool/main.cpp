@@ -3,7 +3,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <memory>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,10 +11,11 @@
 #include "gen/algorithms/code_effects.h"
 #include "gen/diagnostic/assert.h"
 #include "gen/drawing/arm_drawing.h"
+#include "gen/effect_code/checked_robot.h"
 #include "gen/explain/explain.h"
 #include "gen/generator/generator.h"
 #include "gen/model/robot_model.h"
-#include "gen/robot_file/robot_file.h"
+#include "gen/tool/fitted_lines.h"
 #include "gen/tool/options.h"
 #include "gen/tool/output_files.h"
 #include "gen/tool/progress_line.h"
@@ -22,12 +23,10 @@
 namespace dyngen {
 namespace {
 
-void print_warnings(const RobotFile& file, const RobotModel& model,
+void print_warnings(const CheckedRobot& robot, const RobotModel& model,
                     const GeneratorOptions& options) {
-  Diagnostics diagnostics(file.file_name, file.text);
-  for (const Diagnostic& warning : file.warnings) {
-    diagnostics.warning(warning.position, warning.length, warning.message, warning.hint);
-  }
+  Diagnostics diagnostics(robot.file.file_name, robot.file.text);
+  add_robot_warnings(robot, model, AbsentRows::kZero, diagnostics);
   for (const BoundEffect& effect : bound_effects(model, options)) {
     const std::string reason = why_not_in_controller(*effect.file);
     if (reason.empty()) continue;
@@ -37,13 +36,6 @@ void print_warnings(const RobotFile& file, const RobotModel& model,
                             "; it is left out of the emitted functions");
   }
   std::cerr << diagnostics.render();
-}
-
-/// What rows `effect` mean, with the folders of the command line.
-std::shared_ptr<const EffectCatalogue> read_catalogue(const ToolOptions& options) {
-  auto catalogue = std::make_shared<EffectCatalogue>();
-  for (const std::string& folder : options.effect_folders) catalogue->add_folder(folder);
-  return catalogue;
 }
 
 /// The files that the output depends on.
@@ -76,36 +68,53 @@ bool report_misuse(const GeneratorOptions& options, const RobotModel& model) {
   }
 }
 
-/// The options with a line of progress. @param line  must outlive them
-GeneratorOptions with_progress(GeneratorOptions options, ProgressLine& line) {
+/// Functions that the robot has not, by the reason.
+using Missing = std::map<std::string, std::vector<std::string>>;
+
+/// "arm.robot: warning: fd is left out: ..."
+std::string missing_text(const Missing& missing, const std::string& file_name) {
+  std::string text;
+  for (const auto& [reason, names] : missing) {
+    text += file_name + ": warning: ";
+    for (const std::string& name : names) text += (&name == &names.front() ? "" : ", ") + name;
+    text += (names.size() > 1 ? " are" : " is") + std::string(" left out: ") + reason + "\n";
+  }
+  return text;
+}
+
+/// The options with a line of progress and a list of what is missing, which must outlive them.
+GeneratorOptions telling(GeneratorOptions options, ProgressLine& line, Missing& missing) {
   options.progress = [&line](const std::string& name, std::size_t place, std::size_t all) {
     line.show(name, place, all);
+  };
+  options.left_out = [&missing](const std::string& name, const std::string& reason) {
+    std::vector<std::string>& names = missing[reason];
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
   return options;
 }
 
-CText generated_text(const RobotModel& model, const GeneratorOptions& options) {
+CText generated_text(const RobotModel& model, const GeneratorOptions& options, Missing& missing) {
   ProgressLine line("dyngen");
-  return generate(model, with_progress(options, line));
+  return generate(model, telling(options, line, missing));
 }
 
-std::string counted(const RobotModel& model, const GeneratorOptions& options) {
+std::string counted(const RobotModel& model, const GeneratorOptions& options, Missing& missing) {
   CodeModel code = make_code_model(model, options);
   ProgressLine line("dyngen");
-  return count_table(code, write_functions(code, with_progress(options, line)));
+  return count_table(code, write_functions(code, telling(options, line, missing)));
 }
 
 int run(ToolOptions options) {
-  const RobotFile file = read_robot_file(options.robot);
-  const RobotModel model = build_model(file);
+  const CheckedRobot robot = read_checked_robot(options.robot, options.effect_folders);
+  const RobotModel model = build_model(robot.file);
   if (report_misuse(options.generator, model)) return kUsage;
-  if (!model.effects.empty() || !options.effect_folders.empty()) {
-    options.generator.catalogue = read_catalogue(options);
-  }
-  print_warnings(file, model, options.generator);
+  options.generator.catalogue = robot.catalogue;
+  print_warnings(robot, model, options.generator);
+  Missing missing;
   std::vector<OutputFile> files;
   if (!options.output.empty()) {
-    const CText text = generated_text(model, options.generator);
+    const CText text = generated_text(model, options.generator, missing);
     files = {{options.output, text.source}, {options.header(), text.header}};
     if (options.generator.cpp_wrapper) files.push_back({options.wrapper(), text.wrapper});
     if (!options.depfile.empty()) {
@@ -117,7 +126,8 @@ int run(ToolOptions options) {
   if (!options.drawing.empty()) files.push_back({options.drawing, arm_drawing(model)});
   write_files(files);
   if (options.explain) print(explain(model));
-  if (options.count) print(counted(model, options.generator));
+  if (options.count) print(counted(model, options.generator, missing));
+  std::cerr << missing_text(missing, options.robot);
   return kDone;
 }
 
@@ -146,4 +156,7 @@ int guarded_main(int argc, const char* const* argv) {
 }  // namespace
 }  // namespace dyngen
 
-int main(int argc, char** argv) { return dyngen::guarded_main(argc, argv); }
+int main(int argc, char** argv) {
+  const dyngen::FittedLines out(std::cout), errors(std::cerr);
+  return dyngen::guarded_main(argc, argv);
+}

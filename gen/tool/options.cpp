@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "gen/tool/output_files.h"
+#include "gen/tool/usage_hint.h"
+
 namespace dyngen {
 namespace {
 
@@ -42,11 +45,9 @@ void check_paths(const ToolOptions& options) {
   }
   if (options.generator.cpp_wrapper) files.emplace_back("the C++ header", options.wrapper());
   if (!options.depfile.empty()) files.emplace_back("--depfile", options.depfile);
-  std::error_code ignored;
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (std::filesystem::weakly_canonical(files[i].second, ignored) ==
-          std::filesystem::weakly_canonical(files[k].second, ignored)) {
+      if (is_same_file(files[i].second, files[k].second)) {
         throw std::invalid_argument(files[i].first + " and " + files[k].first +
                                     " are the same file: '" + files[i].second + "'");
       }
@@ -181,7 +182,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   } catch (const CLI::Success& success) {
     parsed.exit_code = app.exit(success);
   } catch (const CLI::ParseError& error) {
-    std::cerr << "dyngen: " << error.what() << "\nRun 'dyngen --help' for the options.\n";
+    std::cerr << "dyngen: " << usage_message(app, argc, argv, error.what())
+              << "\nRun 'dyngen --help' for the options.\n";
     parsed.exit_code = kUsage;
   } catch (const std::invalid_argument& error) {
     std::cerr << "dyngen: " << error.what() << "\nRun 'dyngen --help' for the options.\n";

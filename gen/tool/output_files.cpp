@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 
 namespace dyngen {
 namespace {
@@ -47,21 +48,33 @@ void write_files(const std::vector<OutputFile>& files) {
   for (const OutputFile& file : files) {
     std::error_code ignored;
     if (fs::is_directory(file.path, ignored)) fail(file.path, "it is a directory");
-    const std::string temporary = file.path + ".tmp" + std::to_string(getpid());
+    // a pipe or a device is written to, and not replaced
+    const bool device = fs::exists(file.path, ignored) && !fs::is_regular_file(file.path, ignored);
+    const std::string temporary =
+        device ? file.path : file.path + ".tmp" + std::to_string(getpid());
     errno = 0;
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (!stream) fail(file.path, errno != 0 ? std::strerror(errno) : "cannot open it");
-    temporaries.paths.push_back(temporary);
+    if (!device) temporaries.paths.push_back(temporary);
     stream << file.content;
     stream.close();
     if (!stream) fail(file.path, errno != 0 ? std::strerror(errno) : "the disk may be full");
   }
-  for (std::size_t i = 0; i < files.size(); ++i) {
+  for (const std::string& temporary : temporaries.paths) {
+    const std::string path = temporary.substr(0, temporary.rfind(".tmp"));
     std::error_code error;
-    fs::rename(temporaries.paths[i], files[i].path, error);
-    if (error) fail(files[i].path, error.message());
+    fs::rename(temporary, path, error);
+    if (error) fail(path, error.message());
   }
   temporaries.paths.clear();
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  if (fs::exists(a, ignored) && fs::exists(b, ignored)) {
+    return fs::is_regular_file(a, ignored) && fs::equivalent(a, b, ignored);
+  }
+  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
 }
 
 std::string depfile_text(const std::vector<std::string>& targets,

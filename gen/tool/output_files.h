@@ -20,9 +20,13 @@ class OutputError : public std::runtime_error {
 };
 
 /// Writes all files: each goes to a temporary file beside its place, and when all are whole they
-/// are renamed.
+/// are renamed. What is no regular file, a pipe or /dev/null, is written to as it is.
 /// @throws OutputError  nothing half-written stays behind: what could not be written is as it was
 void write_files(const std::vector<OutputFile>& files);
+
+/// Whether two paths lead to one file, by links too, or would if they were written. What is no
+/// regular file (/dev/null) may stand several times.
+bool is_same_file(const std::string& a, const std::string& b);
 
 /// A Make rule that says the targets depend on these files, with absolute paths.
 std::string depfile_text(const std::vector<std::string>& targets,

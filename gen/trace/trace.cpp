@@ -246,6 +246,10 @@ void Trace::drop_dead_code() {
   }
   std::reverse(kept.begin(), kept.end());
   assignments_ = std::move(kept);
+  // what is written later must not read a statement that is gone
+  std::erase_if(assigned_, [&](const auto& entry) {
+    return !needed.contains(GiNaC::ex_to<GiNaC::symbol>(entry.second).get_name());
+  });
 }
 
 OperationCount Trace::count() const {

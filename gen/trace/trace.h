@@ -75,7 +75,8 @@ class Trace {
   /// name = value as it stands, in one of sections(): for what already is a program.
   GiNaC::symbol append(const std::string& name, const GiNaC::ex& value, int section);
 
-  /// Keeps the statements that the outputs need, and drops the others.
+  /// Keeps the statements that the outputs need, and forgets the others: a value that is assigned
+  /// again later gets a new statement.
   void drop_dead_code();
 
   /// A statement in a new order.

@@ -22,11 +22,26 @@ bool is_well_inside(const Eigen::Matrix4d& J, double margin) {
              .eigenvalues()[0] > margin;
 }
 
-TenParameters ball(double mass, double radius) {
+/// A ball about a centre of mass.
+TenParameters ball(double mass, double radius, const Eigen::Vector3d& centre) {
   TenParameters ten = TenParameters::Zero();
-  ten[0] = ten[3] = ten[5] = 0.4 * mass * radius * radius;
-  ten[9] = mass;
+  const Eigen::Matrix3d about =
+      0.4 * mass * radius * radius * Eigen::Matrix3d::Identity() +
+      mass * (centre.squaredNorm() * Eigen::Matrix3d::Identity() - centre * centre.transpose());
+  ten << about(0, 0), about(0, 1), about(0, 2), about(1, 1), about(1, 2), about(2, 2),
+      mass * centre, mass;
   return ten;
+}
+
+/// What a prior says of a body that it does not describe: its mass and its centre, if it has them.
+TenParameters body_like(const TenParameters& ten, const ConsistencyOptions& options) {
+  const double mass = ten[9];
+  if (!(std::isfinite(mass) && mass > 0)) {
+    return ball(options.default_mass, options.default_radius, Eigen::Vector3d::Zero());
+  }
+  const Eigen::Vector3d moments = ten.segment<3>(6);
+  return ball(mass, options.default_radius,
+              moments.allFinite() ? (moments / mass).eval() : Eigen::Vector3d::Zero());
 }
 
 }  // namespace
@@ -44,7 +59,7 @@ ConsistencyPrior complete_prior(const ConsistencyProblem& problem,
     const bool known = ten.allFinite();
     if (!known || !is_well_inside(pseudo_inertia(ten), options.prior_margin)) {
       (known ? inconsistent : missing).push_back(link + 1);
-      ten = ball(options.default_mass, options.default_radius);
+      ten = body_like(ten, options);
     }
     prior.chi.segment<10>(first) = ten;
     prior.factors.push_back(upper_factor(pseudo_inertia(ten)));
@@ -59,7 +74,8 @@ ConsistencyPrior complete_prior(const ConsistencyProblem& problem,
     }
   }
   const std::string ball_text =
-      fmt::format("a ball of {:g} kg, radius {:g} m", options.default_mass, options.default_radius);
+      fmt::format("a ball of their mass ({:g} kg where there is none), radius {:g} m",
+                  options.default_mass, options.default_radius);
   if (!missing.empty()) {
     prior.message +=
         fmt::format("Links {}: not all ten parameters have a prior; {} stands for it.\n",

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "runtime/diagnosis/answer/certificate.h"
 #include "runtime/diagnosis/answer/condition_lines.h"
 #include "runtime/diagnosis/answer/found_effects.h"
+#include "runtime/diagnosis/answer/heldout_verdict.h"
 #include "runtime/diagnosis/answer/unnamed_text.h"
 #include "runtime/diagnosis/answer/verdict.h"
 #include "runtime/diagnosis/competition/search.h"
@@ -87,7 +89,10 @@ class Diagnostician {
     describe_base();
     describe_heldout();
     answer_.next = next_experiment(answer_.findings);
-    const Conclusion conclusion = concluded(search_, answer_.findings);
+    Conclusion conclusion = concluded(search_, answer_.findings);
+    if (conclusion.verdict == Verdict::kClean || conclusion.verdict == Verdict::kExplained) {
+      if (const std::optional<Conclusion> other = against()) conclusion = *other;
+    }
     answer_.verdict = conclusion.verdict;
     answer_.sentence = conclusion.sentence;
     show();
@@ -157,14 +162,68 @@ class Diagnostician {
     tell("held-out recordings", 0);
     const EffectRecordings &train = search_.shown_train(), &heldout = search_.shown_heldout();
     const EffectPoint before = from_rest(result().base.point), after = from_rest(answer_.fit.point);
-    answer_.heldout.before = raw_rms(heldout, raw_residuals(heldout, before));
-    answer_.heldout.after = raw_rms(heldout, raw_residuals(heldout, after));
+    const RunResiduals without = raw_residuals(heldout, before),
+                       with = raw_residuals(heldout, after);
+    answer_.heldout.before = raw_rms(heldout, without);
+    answer_.heldout.after = raw_rms(heldout, with);
+    worse_ = worsening(heldout, without, with);
+    describe_gains();
     answer_.noise.deviation = without_nameless(
         raw_floor(train, raw_residuals(train, after), repeats_of(train)), result());
     answer_.heldout.floor = answer_.noise.deviation;
     const Eigen::ArrayXd judged = counted_part(search_.views().proof).array();
     const Eigen::ArrayXd all = counted_part(search_.views().heldout).array();
     answer_.heldout.visited = (all > 0).select(judged / all.max(1e-300), 0.0).matrix();
+  }
+
+  /// What each finding lowers of the held-out torque of its joints, beside all others.
+  void describe_gains() {
+    const EffectRecordings& heldout = search_.shown_heldout();
+    const auto& effects = answer_.fit.point.effects;
+    for (std::size_t i = 0; i < effects.size() && i < answer_.findings.size(); ++i) {
+      VectorXd without = answer_.heldout.before;
+      if (effects.size() > 1) {
+        tell("held-out recordings", static_cast<double>(i) / static_cast<double>(effects.size()));
+        std::vector<EffectInstance> others = effects;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+        EffectFitOptions settings;
+        if (result().noise.from_periods) settings.noise = result().noise.known();
+        const EffectFit fit = fit_effects(search_.views().train, others, settings);
+        without = raw_rms(heldout, raw_residuals(heldout, from_rest(fit.point)));
+      }
+      double all = 0, left = 0;
+      for (const int joint : joints_of(effects[i], input_.model.joints())) {
+        const double floor = std::max(answer_.heldout.after[joint], 1e-300);
+        all += std::pow(without[joint] / floor, 2);
+        left += 1;
+      }
+      answer_.findings[i].evidence.heldout_gain = all > 0 ? 1 - std::sqrt(left / all) : 0;
+    }
+  }
+
+  /// What held-out torque says against the answer.
+  [[nodiscard]] std::optional<Conclusion> against() const {
+    HeldoutKnowledge known;
+    const VectorXd none = VectorXd::Zero(input_.model.joints());
+    known.predicted = options_.residual_only
+                          ? none
+                          : predicted_variance(search_.views().train, search_.views().proof);
+    known.fitted_worth = result().noise.worth;
+    const VectorXd fitted = counted_equations(search_.views().train),
+                   heldout = counted_equations(search_.views().proof);
+    known.heldout_worth =
+        known.fitted_worth.cwiseProduct(heldout).cwiseQuotient(fitted.cwiseMax(1.0));
+    known.worse = worse_;
+    return contradicted(answer_.heldout, known, answer_.findings.empty(), input_.model.revolute);
+  }
+
+  /// (n) equations that count
+  static VectorXd counted_equations(const EffectRecordings& data) {
+    VectorXd counts = VectorXd::Zero(data.joints());
+    for (const EffectRun& run : data.runs) {
+      counts += run.rows.counted.colwise().sum().transpose();
+    }
+    return counts;
   }
 
   void show() const {
@@ -188,6 +247,7 @@ class Diagnostician {
   const DiagnosisWitness& witness_;
   Search search_;
   Diagnosis answer_;
+  VectorXd worse_;  ///< (n) worsening() of held-out torque
 };
 
 }  // namespace
@@ -208,7 +268,7 @@ Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,
   options.validate();
   try {
     return Diagnostician(input, options, progress, witness).run();
-  } catch (const TooShortError& error) {
+  } catch (const TooLittleDataError& error) {
     Diagnosis answer;
     answer.condition = condition_lines(input, {}, nullptr);
     answer.sentence = error.what();

@@ -111,6 +111,7 @@ EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
     }
     RowPlan plan = plan_rows(source, options);
     for (Index j = 0; j < plan.still_speed.size() && options.still_speed < 0; ++j) {
+      if (!std::isfinite(plan.still_speed[j])) continue;
       if (remembering.empty() || remembering[static_cast<std::size_t>(j)]) plan.still_speed[j] = -1;
     }
     const Decimator decimator = design_decimator(plan.decimation, plan.filter);
@@ -134,7 +135,7 @@ EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
     }
   }
   if (data.runs.empty()) {
-    throw TooShortError(
+    throw TooLittleDataError(
         fmt::format("No run{} is longer than the parallel filter: the longest has {:.3g} s, the "
                     "filter {:.3g} s.",
                     sources.empty() ? "" : " of " + names_of(sources), longest, filter));

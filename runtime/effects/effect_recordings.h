@@ -79,7 +79,7 @@ struct EffectRecordings {
 /// @param remembering  (n) joints that keep all equations unless options.still_speed says at which
 ///                     speed they are left out (>= 0); empty: all of them
 /// @throws std::invalid_argument  if a recording has another number of joints
-/// @throws TooShortError          if no run is longer than the parallel filter
+/// @throws TooLittleDataError          if no run is longer than the parallel filter
 EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
                                    const std::vector<MotionSource>& sources,
                                    const RowOptions& options,

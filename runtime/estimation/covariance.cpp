@@ -132,9 +132,11 @@ double interval_of(const TorqueFactor& factor, const NoiseFactor& noise) {
   const VectorXd times = noise.correlation_time();
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < factor.joints.size(); ++j) {
+    if (factor.joints[j].rows == 0) continue;
     const double worth = factor.joints[j].rows / std::max(1.0, times[static_cast<Index>(j)]);
     least = std::min(least, worth - static_cast<double>(factor.columns[j].size()));
   }
+  if (!std::isfinite(least)) least = 0;  // no joint has equations
   return student_interval(0.95, std::max(2.0, least));
 }
 

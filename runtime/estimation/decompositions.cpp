@@ -3,6 +3,7 @@
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <stdexcept>
 
 namespace dyngen::runtime {
 
@@ -12,7 +13,15 @@ using Eigen::VectorXd;
 
 namespace {
 
+void check_finite(const MatrixXd& A) {
+  if (A.allFinite()) return;
+  throw std::invalid_argument(
+      "numbers are too large to compute with: the squares of some torque or regressor exceed "
+      "1e308");
+}
+
 Eigen::CompleteOrthogonalDecomposition<MatrixXd> orthogonal(const MatrixXd& A, double tolerance) {
+  check_finite(A);
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(A.rows(), A.cols());
   if (tolerance > 0) decomposition.setThreshold(tolerance);
   decomposition.compute(A);
@@ -22,15 +31,18 @@ Eigen::CompleteOrthogonalDecomposition<MatrixXd> orthogonal(const MatrixXd& A, d
 }  // namespace
 
 SingularValues decomposed(const MatrixXd& A) {
+  check_finite(A);
   if (A.size() == 0) {
-    return {MatrixXd(A.rows(), 0), VectorXd(0), MatrixXd::Identity(A.cols(), A.cols())};
+    return {MatrixXd::Zero(A.rows(), 0), VectorXd::Zero(0),
+            MatrixXd::Identity(A.cols(), A.cols())};
   }
   const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
 }
 
 VectorXd singular_values(const MatrixXd& A) {
-  if (A.size() == 0) return VectorXd(0);
+  check_finite(A);
+  if (A.size() == 0) return VectorXd::Zero(0);
   return Eigen::JacobiSVD<MatrixXd>(A).singularValues();
 }
 

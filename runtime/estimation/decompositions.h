@@ -5,6 +5,8 @@
 
 namespace dyngen::runtime {
 
+// Matrices may be empty. Numbers that are not finite are refused: std::invalid_argument.
+
 /// A = U diag(values) V', thin; values fall.
 struct SingularValues {
   Eigen::MatrixXd U;       ///< (m x k), k = min(m, n)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/estimation/instruments.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/estimation/covariance.h"
@@ -47,73 +48,47 @@ RowSource paired_rows(const InstrumentSource& source, int parameters) {
   };
 }
 
-/// Coefficients of the regressor on the instruments, joint by joint: (n_j x n_j) each.
-std::vector<MatrixXd> first_stage(const TorqueFactor& pairs) {
-  std::vector<MatrixXd> stages;
-  for (const JointFactor& joint : pairs.joints) {
-    const Index half = (joint.R.cols() - 1) / 2;
-    stages.push_back(
-        least_norm_solution(joint.R.topLeftCorner(half, half), joint.R.block(0, half, half, half)));
-  }
-  return stages;
-}
-
-/// Rows of [W, what instruments leave of W].
-RowSource augmented_rows(const InstrumentSource& source,
-                         const std::vector<std::vector<int>>& columns, int parameters,
-                         const std::vector<MatrixXd>& stages) {
-  return [=](const std::function<void(const RowBlock&)>& visit) {
+/// Durbin, Wu and Hausman by the difference of both estimates, whose covariance is that of the
+/// noise in both: d = [(Z'W)^-1 Z' - (W'W)^-1 W'] e.
+/// @param ZW, WW  of scaled columns  @param scales  (2 nb) of Z's columns, then of W's
+void test_exogeneity(const InstrumentSource& source, const std::vector<std::vector<int>>& columns,
+                     const MatrixXd& ZW, const MatrixXd& W, const VectorXd& tau,
+                     const VectorXd& z_scale, InstrumentalEstimate& result) {
+  constexpr double kSame = 1e-9;  // of the largest variance: directions in which both are the same
+  const Estimate& estimate = result.estimate;
+  const Index nb = W.cols();
+  const RowSource rows = [source, nb, beta = estimate.beta](const auto& visit) {
     source([&](const InstrumentBlock& block) {
-      MatrixXd left = block.rows.Y;
-      for (std::size_t j = 0; j < columns.size(); ++j) {
-        const Index start = static_cast<Index>(j) * parameters;
-        const MatrixXd Z = block.Z.middleCols(start, parameters)(Eigen::all, columns[j]);
-        const MatrixXd explained = Z * stages[j];
-        for (std::size_t i = 0; i < columns[j].size(); ++i) {
-          left.col(start + columns[j][i]) -= explained.col(static_cast<Index>(i));
-        }
-      }
-      visit({side_by_side(block.rows.Y, left, parameters), block.rows.tau, block.rows.counted,
-             block.rows.continues_run});
+      visit({side_by_side(block.Z, block.rows.Y, static_cast<int>(nb)), residual(block.rows, beta),
+             block.rows.counted, block.rows.continues_run});
     });
   };
-}
-
-void test_exogeneity(const InstrumentSource& source, const std::vector<std::vector<int>>& columns,
-                     int parameters, const VectorXd& joint_weights, const TorqueFactor& pairs,
-                     InstrumentalEstimate& result) {
-  constexpr double kSame = 1e-6;  // instruments that equal the regressor leave rounding alone
-  const std::vector<std::vector<int>> both = doubled(columns, parameters);
-  const RowSource rows = augmented_rows(source, columns, parameters, first_stage(pairs));
-  const TorqueFactor factor = factor_of(rows, both, 2 * parameters);
-  LeastSquaresOptions options;
-  options.decomposition = Decomposition::kSvd;
-  // the scale of the regressor for what is left of it: a column that is all but gone stays small
-  const VectorXd norms = column_norms(factor, joint_weights).head(parameters);
-  options.scale.resize(2 * parameters);
-  for (Index i = 0; i < parameters; ++i) {
-    options.scale[i] = options.scale[i + parameters] = norms[i] > 0 ? 1 / norms[i] : 1;
-  }
-  options.tolerance = kSame;
-  const Estimate fit = least_squares(factor, joint_weights, options);
-  NoiseFactor noise = noise_factor(rows, both, fit.beta);
-  give_back_fitted_noise(noise, factor, joint_weights, fit.scale, fit.unseen);
-  const MatrixXd covariance =
-      correlated_covariance(factor, noise, joint_weights, fit.scale, fit.unseen);
-  const VectorXd scale = fit.scale.tail(parameters);
-  const VectorXd gamma = fit.beta.tail(parameters).cwiseQuotient(scale);
-  const MatrixXd spread = scale.cwiseInverse().asDiagonal() *
-                          covariance.bottomRightCorner(parameters, parameters) *
-                          scale.cwiseInverse().asDiagonal();
-  const SingularValues svd = decomposed(spread);
-  const VectorXd& variances = svd.values;
-  const VectorXd along = svd.U.transpose() * gamma;
-  for (Index i = 0; i < parameters; ++i) {
-    if (variances[i] <= 1e-12 * variances[0]) break;
-    result.hausman += along[i] * along[i] / variances[i];
+  const auto both = doubled(columns, static_cast<int>(nb));
+  const NoiseFactor noise = noise_factor(rows, both, VectorXd::Zero(2 * nb));
+  VectorXd scales(2 * nb);
+  scales << z_scale, estimate.scale;
+  const MatrixXd noisy = noise_rows(noise, both, static_cast<int>(2 * nb), estimate.joint_weights) *
+                         scales.asDiagonal();
+  MatrixXd difference(nb, 2 * nb);
+  difference << pseudo_inverse(ZW), -pseudo_inverse(W.transpose() * W);
+  const MatrixXd spread = noisy * difference.transpose();
+  const VectorXd plain = least_norm_solution(W, tau).col(0);
+  const VectorXd moved = estimate.beta.cwiseQuotient(estimate.scale) - plain;
+  const SingularValues svd = decomposed(spread.transpose());
+  const VectorXd along = svd.U.transpose() * moved;
+  for (Index i = 0; i < along.size(); ++i) {
+    if (svd.values[i] <= std::sqrt(kSame) * svd.values[0] || svd.values[i] == 0) break;
+    result.hausman += std::pow(along[i] / svd.values[i], 2);
     ++result.degrees;
   }
   if (result.degrees > 0) result.p_value = chi_square_tail(result.hausman, result.degrees);
+  const VectorXd deviation =
+      estimate.covariance.diagonal().cwiseMax(0).cwiseSqrt().cwiseQuotient(estimate.scale);
+  for (Index i = 0; i < nb; ++i) {
+    if (deviation[i] > 0) {
+      result.largest_move = std::max(result.largest_move, std::abs(moved[i]) / deviation[i]);
+    }
+  }
 }
 
 }  // namespace
@@ -179,7 +154,7 @@ InstrumentalEstimate instrumental_variables(const InstrumentSource& source,
   const MatrixXd inverse = pseudo_inverse(ZW);
   estimate.covariance =
       scale.asDiagonal() * inverse * middle * inverse.transpose() * scale.asDiagonal();
-  test_exogeneity(source, columns, parameters, joint_weights, pairs, result);
+  test_exogeneity(source, columns, ZW, W, rows.tau, z_scale, result);
   return result;
 }
 

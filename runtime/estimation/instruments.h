@@ -23,19 +23,22 @@ struct InstrumentalEstimate {
   Estimate estimate;
   /// Smallest cosine between what instruments and regressor span: near 0 they are too weak.
   double relevance = 0;
-  /// Durbin, Wu and Hausman: chi-square of the part of the regressor that instruments do not
-  /// explain, in the torque. Large: the regressor is correlated with the noise, and least squares
-  /// are biased.
+  /// Durbin, Wu and Hausman: chi-square of the difference to least squares with the same weights.
+  /// Large: the regressor is correlated with what is left of torque, by noise or by physics that the
+  /// model leaves out, and least squares are biased.
   double hausman = 0;
   int degrees = 0;
   double p_value = 1;
+  /// The largest difference to least squares, in standard deviations of this estimate: a bias can be
+  /// certain and not matter.
+  double largest_move = 0;
 };
 
 /// The estimate (Z'W)^-1 Z' tau_all, each joint times its weight, with a covariance for noise that
 /// is correlated in time, and the test that says whether it was needed.
 ///
-/// The test regresses torque on [W, W - Z (Z'Z)^-1 Z'W] and asks whether the second half has
-/// coefficients, with the same covariance.
+/// The test asks whether the difference of both estimates is larger than noise, which is the same in
+/// both, makes it.
 /// @param joint_weights  (n)
 /// Source: Janot, Vandanjon and Gautier, "A generic instrumental variable approach for industrial
 /// robot identification", IEEE T-CST 2014 (the simulated regressor); Hausman, 1978 (the test).

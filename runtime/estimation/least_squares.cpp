@@ -111,10 +111,15 @@ VectorXd residual_deviation(const TorqueFactor& factor, const VectorXd& beta) {
   for (Index j = 0; j < deviation.size(); ++j) {
     const std::size_t k = static_cast<std::size_t>(j);
     const double count = factor.joints[k].rows;
-    const double degrees = std::max(1.0, count - static_cast<double>(factor.columns[k].size()));
-    // a fit without a residual would give an infinite weight
-    const double least = 1e-24 * torque[j] + std::numeric_limits<double>::min();
-    deviation[j] = std::sqrt(std::max(deviation[j], least) / degrees);
+    const double degrees = count - static_cast<double>(factor.columns[k].size());
+    if (!(torque[j] > 0)) {
+      deviation[j] = 1;
+    } else if (degrees < 1) {
+      deviation[j] = std::sqrt(torque[j] / count);
+    } else {
+      // a fit without a residual would give an infinite weight
+      deviation[j] = std::sqrt(std::max(deviation[j], 1e-24 * torque[j]) / degrees);
+    }
   }
   return deviation;
 }

@@ -66,6 +66,7 @@ Estimate weighted_least_squares(const TorqueFactor& factor,
                                 const LeastSquaresOptions& options = {});
 
 /// Standard deviation of each joint's residual: sqrt(squares / (rows - parameters that act on it)).
+/// Where there are no more rows than parameters: rms of its torque; 1 where it has no torque.
 Eigen::VectorXd residual_deviation(const TorqueFactor& factor, const Eigen::VectorXd& beta);
 
 /// The same equations with fewer parameters. @param kept  ascending places of parameters

@@ -20,7 +20,8 @@ Trust measure_trust(const TorqueFactor& factor, const Estimate& estimate,
   const MatrixXd H = rows.W * estimate.scale.asDiagonal();
   const VectorXd B = estimate.beta.cwiseQuotient(estimate.scale);
   const VectorXd singular = singular_values(H);
-  const double largest = singular[0], smallest = singular[singular.size() - 1];
+  const bool any = singular.size() > 0;
+  const double largest = any ? singular[0] : 0, smallest = any ? singular[singular.size() - 1] : 0;
   const double residual = (rows.tau - H * B).norm();
   const double samples = std::max(factor.samples(), 1.0);
   const Index nb = H.cols();
@@ -30,7 +31,7 @@ Trust measure_trust(const TorqueFactor& factor, const Estimate& estimate,
     const MatrixXd D = stacked(regressor_noise, weights).W * estimate.scale.asDiagonal();
     C = D.transpose() * D;
   }
-  const double noise = singular_values(C)[0];
+  const double noise = any ? singular_values(C)[0] : 0;
   trust.regressor_noise = std::sqrt(noise);
   trust.torque_noise = residual;
 

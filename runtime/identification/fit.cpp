@@ -24,6 +24,19 @@ std::string_view name_of(FitMethod method) {
   return fit_method_names()[static_cast<std::size_t>(method)];
 }
 
+/// What the test and the size of what it found say together.
+std::string exogeneity_words(const InstrumentalEstimate& instrumental) {
+  constexpr double kChance = 0.05, kMatters = 1;  // standard deviations of a parameter
+  if (instrumental.p_value >= kChance) {
+    return "no sign that least squares are biased by noise in the regressor";
+  }
+  return fmt::format(
+      "the regressor is correlated with what is left of torque, so least squares are biased: by at "
+      "most {:.2g} standard deviations of a parameter{}",
+      instrumental.largest_move,
+      instrumental.largest_move < kMatters ? ", which hardly matters" : "");
+}
+
 class Fitter {
  public:
   Fitter(const FitData& data, const FitOptions& options) : data_(data), options_(options) {}
@@ -153,9 +166,7 @@ class Fitter {
     fit.messages.push_back(fmt::format(
         "Durbin-Wu-Hausman: chi-square {:.1f} with {} degrees of freedom, p = {:.3g}: {}",
         fit.instrumental->hausman, fit.instrumental->degrees, fit.instrumental->p_value,
-        fit.instrumental->p_value < 0.05
-            ? "the regressor is correlated with the noise, least squares are biased"
-            : "no sign that least squares are biased by noise in the regressor"));
+        exogeneity_words(*fit.instrumental)));
     return fit;
   }
 
@@ -223,8 +234,9 @@ Residual residual_of(const TorqueFactor& equations, const VectorXd& beta) {
   for (Index j = 0; j < result.rms.size(); ++j) {
     const double squares = result.rms[j], torque = result.percent[j];
     const double rows = equations.joints[static_cast<std::size_t>(j)].rows;
-    result.rms[j] = rows > 0 ? std::sqrt(squares / rows) : 0;
-    result.percent[j] = torque > 0 ? 100 * std::sqrt(squares / torque) : 0;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    result.rms[j] = rows > 0 ? std::sqrt(squares / rows) : none;
+    result.percent[j] = torque > 0 ? 100 * std::sqrt(squares / torque) : none;
   }
   return result;
 }

@@ -80,7 +80,8 @@ using FitProgress = std::function<void(const std::string& what, double done)>;
 std::vector<MethodFit> fit_methods(const LinearModel& model, const FitData& data,
                                    const FitOptions& options, const FitProgress& progress = {});
 
-/// Residual of given parameters against equations: rms and percent of torque, (n) each.
+/// Residual of given parameters against equations: rms and percent of torque, (n) each; NaN of a
+/// joint without equations, or without torque.
 struct Residual {
   Eigen::VectorXd rms, percent;
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -100,7 +101,7 @@ class RowBuffer {
     for (Index j = 0; j < joints(); ++j) {
       const auto speed = kept_.col(kept_.cols() - joints() + j);
       for (Index k = 0; k < count; ++k) {
-        if (std::abs(speed[first + k * decimator_.factor]) > still_[j]) continue;
+        if (std::abs(speed[first + k * decimator_.factor]) >= still_[j]) continue;
         block.counted(k, j) = 0;
         block.tau(k, j) = 0;
         block.Y.row(k).segment(j * model_.size(), model_.size()).setZero();
@@ -147,9 +148,19 @@ RowPlan plan_rows(const MotionSource& source, const RowOptions& options) {
   plan.acceleration_noise = (density * (std::pow(2 * kPi, 4) * std::pow(band, 5) / 5)).cwiseSqrt();
   const VectorXd velocity_noise =
       (density * (std::pow(2 * kPi, 2) * std::pow(band, 3) / 3)).cwiseSqrt();
+  // the least number that is not 0: a joint that never moves stands, whatever its noise
   plan.still_speed = options.still_speed >= 0
                          ? VectorXd::Constant(source.joints(), options.still_speed).eval()
-                         : (3 * velocity_noise).cwiseMax(0.01 * source.fastest).eval();
+                         : (3 * velocity_noise)
+                               .cwiseMax(0.01 * source.fastest)
+                               .cwiseMax(std::numeric_limits<double>::min())
+                               .eval();
+  const std::vector<bool>& dead = source.condition.torque_dead;
+  for (std::size_t j = 0; j < dead.size(); ++j) {
+    if (dead[j]) {
+      plan.still_speed[static_cast<Index>(j)] = std::numeric_limits<double>::infinity();
+    }
+  }
   return plan;
 }
 

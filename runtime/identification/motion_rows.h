@@ -16,8 +16,8 @@ struct RowOptions {
   /// `band` times the cut-off; 1: no parallel filter, every sample is an equation.
   Eigen::Index decimation = 0;
   /// rad/s or m/s: a joint that moves slower has no equation, since there friction is not Coulomb's
-  /// and its sign is not known; negative: a hundredth of the joint's largest speed, and at least
-  /// three standard deviations of the velocity's noise.
+  /// and its sign is not known; 0: a joint that stands has equations too; negative: a hundredth of
+  /// the joint's largest speed, and at least three standard deviations of the velocity's noise.
   double still_speed = -1;
   double band = 1.25;  ///< > 0; the joint state is damped near 1 and above, and equations with it
   Eigen::Index multiple = 1;  ///< a decimation that is chosen and larger is a multiple of this
@@ -28,9 +28,11 @@ struct RowOptions {
 /// How the equations of a recording are made.
 struct RowPlan {
   Eigen::Index decimation = 1;
-  FilterShape filter = {};             ///< the parallel filter
-  double row_time = 0;                 ///< s, between equations of a run
-  Eigen::VectorXd still_speed;         ///< (n) negative: joints that stand still keep equations
+  FilterShape filter = {};  ///< the parallel filter
+  double row_time = 0;      ///< s, between equations of a run
+  /// (n) rad/s or m/s: joints that are slower have no equations. 0 or negative: all have; infinite:
+  /// none has, since its torque was not measured.
+  Eigen::VectorXd still_speed;
   Eigen::VectorXd acceleration_noise;  ///< (n) standard deviation behind all filters
 };
 RowPlan plan_rows(const MotionSource& source, const RowOptions& options);

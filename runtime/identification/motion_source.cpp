@@ -27,12 +27,21 @@ using Eigen::VectorXd;
 
 constexpr Index kChunk = 20000;
 
+/// One number throughout, of a joint that moves or in poses that differ: no torque is so.
+bool torque_is_dead(const Recording& recording, int joint) {
+  if (recording.tau.size() == 0 || recording.samples() < 2) return false;
+  const auto torque = recording.tau.col(joint);
+  const auto position = recording.q.col(joint);
+  return torque.minCoeff() == torque.maxCoeff() && position.minCoeff() < position.maxCoeff();
+}
+
 void look_at_signals(const Recording& recording, RecordingCondition& condition) {
   for (int j = 0; j < recording.joints(); ++j) {
     const Quantisation position = find_quantisation(recording.q.col(j));
     condition.position_step.push_back(position.step);
     const Clipping clipping = find_clipping(recording.tau.col(j));
     condition.torque_clipped.push_back(clipping.clipped);
+    condition.torque_dead.push_back(torque_is_dead(recording, j));
     if (clipping.clipped) {
       condition.messages.push_back(fmt::format(
           "torque of joint {} stands at its limit ({:.4g} or {:.4g}) in {} samples", j + 1,
@@ -52,18 +61,19 @@ Recording with_uniform_time(Recording recording, RecordingCondition& condition) 
   return resample(recording, base.sample_time);
 }
 
-Recording with_averaged_periods(Recording recording, const MotionOptions& options,
-                                RecordingCondition& condition) {
-  if (!options.average_periods) return recording;
+/// None where there are no periods.
+std::optional<Recording> averaged_periods(const Recording& recording, const MotionOptions& options,
+                                          RecordingCondition& condition) {
+  if (!options.average_periods) return std::nullopt;
   const Periods periods = find_periods(recording, options.period);
   if (periods.samples == 0) {
     if (options.period) condition.messages.push_back(periods.message);
-    return recording;
+    return std::nullopt;
   }
   condition.periods = periods.count;
   condition.period = periods.period;
   condition.messages.push_back(periods.message);
-  if (periods.count < 2) return recording;
+  if (periods.count < 2) return std::nullopt;
   condition.period_scatter = column_rms(period_scatter(recording, periods)).transpose();
   Recording averaged = average_periods(recording, periods);
   condition.sample_time = periods.period / static_cast<double>(periods.samples);
@@ -75,14 +85,10 @@ VectorXd noise_of_positions(const Recording& recording, const JointStates& state
                             double sample_time, const std::vector<double>& steps) {
   VectorXd squares = VectorXd::Zero(recording.joints());
   double samples = 0;
-  for (const Motion& run : states.runs) {
-    const double* begin = recording.time.data();
-    const Index first =
-        std::lower_bound(begin, begin + recording.time.size(), run.time[0] - 0.5 * sample_time) -
-        begin;
-    if (first + run.samples() > recording.samples()) continue;
-    squares +=
-        (recording.q.middleRows(first, run.samples()) - run.q).colwise().squaredNorm().transpose();
+  for (std::size_t i = 0; i < states.runs.size(); ++i) {
+    const Motion& run = states.runs[i];
+    const auto measured = recording.q.middleRows(states.first_rows[i], run.samples());
+    squares += (measured - run.q).colwise().squaredNorm().transpose();
     samples += static_cast<double>(run.samples());
   }
   const double above =
@@ -98,7 +104,7 @@ void check_runs(const JointStates& states, const std::string& name) {
   if (!states.runs.empty()) return;
   std::string reason;
   for (const std::string& message : states.messages) reason += "; " + message;
-  throw TooShortError(fmt::format("{}: no run is long enough{}", name, reason));
+  throw TooLittleDataError(fmt::format("{}: no run is long enough{}", name, reason));
 }
 
 /// Whether noise of positions is more of a joint's acceleration than numbers are rounded.
@@ -128,13 +134,22 @@ Recording with_every_other(Recording recording, int parity) {
 }
 
 /// @param recording  of uniform time, its condition looked at   @param start  s, before averaging
+/// @param chosen     the cut-off, where options leave it open; 0 Hz: chosen from this recording
 MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
-                      RecordingCondition condition, const JointStateOptions& options) {
+                      RecordingCondition condition, const JointStateOptions& options,
+                      const Cutoff& chosen = {}) {
   MotionSource source;
   source.name = recording->file_name;
   source.start = start;
-  JointStates states = joint_states(*recording, options);
+  JointStateOptions settled = options;
+  if (chosen.hz > 0) settled.cutoff_hz = chosen.hz;
+  JointStates states = joint_states(*recording, settled);
+  if (chosen.hz > 0 && states.cutoff.hz > 0) {
+    states.cutoff = chosen;
+    states.messages.front() = chosen.message;
+  }
   check_runs(states, source.name);
+  condition.stands = states.stands;
   source.sample_time = states.runs.front().sample_time;
   source.cutoff = states.cutoff;
   source.position_noise =
@@ -148,6 +163,13 @@ MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
   source.others.parities =
       options.method == StateMethod::kLowPass && !quick &&
       accelerations_are_noisy(states, source.position_noise, source.sample_time);
+  if (source.others.low_passes && !states.stands) {
+    source.others.at = [recording, start, condition, options](const Cutoff& cutoff, double trim) {
+      JointStateOptions other = options;
+      if (trim >= 0) other.trim = trim;
+      return filtered(recording, start, condition, other, cutoff);
+    };
+  }
   if (source.others.low_passes || source.others.parities) {
     source.others.make = [recording, start, condition, options, hz = source.cutoff.hz,
                           noise = source.position_noise](const OtherState& state) {
@@ -178,10 +200,15 @@ MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
                               const MotionOptions& options) {
   const double start = recording.samples() > 0 ? recording.time[0] : 0;
   look_at_signals(recording, condition);
-  recording = with_uniform_time(std::move(recording), condition);
-  recording = with_averaged_periods(std::move(recording), options, condition);
-  return filtered(std::make_shared<const Recording>(std::move(recording)), start,
-                  std::move(condition), options.state);
+  const auto recorded =
+      std::make_shared<const Recording>(with_uniform_time(std::move(recording), condition));
+  auto used = recorded;
+  if (std::optional<Recording> averaged = averaged_periods(*recorded, options, condition)) {
+    used = std::make_shared<const Recording>(std::move(*averaged));
+  }
+  MotionSource source = filtered(used, start, std::move(condition), options.state);
+  source.recorded = recorded;
+  return source;
 }
 
 /// About how many bytes of text a file holds; 0 if it cannot be read, which its reader will say.
@@ -234,12 +261,16 @@ MotionSource motion_of(Recording recording, const MotionOptions& options) {
   return motion_in_memory(std::move(recording), {}, options);
 }
 
-MotionSource motion_of_file(const std::string& path, const MotionOptions& options) {
+MotionSource motion_of_file(const std::string& path, const MotionOptions& options,
+                            std::vector<Notice>* repairs) {
   if (bytes_of_text(path) > options.stream_above && options.state.method == StateMethod::kLowPass) {
     return stream_of_file(path, options);
   }
   RecordingCondition condition;
-  Recording recording = read_recording(path, {}, &condition.repairs);
+  std::vector<Notice> own;
+  std::vector<Notice>& told = repairs != nullptr ? *repairs : own;
+  Recording recording = read_recording(path, {}, &told);
+  condition.repairs = told;
   return motion_in_memory(std::move(recording), std::move(condition), options);
 }
 
@@ -256,10 +287,16 @@ MotionSource made_of(const MotionSource& source,
                      const std::function<MotionSource(const MotionSource&)>& change) {
   MotionSource made = change(source);
   made.others = source.others;
-  if (!source.others.make) return made;
-  made.others.make = [make = source.others.make, change](const OtherState& state) {
-    return made_of(make(state), change);
-  };
+  if (source.others.make) {
+    made.others.make = [make = source.others.make, change](const OtherState& state) {
+      return made_of(make(state), change);
+    };
+  }
+  if (source.others.at) {
+    made.others.at = [at = source.others.at, change](const Cutoff& cutoff, double trim) {
+      return made_of(at(cutoff, trim), change);
+    };
+  }
   return made;
 }
 

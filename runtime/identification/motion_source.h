@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -15,8 +16,9 @@
 
 namespace dyngen::runtime {
 
-/// A recording that is too short for what is asked of it; what() is a sentence.
-class TooShortError : public std::invalid_argument {
+/// Recordings that hold too little for what is asked of them: too short, or at rest. what() is a
+/// sentence.
+class TooLittleDataError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
@@ -38,10 +40,14 @@ struct RecordingCondition {
   bool resampled = false;             ///< onto a uniform grid
   std::vector<double> position_step;  ///< (n) encoder step found, rad or m; 0: none
   std::vector<bool> torque_clipped;   ///< (n)
-  int periods = 0;                    ///< that were found; 0: none
-  double period = 0;                  ///< s
-  Eigen::VectorXd period_scatter;     ///< (n) rms over periods of the torque; may be empty
-  std::vector<Notice> repairs;        ///< what the reader repaired
+  /// (n) torque that is one number throughout while the joint moves: it was not measured, and the
+  /// joint has no equations; may be empty
+  std::vector<bool> torque_dead;
+  bool stands = false;             ///< no joint moves: each run is one pose
+  int periods = 0;                 ///< that were found; 0: none
+  double period = 0;               ///< s
+  Eigen::VectorXd period_scatter;  ///< (n) rms over periods of the torque; may be empty
+  std::vector<Notice> repairs;     ///< what the reader repaired
   std::vector<std::string> messages;
 };
 
@@ -66,6 +72,10 @@ struct OtherStates {
   /// file is too large to be in memory.
   bool parities = false;
   std::function<MotionSource(const OtherState& state)> make{};  ///< empty: there are none
+  /// The recording behind a low-pass of another cut-off that was chosen, not told, with other joint
+  /// states of its own. `trim`: s at each end of a run, negative: the filter's own. Empty where the
+  /// cut-off was given or no low-pass gives the joint state.
+  std::function<MotionSource(const Cutoff& cutoff, double trim)> at{};
 };
 
 /// The motion of a recording, which can be gone through again and again.
@@ -80,6 +90,9 @@ struct MotionSource {
   /// Consecutive pieces of all runs.
   std::function<void(const std::function<void(const StreamPiece&)>&)> pieces;
   OtherStates others;
+  /// As it was measured, on a uniform time base, before periods are averaged; empty of a file that
+  /// is too large.
+  std::shared_ptr<const Recording> recorded{};
 
   [[nodiscard]] int joints() const { return static_cast<int>(position_noise.size()); }
 };
@@ -87,12 +100,14 @@ struct MotionSource {
 /// Joint state of a recording in memory, after its time base, quantisation, clipping and periods
 /// were looked at.
 /// @throws std::invalid_argument  if options are not valid
-/// @throws TooShortError          if nothing is left
+/// @throws TooLittleDataError          if nothing is left
 MotionSource motion_of(Recording recording, const MotionOptions& options);
 
 /// The same of a file; a large one is read again each time it is gone through, in constant memory.
-/// @throws RecordingError; std::invalid_argument; TooShortError
-MotionSource motion_of_file(const std::string& path, const MotionOptions& options);
+/// @param repairs  what was repaired is appended, if not null; also where an error is thrown
+/// @throws RecordingError; std::invalid_argument; TooLittleDataError
+MotionSource motion_of_file(const std::string& path, const MotionOptions& options,
+                            std::vector<Notice>* repairs = nullptr);
 
 /// The same recording, other pieces of it; with no other joint state, of which they are not.
 MotionSource with_pieces(

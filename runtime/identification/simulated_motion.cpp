@@ -164,4 +164,43 @@ InstrumentSource simulated_instruments(const LinearModel& model, const MotionSou
   };
 }
 
+MotionSource commanded_motion(const Trajectory& trajectory, const std::string& name,
+                              const MotionSource& recorded) {
+  if (trajectory.joints() != recorded.joints()) {
+    throw std::invalid_argument(
+        fmt::format("{}: {} joints, but {} has {}: expected the motion that "
+                    "was commanded there",
+                    name, trajectory.joints(), recorded.name, recorded.joints()));
+  }
+  const double first = trajectory.time[0], last = trajectory.time[trajectory.samples() - 1];
+  recorded.pieces([&](const StreamPiece& piece) {
+    const VectorXd& time = piece.motion.time;
+    if (time.size() == 0) return;
+    const double begin = time[0], end = time[time.size() - 1];
+    if (begin >= first - recorded.sample_time && end <= last + recorded.sample_time) return;
+    throw std::invalid_argument(
+        fmt::format("{}: it lasts from {:.6g} to {:.6g} s, and {} has samples from {:.6g} to "
+                    "{:.6g} s: expected "
+                    "the motion that was commanded there, with the same zero of time",
+                    name, first, last, recorded.name, begin, end));
+  });
+  const auto shared = std::make_shared<const Trajectory>(trajectory);
+  return with_pieces(recorded, [shared, pieces = recorded.pieces](
+                                   const std::function<void(const StreamPiece&)>& visit) {
+    pieces([&](const StreamPiece& piece) {
+      StreamPiece commanded = piece;
+      Motion& motion = commanded.motion;
+      const Index n = motion.q.cols();
+      VectorXd q(n), dq(n), ddq(n);
+      for (Index k = 0; k < motion.samples(); ++k) {
+        motion_at(*shared, motion.time[k], q.data(), dq.data(), ddq.data());
+        motion.q.row(k) = q.transpose();
+        motion.dq.row(k) = dq.transpose();
+        motion.ddq.row(k) = ddq.transpose();
+      }
+      visit(commanded);
+    });
+  });
+}
+
 }  // namespace dyngen::runtime

@@ -5,7 +5,9 @@
 
 #include "runtime/estimation/instruments.h"
 #include "runtime/identification/motion_rows.h"
+#include "runtime/identification/motion_source.h"
 #include "runtime/model/linear_model.h"
+#include "runtime/recordings/trajectory_file.h"
 
 namespace dyngen::runtime {
 
@@ -32,5 +34,12 @@ Motion simulate_tracking(const LinearModel& model, const Eigen::VectorXd& beta,
 InstrumentSource simulated_instruments(const LinearModel& model, const MotionSource& recorded,
                                        const MotionSource& commanded, const RowOptions& options,
                                        const Eigen::VectorXd& beta, const TrackingLoop& loop = {});
+
+/// What was commanded, at the samples of a recording of it: the trajectory between its samples.
+/// @param name  of the trajectory, for messages
+/// @throws std::invalid_argument  if its joints are others, or its time does not cover the
+/// recording
+MotionSource commanded_motion(const Trajectory& trajectory, const std::string& name,
+                              const MotionSource& recorded);
 
 }  // namespace dyngen::runtime

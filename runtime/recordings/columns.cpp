@@ -35,9 +35,10 @@ constexpr int kMostJoints = 1000;
 struct Meaning {
   Kind kind = Kind::kTime;
   int number = 0;
+  std::string_view unit{};  ///< of the name, without brackets; empty if it has none
 };
 
-std::optional<Meaning> meaning_of(std::string_view name) {
+std::optional<Meaning> meaning_of_word(std::string_view name) {
   std::string lower(name);
   for (char& c : lower) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -56,6 +57,85 @@ std::optional<Meaning> meaning_of(std::string_view name) {
   return Meaning{spelled->kind, value};
 }
 
+Quantity quantity_of(Kind kind) {
+  switch (kind) {
+    case Kind::kTime:
+      return Quantity::kTime;
+    case Kind::kDq:
+      return Quantity::kVelocity;
+    case Kind::kDdq:
+      return Quantity::kAcceleration;
+    case Kind::kTau:
+    case Kind::kTauSim:
+      return Quantity::kTorque;
+    case Kind::kTemperature:
+      return Quantity::kTemperature;
+    case Kind::kQ:
+    case Kind::kSegment:
+      break;
+  }
+  return Quantity::kPosition;
+}
+
+/// The meaning of a name that may end with a unit. What stands in brackets is always one; what
+/// follows a '_' only if it is known ("q1_filtered" is another column).
+std::optional<Meaning> meaning_of(std::string_view name) {
+  if (const auto plain = meaning_of_word(name)) return plain;
+  if (const std::size_t open = name.find_first_of("[(<{"); open != name.npos && open > 0) {
+    const std::string_view unit = trimmed(name.substr(open));
+    std::string_view word = trimmed(name.substr(0, open));
+    while (word.ends_with('_')) word.remove_suffix(1);
+    std::optional<Meaning> meaning = meaning_of_word(word);
+    const std::string_view inside = without_brackets(unit);
+    if (meaning && meaning->kind != Kind::kSegment && inside.size() < unit.size()) {
+      meaning->unit = inside;
+      return meaning;
+    }
+    return std::nullopt;
+  }
+  for (std::size_t at = name.find_first_of("_ /"); at != name.npos;
+       at = name.find_first_of("_ /", at + 1)) {
+    std::optional<Meaning> meaning = meaning_of_word(name.substr(0, at));
+    const std::string_view unit = trimmed(name.substr(at + 1));
+    if (meaning && meaning->kind != Kind::kSegment &&
+        unit_conversion(unit, quantity_of(meaning->kind))) {
+      meaning->unit = unit;
+      return meaning;
+    }
+  }
+  return std::nullopt;
+}
+
+/// A unit as it was written, or in ASCII.
+std::string shown_unit(std::string_view word) {
+  const bool ascii =
+      std::all_of(word.begin(), word.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  return ascii ? std::string(word) : plain_unit(word);
+}
+
+/// "q1 and q2 in deg, time in ms" of the columns that have a unit which is not SI.
+std::string converted_columns(const Columns& columns, const std::vector<std::string>& units) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_unit;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (columns.target[i] < 0 || !columns.conversions[i].changes()) continue;
+    auto same = std::find_if(by_unit.begin(), by_unit.end(),
+                             [&](const auto& entry) { return entry.first == units[i]; });
+    if (same == by_unit.end()) same = by_unit.insert(by_unit.end(), {units[i], {}});
+    same->second.push_back(quoted(std::string_view(columns.names[i])));
+  }
+  std::string text;
+  for (const auto& [unit, names] : by_unit) {
+    constexpr std::size_t kNamed = 3;
+    const std::vector<std::string> first(
+        names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kNamed)));
+    text += fmt::format(
+        "{}{}{} in {}", text.empty() ? "" : "; ", fmt::join(first, ", "),
+        names.size() > kNamed ? fmt::format(" and {} more", names.size() - kNamed) : std::string(),
+        unit);
+  }
+  return text;
+}
+
 /// The numbered columns of one kind: their numbers and where they stand.
 struct Group {
   std::map<int, std::size_t> fields;  ///< number -> field
@@ -68,14 +148,15 @@ class HeaderReader {
   HeaderReader(std::string_view line, std::size_t line_number, NoticeLog& log)
       : line_(line), line_number_(line_number), log_(&log) {}
 
-  Columns read(int joints, bool torque_required);
+  Columns read(char separator, int joints, bool torque_required);
 
  private:
   [[noreturn]] void fail(std::size_t column, const std::string& message) const {
     throw recording_error(log_->file(), line_number_, column, message);
   }
-  void choose_separator();
+  void choose_separator(char separator);
   void sort_out_names();
+  void read_unit(const Field& field, const Meaning& meaning, std::size_t place);
   void check_group(Kind kind, std::string_view word, int expected) const;
   void place(Kind kind, int& next);
   Group& group(Kind kind) { return groups_[static_cast<std::size_t>(kind)]; }
@@ -89,27 +170,21 @@ class HeaderReader {
   Columns columns_;
   std::vector<Field> fields_;
   std::array<Group, 8> groups_;
+  std::vector<std::string> units_;  ///< per field
 };
 
-void HeaderReader::choose_separator() {
-  struct Choice {
-    char character;
-    std::string_view name;
-  };
-  constexpr std::array<Choice, 3> kOthers = {{{';', "semicolons"}, {',', ""}, {'\t', "tabs"}}};
-  Choice chosen{' ', "blanks"};
-  for (const Choice& choice : kOthers) {
-    if (line_.find(choice.character) != line_.npos) {
-      chosen = choice;
-      break;
-    }
-  }
-  columns_.separator.character = chosen.character;
+void HeaderReader::choose_separator(char separator) {
+  const char chosen = separator == '\0' ? separator_of(line_) : separator;
+  columns_.separator.character = chosen;
   fields_ = split_fields(line_, columns_.separator);
-  if (!chosen.name.empty() && fields_.size() > 1) {
+  if (chosen != ',' && fields_.size() > 1) {
+    const std::string name = chosen == ';'    ? "semicolons"
+                             : chosen == '\t' ? "tabs"
+                             : chosen == ' '  ? "blanks"
+                                              : fmt::format("'{}'", chosen);
     log_->add_once(
         "separator", line_number_, 1,
-        fmt::format("columns are separated by {}; accepted, and a decimal comma too", chosen.name));
+        fmt::format("columns are separated by {}; accepted, and a decimal comma too", name));
   }
   if (fields_.size() > 1 && fields_.back().text.empty()) {
     log_->add_once("trailing header", line_number_, fields_.back().column,
@@ -118,8 +193,24 @@ void HeaderReader::choose_separator() {
   }
 }
 
+void HeaderReader::read_unit(const Field& field, const Meaning& meaning, std::size_t place) {
+  columns_.quantities[place] = quantity_of(meaning.kind);
+  if (meaning.unit.empty()) return;
+  const auto conversion = unit_conversion(meaning.unit, columns_.quantities[place]);
+  if (!conversion) {
+    fail(field.column, fmt::format("found unit {} of {}, expected {}", quoted(meaning.unit),
+                                   quoted(field.text), known_units(columns_.quantities[place])));
+  }
+  columns_.conversions[place] = *conversion;
+  columns_.converts = columns_.converts || conversion->changes();
+  units_[place] = shown_unit(meaning.unit);
+}
+
 void HeaderReader::sort_out_names() {
   columns_.target.assign(fields_.size(), Columns::kIgnored);
+  columns_.quantities.assign(fields_.size(), Quantity::kPosition);
+  columns_.conversions.assign(fields_.size(), {});
+  units_.assign(fields_.size(), {});
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const Field& field = fields_[i];
     columns_.names.emplace_back(field.text);
@@ -135,6 +226,7 @@ void HeaderReader::sort_out_names() {
       fail(field.column, fmt::format("found column {}, expected numbers from 1 to {}",
                                      quoted(field.text), kMostJoints));
     }
+    read_unit(field, *meaning, i);
     const auto [place, is_new] = group(meaning->kind).fields.emplace(meaning->number, i);
     if (!is_new) {
       const Field& first = fields_[place->second];
@@ -175,9 +267,9 @@ void HeaderReader::place(Kind kind, int& next) {
   for (const auto& [number, place] : group(kind).fields) columns_.target[place] = next++;
 }
 
-Columns HeaderReader::read(int joints, bool torque_required) {
+Columns HeaderReader::read(char separator, int joints, bool torque_required) {
   columns_.header_line = line_number_;
-  choose_separator();
+  choose_separator(separator);
   sort_out_names();
 
   const std::string example =
@@ -212,6 +304,10 @@ Columns HeaderReader::read(int joints, bool torque_required) {
   }
   for (const auto& [number, place] : group(Kind::kSegment).fields) {
     columns_.target[place] = Columns::kSegment;
+  }
+  if (columns_.converts) {
+    log_->add_once("units", line_number_, 1,
+                   fmt::format("found {}; converted to SI", converted_columns(columns_, units_)));
   }
   return columns_;
 }
@@ -273,9 +369,64 @@ bool looks_like_header(std::string_view line) {
   return false;
 }
 
-Columns read_header(std::string_view line, std::size_t line_number, int joints,
+char separator_of(std::string_view line) {
+  for (const char separator : {';', ',', '\t'}) {
+    if (line.find(separator) != line.npos) return separator;
+  }
+  return ' ';
+}
+
+Columns read_header(std::string_view line, std::size_t line_number, char separator, int joints,
                     bool torque_required, NoticeLog& log) {
-  return HeaderReader(line, line_number, log).read(joints, torque_required);
+  return HeaderReader(line, line_number, log).read(separator, joints, torque_required);
+}
+
+bool read_unit_row(std::string_view line, std::size_t line_number, Columns& columns,
+                   NoticeLog& log) {
+  std::vector<Field> fields = split_fields(line, columns.separator);
+  while (fields.size() > columns.target.size() && fields.back().text.empty()) fields.pop_back();
+  if (fields.size() != columns.target.size()) return false;
+  std::size_t used = 0, units = 0;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const std::string_view text = without_brackets(fields[i].text);
+    if (columns.target[i] < 0 || text.empty() || text == "-") continue;
+    ++used;
+    const bool is_unit = unit_conversion(fields[i].text, columns.quantities[i]).has_value();
+    units += is_unit ? 1 : 0;
+    constexpr std::string_view kNumberBegins = "+-.0123456789";
+    const bool number = !text.empty() && kNumberBegins.find(text.front()) != kNumberBegins.npos;
+    if (columns.target[i] == 0 && number && !is_unit) return false;
+  }
+  if (units == 0 || 2 * units < used) return false;
+
+  std::vector<std::string> names(fields.size());
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (columns.target[i] < 0) continue;
+    const std::string_view text = without_brackets(fields[i].text);
+    if (text.empty() || text == "-") continue;  // as the header says, or SI
+    const auto conversion = unit_conversion(text, columns.quantities[i]);
+    if (!conversion) {
+      throw recording_error(log.file(), line_number, fields[i].column,
+                            fmt::format("found unit {} of column {}, expected {}", quoted(text),
+                                        quoted(std::string_view(columns.names[i])),
+                                        known_units(columns.quantities[i])));
+    }
+    if (columns.conversions[i].changes() && *conversion != columns.conversions[i]) {
+      throw recording_error(
+          log.file(), line_number, fields[i].column,
+          fmt::format("found unit {} of column {}, expected the unit in its name, or none",
+                      quoted(text), quoted(std::string_view(columns.names[i]))));
+    }
+    columns.conversions[i] = *conversion;
+    columns.converts = columns.converts || conversion->changes();
+    names[i] = shown_unit(text);
+  }
+  const std::string converted = converted_columns(columns, names);
+  log.add_once("unit row", line_number, 1,
+               converted.empty()
+                   ? "found a row of units, all of them SI; read"
+                   : fmt::format("found a row of units: {}; converted to SI", converted));
+  return true;
 }
 
 }  // namespace dyngen::runtime

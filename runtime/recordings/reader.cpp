@@ -5,143 +5,90 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "runtime/recordings/byte_source.h"
-#include "runtime/recordings/columns.h"
-#include "runtime/recordings/line_reader.h"
-#include "runtime/recordings/row_parser.h"
+#include "runtime/recordings/recording_rows.h"
 #include "runtime/recordings/row_repair.h"
+#include "runtime/recordings/shuffled_rows.h"
+#include "runtime/recordings/signal_repair.h"
 #include "runtime/recordings/time_repair.h"
 
 namespace dyngen::runtime {
 
-/// The file's lines as rows. Blank lines and comments are skipped.
-/// Not in an unnamed namespace: RecordingReader::State, which has external linkage, holds one.
-class RecordingRows {
- public:
-  RecordingRows(ByteSource source, const ReadOptions& options, NoticeLog& log)
-      : log_(&log), lines_(std::move(source), log), columns_(find_header(options)) {
-    parser_.emplace(columns_, log);
-  }
-
-  [[nodiscard]] const Columns& columns() const { return columns_; }
-  [[nodiscard]] double fraction_read() const { return lines_.fraction_read(); }
-  [[nodiscard]] std::size_t last_line() const { return line_.number; }
-
-  /// Appends the next row to `rows`; false at the end of the file.
-  bool next(RowQueue& rows) {
-    while (next_line()) {
-      if (last_short_) throw *last_short_;
-      rows.add();
-      if (parser_->parse(line_, rows) == RowParser::Outcome::kRow) return true;
-      rows.pop_back();
-      last_short_ = parser_->too_short();
-      last_short_line_ = line_.number;
-    }
-    if (last_short_) {
-      log_->add_once("truncated", last_short_line_, 0, "the last row is truncated; left out");
-      last_short_.reset();
-    }
-    return false;
-  }
-
- private:
-  bool next_line() {
-    if (held_back_) {
-      held_back_ = false;
-      return true;
-    }
-    while (lines_.next(line_)) {
-      const std::string_view text = trimmed(line_.text);
-      if (text.empty()) {
-        log_->add("blank", line_.number, 1, "found a blank line; skipped");
-      } else if (text.front() == '#') {
-        log_->add("comment", line_.number, 1, "found a comment; skipped");
-        keep_comment(text);
-      } else {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  /// Some programs write the header as a comment.
-  void keep_comment(std::string_view text) {
-    if (header_found_) return;
-    text.remove_prefix(
-        text.find_first_not_of("# \t") == text.npos ? text.size() : text.find_first_not_of("# \t"));
-    if (text.size() <= 1 << 16 && looks_like_header(text)) {
-      comment_.assign(text);
-      comment_line_ = line_.number;
-    }
-  }
-
-  Columns find_header(const ReadOptions& options) {
-    if (!next_line()) {
-      throw recording_error(log_->file(), line_.number, 1,
-                            line_.number == 0
-                                ? "found an empty file, expected a recording"
-                                : fmt::format("found no header, expected 'time,q1,...{}'",
-                                              options.torque_required ? ",tau1,..." : ""));
-    }
-    header_found_ = true;
-    const std::string_view text = trimmed(line_.text);
-    constexpr std::string_view kNumberBegins = "+-.0123456789";
-    if (!comment_.empty() && kNumberBegins.find(text.front()) != kNumberBegins.npos) {
-      log_->add_once("comment header", comment_line_, 1, "the header is a comment; accepted");
-      held_back_ = true;
-      return read_header(comment_, comment_line_, options.joints, options.torque_required, *log_);
-    }
-    return read_header(line_.text, line_.number, options.joints, options.torque_required, *log_);
-  }
-
-  NoticeLog* log_;
-  LineReader lines_;
-  Line line_;
-  bool header_found_ = false;
-  bool held_back_ = false;  ///< line_ is still to be used
-  std::string comment_;     ///< the last one that looks like a header
-  std::size_t comment_line_ = 0;
-  Columns columns_;
-  std::optional<RowParser> parser_;
-  std::optional<RecordingError> last_short_;  ///< an error, unless the file ends there
-  std::size_t last_short_line_ = 0;
-};
-
 struct RecordingReader::State {
   State(ByteSource source, std::string name, const ReadOptions& options)
       : log(std::move(name), options.max_notices),
-        rows(std::move(source), options, log),
+        sort_rows(options.sort_rows),
+        rows(std::move(source), {options.joints, options.torque_required}, log),
+        all(rows.columns().width()),
         out(rows.columns().width()),
         filter(rows.columns().width(), out, log),
         values(rows.columns().width(), filter, log),
         time(rows.columns().width(), values, log) {
+    if (sort_rows) rows.segments_come_again();
     notices = log.notices();
   }
 
+  bool next_row();
+  void read_and_sort();
   void fill(std::size_t wanted);
   void finish();
   void take(Recording& chunk, std::size_t count);
 
   NoticeLog log;
   std::vector<Notice> notices;
+  bool sort_rows, were_sorted = false;
   RecordingRows rows;
+  RowQueue all;  ///< every row, if they are to be sorted
   RowQueue out;
   ShortRunFilter filter;
   BadValueRepair values;
   TimeRepair time;
   std::size_t data_rows = 0;
   std::size_t delivered = 0;
+  std::size_t backward_steps = 0;
+  double last_time = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t last_segment = 0;
+  bool all_read = false;
   bool finished = false;
   bool continues_run = false;
 };
 
+/// Puts the next row into time.queue().
+bool RecordingReader::State::next_row() {
+  RowQueue& queue = time.queue();
+  if (sort_rows) {
+    if (!all_read) read_and_sort();
+    if (all.empty()) return false;
+    queue.push(all.values(0), all.info(0));
+    all.pop_front();
+    return true;
+  }
+  if (!rows.next(queue)) return false;
+  const double now = queue.time(queue.size() - 1);
+  const std::int64_t segment = queue.info(queue.size() - 1).segment;
+  if (now < last_time && segment == last_segment) ++backward_steps;
+  if (!std::isnan(now)) last_time = now;
+  last_segment = segment;
+  return true;
+}
+
+void RecordingReader::State::read_and_sort() {
+  while (rows.next(all)) {
+  }
+  all_read = true;
+  were_sorted = sort_shuffled_rows(all, rows.columns().width(), log);
+}
+
 void RecordingReader::State::fill(std::size_t wanted) {
   while (out.size() < wanted && !finished) {
-    if (rows.next(time.queue())) {
+    if (next_row()) {
       ++data_rows;
       time.pushed();
     } else {
@@ -177,6 +124,8 @@ void RecordingReader::State::take(Recording& chunk, std::size_t count) {
   const Eigen::Index n = columns.joints;
   chunk.file_name = log.file();
   chunk.run_starts.clear();
+  chunk.lines.clear();
+  chunk.lines.reserve(count);
   chunk.time.resize(samples);
   chunk.q.resize(samples, n);
   const auto shape = [&](Eigen::MatrixXd& matrix, bool there, Eigen::Index width) {
@@ -194,6 +143,7 @@ void RecordingReader::State::take(Recording& chunk, std::size_t count) {
     const bool starts_run = out.info(0).starts_run;
     if (i == 0) continues_run = !starts_run;
     if (starts_run || i == 0) chunk.run_starts.push_back(row);
+    chunk.lines.push_back(static_cast<std::uint32_t>(out.info(0).line));
     chunk.time(row) = *value++;
     for (Eigen::MatrixXd* matrix :
          {&chunk.q, &chunk.tau, &chunk.dq, &chunk.ddq, &chunk.tau_sim, &chunk.temperature}) {
@@ -252,6 +202,8 @@ bool RecordingReader::next(Recording& chunk, Eigen::Index rows) {
 bool RecordingReader::continues_run() const { return state_->continues_run; }
 const std::vector<Notice>& RecordingReader::notices() const { return state_->notices; }
 int RecordingReader::joints() const { return state_->rows.columns().joints; }
+std::size_t RecordingReader::backward_steps() const { return state_->backward_steps; }
+bool RecordingReader::rows_were_sorted() const { return state_->were_sorted; }
 
 double RecordingReader::fraction_read() const {
   return state_->finished ? 1 : state_->rows.fraction_read();
@@ -290,20 +242,67 @@ Recording read_all(RecordingReader& reader) {
     for (std::size_t run = continues[i] && i > 0 ? 1 : 0; run < chunk.run_starts.size(); ++run) {
       all.run_starts.push_back(first + chunk.run_starts[run]);
     }
+    all.lines.insert(all.lines.end(), chunk.lines.begin(), chunk.lines.end());
     first += count;
     chunk = Recording();  // its memory is needed
   }
   return all;
 }
 
+namespace {
+
+/// A file that was read once, whether it could be or not.
+struct Attempt {
+  Recording recording;
+  std::vector<Notice> notices;
+  std::exception_ptr error;
+  std::size_t backward_steps = 0;
+  bool sorted = false;
+};
+
+Attempt read_once(const std::string& path, const ReadOptions& options) {
+  RecordingReader reader(path, options);
+  Attempt result;
+  try {
+    result.recording = read_all(reader);
+  } catch (const RecordingError&) {
+    result.error = std::current_exception();
+  }
+  result.notices = reader.notices();
+  result.backward_steps = reader.backward_steps();
+  result.sorted = reader.rows_were_sorted();
+  return result;
+}
+
+/// A pipe is not.
+bool can_be_read_again(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
+}  // namespace
+
 Recording read_recording(const std::string& path, const ReadOptions& options,
                          std::vector<Notice>* notices) {
-  RecordingReader reader(path, options);
-  Recording recording = read_all(reader);
-  if (notices != nullptr) {
-    notices->insert(notices->end(), reader.notices().begin(), reader.notices().end());
+  Attempt result = read_once(path, options);
+  if (result.backward_steps >= kFewestBackwardSteps && can_be_read_again(path)) {
+    ReadOptions sorting = options;
+    sorting.sort_rows = true;
+    Attempt sorted = read_once(path, sorting);
+    if (sorted.sorted) result = std::move(sorted);
   }
-  return recording;
+  if (!result.error && options.repair_signals && options.torque_required) {
+    try {
+      repair_signals(result.recording, result.notices);
+    } catch (const RecordingError&) {
+      result.error = std::current_exception();
+    }
+  }
+  if (notices != nullptr) {
+    notices->insert(notices->end(), result.notices.begin(), result.notices.end());
+  }
+  if (result.error) std::rethrow_exception(result.error);
+  return std::move(result.recording);
 }
 
 }  // namespace dyngen::runtime

@@ -16,6 +16,12 @@ struct ReadOptions {
   int joints = 0;                ///< how many are expected; 0: as many as the header names
   bool torque_required = true;   ///< false: tau may be absent, it is 0 x 0 then
   std::size_t max_notices = 20;  ///< of different kinds; one more says how many were left out
+  /// All rows are read first, and sorted by time within their segment if that makes time regular
+  /// (sort_shuffled_rows()). Memory is that of the whole file.
+  bool sort_rows = false;
+  /// read_recording() alone: what only the whole signal shows is repaired (repair_signals()). Not
+  /// where torque is not required: a trajectory is what somebody wants, jumps and all.
+  bool repair_signals = true;
 };
 
 /// Reads a recording (.csv, .csv.gz) piece by piece in constant memory. docs/recordings.md has the
@@ -52,6 +58,12 @@ class RecordingReader {
 
   [[nodiscard]] int joints() const;
 
+  /// How often time went backward within a segment, in the rows of the file so far.
+  [[nodiscard]] std::size_t backward_steps() const;
+
+  /// ReadOptions::sort_rows: rows were not in the order of time, and are now.
+  [[nodiscard]] bool rows_were_sorted() const;
+
   /// 0 .. 1, of the bytes on disk: for progress.
   [[nodiscard]] double fraction_read() const;
 
@@ -61,9 +73,11 @@ class RecordingReader {
   std::unique_ptr<State> state_;
 };
 
-/// Reads a whole recording into memory.
+/// Reads a whole recording into memory: rows that are shuffled are sorted, and signals are repaired
+/// (repair_signals()).
 ///
-/// @param notices  what was repaired is appended, if not null
+/// @param notices  what was repaired is appended, if not null; also if the recording is then
+/// refused
 /// @throws RecordingError
 Recording read_recording(const std::string& path, const ReadOptions& options = {},
                          std::vector<Notice>* notices = nullptr);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct Recording {
   /// First row of every run; the first is 0. Rows of different runs do not follow each other in
   /// time, so no filter crosses from one to the next.
   std::vector<Eigen::Index> run_starts;
+  /// (N) line of the file that each row stood in, for messages; empty if no row stands for a line
+  std::vector<std::uint32_t> lines;
 
   [[nodiscard]] Eigen::Index samples() const { return time.size(); }
   [[nodiscard]] int joints() const { return static_cast<int>(q.cols()); }

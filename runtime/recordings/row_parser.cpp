@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/recordings/number_words.h"
+
 namespace dyngen::runtime {
 namespace {
 
@@ -48,15 +50,18 @@ const char* RowParser::field_end(const Cursor& cursor) const {
 }
 
 /// The slow way, for what is not a plain number.
-RowParser::Word RowParser::read_word(std::string_view text, bool is_time, double& value) {
+RowParser::Word RowParser::read_word(std::string_view text, std::string_view line, bool is_time,
+                                     double& value) {
   value = kMissing;
   scratch_.assign(text);
   for (char& c : scratch_) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    if (c == ',' && columns_->separator.decimal_comma()) c = '.';
   }
+  if (means_missing(scratch_)) return Word::kBad;
+  const NumberStyle style = use_decimal_point(scratch_, line);
+  if (style == NumberStyle::kAmbiguous) return Word::kAmbiguous;
+  if (style == NumberStyle::kNone) return Word::kNone;
   std::string_view word = scratch_;
-  if (means_missing(word)) return Word::kBad;
   const bool negative = word.front() == '-';
   if (negative || word.front() == '+') word.remove_prefix(1);
   if (word.empty() || word.front() == '-' || word.front() == '+') return Word::kNone;
@@ -85,6 +90,14 @@ void RowParser::mark_bad(RowInfo& info, std::size_t field, std::size_t column,
 
 void RowParser::note_segment(std::string_view text) {
   if (text.empty() || (has_segment_ && text == segment_text_)) return;
+  if (segments_come_again_) {
+    const auto known = segments_.find(text);
+    segment_ = known != segments_.end() ? known->second
+                                        : segments_.emplace(text, segments_.size()).first->second;
+    segment_text_.assign(text);
+    has_segment_ = true;
+    return;
+  }
   if (has_segment_) ++segment_;
   has_segment_ = true;
   segment_text_.assign(text);
@@ -94,6 +107,48 @@ RowParser::Outcome RowParser::short_row(const Line& line, std::size_t column,
                                         const std::string& message) {
   too_short_ = recording_error(log_->file(), line.number, column, message);
   return Outcome::kTooShort;
+}
+
+/// Reads the value of a field that is used. @return  where the field ends
+const char* RowParser::read_value(const Line& line, const Cursor& cursor, std::size_t field,
+                                  double& value, RowInfo& info) {
+  const bool is_time = columns_->target[field] == 0;
+  const double limit = is_time ? kWildTime : kWildValue;
+  const auto [after, error] = std::from_chars(cursor.at, cursor.end, value);
+  if (error == std::errc() && (after == cursor.end || separates(*after)) &&
+      std::abs(value) <= limit) {
+    return after;
+  }
+  const char* stop = field_end(cursor);
+  const auto column = static_cast<std::size_t>(cursor.at - cursor.begin) + 1;
+  std::string_view text = trimmed({cursor.at, static_cast<std::size_t>(stop - cursor.at)});
+  if (text.size() >= 2 && text.front() == text.back() &&
+      (text.front() == '"' || text.front() == '\'')) {
+    text = trimmed(text.substr(1, text.size() - 2));
+  }
+  switch (read_word(text, line.text, is_time, value)) {
+    case Word::kNumber:
+      break;
+    case Word::kBad:
+      mark_bad(info, field, column, text);
+      break;
+    case Word::kAmbiguous:
+      throw recording_error(
+          log_->file(), line.number, column,
+          fmt::format("found {} in column {} beside numbers with a decimal point, expected one "
+                      "decimal sign (does the comma part thousands?)",
+                      quoted(text), columns_->names[field]));
+    case Word::kNone: {
+      const std::string message = fmt::format("found {}, expected a number in column {}",
+                                              quoted(text), columns_->names[field]);
+      if (stop != cursor.end || line.terminated) {
+        throw recording_error(log_->file(), line.number, column, message);
+      }
+      cut_word_ = true;
+      short_row(line, column, message);
+    }
+  }
+  return stop;
 }
 
 /// Counts what is left of a line after the fields that were read.
@@ -115,10 +170,16 @@ RowParser::Outcome RowParser::finish(const Line& line, const Cursor& cursor, std
     }
     return Outcome::kRow;
   }
-  const std::size_t more = split_fields(rest, columns_->separator).size();
+  const std::size_t found = fields + split_fields(rest, columns_->separator).size();
+  // Of "0,001,1,5,2,25" nobody can tell which comma is which.
+  const bool decimal_commas = columns_->separator.character == ',' && found <= 2 * expected &&
+                              found + 2 >= 2 * expected && line.text.find('.') == line.text.npos;
   throw recording_error(log_->file(), line.number, place + 1,
-                        fmt::format("found {} columns, expected {} as in the header (line {})",
-                                    fields + more, expected, columns_->header_line));
+                        fmt::format("found {} columns, expected {} as in the header (line {}){}",
+                                    found, expected, columns_->header_line,
+                                    decimal_commas ? "; numbers with a decimal comma need quotes, "
+                                                     "or semicolons between columns"
+                                                   : ""));
 }
 
 RowParser::Outcome RowParser::parse(const Line& line, RowQueue& rows) {
@@ -132,6 +193,7 @@ RowParser::Outcome RowParser::parse(const Line& line, RowQueue& rows) {
   Cursor cursor{begin, begin, begin + line.text.size()};
   const std::size_t expected = columns_->target.size();
   bool ended = false;
+  cut_word_ = false;
   std::size_t field = 0;
   for (; field < expected && !ended; ++field) {
     while (cursor.at != cursor.end && is_blank(*cursor.at) &&
@@ -143,29 +205,9 @@ RowParser::Outcome RowParser::parse(const Line& line, RowQueue& rows) {
     const char* stop = nullptr;
     if (target >= 0) {
       double value = 0;
-      const double limit = target == 0 ? kWildTime : kWildValue;
-      const auto [after, error] = std::from_chars(cursor.at, cursor.end, value);
-      if (error == std::errc() && (after == cursor.end || separates(*after)) &&
-          std::abs(value) <= limit) {
-        stop = after;
-      } else {
-        stop = field_end(cursor);
-        const auto column = static_cast<std::size_t>(cursor.at - begin) + 1;
-        std::string_view text = trimmed({cursor.at, static_cast<std::size_t>(stop - cursor.at)});
-        if (text.size() >= 2 && text.front() == text.back() &&
-            (text.front() == '"' || text.front() == '\'')) {
-          text = trimmed(text.substr(1, text.size() - 2));
-        }
-        const Word word = read_word(text, target == 0, value);
-        if (word == Word::kBad) mark_bad(info, field, column, text);
-        if (word == Word::kNone) {
-          const std::string message = fmt::format("found {}, expected a number in column {}",
-                                                  quoted(text), columns_->names[field]);
-          if (stop == cursor.end && !line.terminated) return short_row(line, column, message);
-          throw recording_error(log_->file(), line.number, column, message);
-        }
-      }
-      values[target] = value;
+      stop = read_value(line, cursor, field, value, info);
+      if (cut_word_) return Outcome::kTooShort;
+      values[target] = columns_->converts ? columns_->conversions[field](value) : value;
     } else {
       stop = field_end(cursor);
       if (target == Columns::kSegment) {

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -33,11 +35,14 @@ class RowParser {
   /// @throws RecordingError for text that is no number, and for too many fields
   Outcome parse(const Line& line, RowQueue& rows);
 
+  /// From now on a word of the segment column that comes again is the segment that it was.
+  void segments_come_again() { segments_come_again_ = true; }
+
   /// What is wrong with the line that was too short.
   [[nodiscard]] const RecordingError& too_short() const { return too_short_; }
 
  private:
-  enum class Word { kNumber, kBad, kNone };
+  enum class Word { kNumber, kBad, kNone, kAmbiguous };
   struct Cursor {
     const char* begin;  ///< of the line
     const char* at;
@@ -45,7 +50,9 @@ class RowParser {
   };
   [[nodiscard]] bool separates(char c) const;
   [[nodiscard]] const char* field_end(const Cursor& cursor) const;
-  Word read_word(std::string_view text, bool is_time, double& value);
+  Word read_word(std::string_view text, std::string_view line, bool is_time, double& value);
+  const char* read_value(const Line& line, const Cursor& cursor, std::size_t field, double& value,
+                         RowInfo& info);
   Outcome finish(const Line& line, const Cursor& cursor, std::size_t fields, bool ended);
   void mark_bad(RowInfo& info, std::size_t field, std::size_t column, std::string_view text) const;
   void note_segment(std::string_view text);
@@ -58,8 +65,11 @@ class RowParser {
   std::int64_t segment_ = 0;
   bool has_segment_ = false;
   std::string segment_text_;
+  bool segments_come_again_ = false;
+  std::map<std::string, std::int64_t, std::less<>> segments_;
   std::string scratch_;
   RecordingError too_short_{""};
+  bool cut_word_ = false;  ///< the last value is no number, and the file ends within it
 };
 
 }  // namespace dyngen::runtime

@@ -76,6 +76,7 @@ void BadValueRepair::drop_block(const char* why) {
 void BadValueRepair::push(const double* values, const RowInfo& info, bool starts_run) {
   ++rows_;
   if (starts_run) {
+    count_block();
     drop_block("no good row follows in its run");
     has_good_ = false;
     too_long_ = false;
@@ -85,10 +86,14 @@ void BadValueRepair::push(const double* values, const RowInfo& info, bool starts
     push_good(values, info);
     return;
   }
-  if (bad_rows_++ == 0) first_bad_ = info;
-  if (too_long_) return;
+  if (too_long_) {
+    ++in_blocks_.rows;
+    return;
+  }
   block_.push(values, info);
   if (block_.size() > kLongestRepair) {
+    if (in_blocks_.rows == 0) in_blocks_.first = block_.info(0);
+    in_blocks_.rows += block_.size();
     log_->add(
         "long block", block_.info(0).line, block_.info(0).bad_column,
         fmt::format("found {}, and more than {} bad rows in succession; they are left out, and "
@@ -99,7 +104,14 @@ void BadValueRepair::push(const double* values, const RowInfo& info, bool starts
   }
 }
 
+void BadValueRepair::count_block() {
+  if (block_.empty()) return;
+  if (scattered_.rows == 0) scattered_.first = block_.info(0);
+  scattered_.rows += block_.size();
+}
+
 void BadValueRepair::push_good(const double* values, const RowInfo& info) {
+  count_block();
   if (too_long_) {
     too_long_ = false;
     next_starts_run_ = true;
@@ -146,14 +158,24 @@ void BadValueRepair::interpolate(const double* after) {
 }
 
 void BadValueRepair::finish() {
+  count_block();
   drop_block("no good row follows in its run");
-  constexpr std::size_t kFewBadRows = 12;
-  if (bad_rows_ > kFewBadRows && 100 * bad_rows_ > rows_) {
+  constexpr std::size_t kFewBadRows = 12, kMostPerCent = 5;
+  if (scattered_.rows > kFewBadRows && 100 * scattered_.rows > kMostPerCent * rows_) {
     throw recording_error(
-        log_->file(), first_bad_.line, first_bad_.bad_column,
-        fmt::format("found {}, the first of {} bad rows in {}, expected at most 1 % of the rows to "
-                    "miss a value or to have one beyond 1e9",
-                    first_bad_.bad_word, bad_rows_, rows_));
+        log_->file(), scattered_.first.line, scattered_.first.bad_column,
+        fmt::format("found {}, the first of {} bad rows here and there in {}, expected at most {} "
+                    "% of the rows to miss a value or to have one beyond 1e9: delete these rows if "
+                    "the rest is to be used",
+                    scattered_.first.bad_word, scattered_.rows, rows_, kMostPerCent));
+  }
+  if (2 * in_blocks_.rows > rows_) {
+    throw recording_error(
+        log_->file(), in_blocks_.first.line, in_blocks_.first.bad_column,
+        fmt::format("found {}, the first of {} bad rows of {} in blocks, expected at most half of "
+                    "the rows to miss a value or to have one beyond 1e9: was this column "
+                    "recorded?",
+                    in_blocks_.first.bad_word, in_blocks_.rows, rows_));
   }
 }
 

@@ -38,11 +38,14 @@ class BadValueRepair {
  public:
   BadValueRepair(std::size_t width, ShortRunFilter& next, NoticeLog& log);
   void push(const double* values, const RowInfo& info, bool starts_run);
-  /// @throws RecordingError if more than 1 % of all rows (and more than a dozen) were bad
+  /// @throws RecordingError if more than 5 % of all rows (and more than a dozen) are bad one by
+  /// one,
+  ///         or more than half stand in blocks that were left out
   void finish();
 
  private:
   void push_good(const double* values, const RowInfo& info);
+  void count_block();
   void drop_block(const char* why);
   void interpolate(const double* after);
   void emit(const double* values, const RowInfo& info);
@@ -55,8 +58,12 @@ class BadValueRepair {
   bool has_good_ = false;  ///< last_good_ is of this run
   bool too_long_ = false;  ///< the block was given up
   bool next_starts_run_ = true;
-  std::size_t rows_ = 0, bad_rows_ = 0;
-  RowInfo first_bad_;
+  std::size_t rows_ = 0;
+  struct Count {
+    std::size_t rows = 0;
+    RowInfo first;
+  };
+  Count scattered_, in_blocks_;
 };
 
 }  // namespace dyngen::runtime

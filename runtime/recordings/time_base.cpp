@@ -129,7 +129,7 @@ TimeBase examine_time_base(const Recording& recording) {
           ? fmt::format("uniformly sampled every {:.6g} s", base.sample_time)
           : fmt::format(
                 "not uniformly sampled: the median step is {:.6g} s, steps vary by {:.2g} % "
-                "(rms), the worst is {:.4g} s; resample before taking derivatives",
+                "(rms), the worst is {:.4g} s",
                 base.sample_time, 100 * base.jitter, base.worst_step);
   return base;
 }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/report/robust_range.h"
+
 namespace dyngen::runtime {
 namespace {
 
@@ -30,7 +32,7 @@ ReportCloud cloud_of(const CoordinateView& over, const VectorXd& y,
   cloud.role = role;
   std::vector<double> xs, ys;
   for (Index i = 0; i < y.size(); ++i) {
-    if (way != 0 && direction[i] != way) continue;
+    if ((way != 0 && direction[i] != way) || !std::isfinite(y[i])) continue;
     xs.push_back(over.cloud_x[i]);
     ys.push_back(y[i]);
   }
@@ -67,11 +69,15 @@ bool has_values(const VectorXd& y) {
 
 ReportChart where_chart(const ResidualView& view, const Whereabouts& where, const AxisLabel& label,
                         const std::string& unit, const std::string& id) {
+  RobustRange range;
+  range.add(view.left);
+  range.settle();
+  const VectorXd drawn = range.without_outside(view.left);
   const auto panel_of = [&](const CoordinateView& over) {
     ReportPanel panel;
     for (const DirectionView& own : over.directions) {
       const Role role = way_role(own.direction, Role::kBefore);
-      panel.clouds.push_back(cloud_of(over, view.left, view.direction, own.direction, role));
+      panel.clouds.push_back(cloud_of(over, drawn, view.direction, own.direction, role));
       panel.series.push_back(
           {fmt::format("left by the model alone, mean{}", way_words(own.direction)), role, own.left,
            own.left_low, own.left_high, false, true});
@@ -100,18 +106,22 @@ ReportChart where_chart(const ResidualView& view, const Whereabouts& where, cons
   chart.title = fmt::format("What the model alone leaves of joint {}", view.joint + 1);
   chart.caption =
       "Points: single samples of the fitted recordings. Marks: their mean in bins, with a band "
-      "from "
-      "the lower to the upper quartile.";
+      "from the lower to the upper quartile." +
+      range.words(unit);
   return chart;
 }
 
 ReportChart model_chart(const ResidualView& view, const AxisLabel& label, const std::string& unit,
                         const std::string& id) {
+  RobustRange range;
+  range.add(view.effect);
+  range.settle();
+  const VectorXd drawn = range.without_outside(view.effect);
   const auto panel_of = [&](const CoordinateView& over) {
     ReportPanel panel;
     for (const DirectionView& own : over.directions) {
       const Role role = way_role(own.direction, Role::kData);
-      panel.clouds.push_back(cloud_of(over, view.effect, view.direction, own.direction, role));
+      panel.clouds.push_back(cloud_of(over, drawn, view.direction, own.direction, role));
       panel.series.push_back({fmt::format("data, mean{}", way_words(own.direction)),
                               role,
                               own.effect,
@@ -131,9 +141,9 @@ ReportChart model_chart(const ResidualView& view, const AxisLabel& label, const 
   chart.title = "The effect over the data";
   chart.caption =
       "Marks: what is left of the recorded torque when everything but this effect is taken off, "
-      "mean "
-      "in bins. Line: the effect at its estimate; its band is the interval of 95 % that the "
-      "parameters have.";
+      "mean in bins. Line: the effect at its estimate; its band is the interval of 95 % that the "
+      "parameters have." +
+      range.words(unit);
   return chart;
 }
 
@@ -145,6 +155,13 @@ ReportChart proof_chart(const std::vector<HeldoutView>& heldout, int joint, doub
   chart.caption =
       "Drag to zoom. Each slice of time keeps its least and largest value, so that no peak is "
       "lost.";
+  RobustRange of_torque, of_rest;
+  for (const HeldoutView& own : heldout) {
+    for (const auto* part : {&own.torque, &own.model}) of_torque.add(part->col(joint));
+    for (const auto* part : {&own.before, &own.after}) of_rest.add(part->col(joint));
+  }
+  of_torque.settle();
+  of_rest.settle();
   for (std::size_t i = 0; i < heldout.size(); ++i) {
     const HeldoutView& own = heldout[i];
     ReportPanel torque, left;
@@ -153,11 +170,23 @@ ReportChart proof_chart(const std::vector<HeldoutView>& heldout, int joint, doub
     torque.y_label = fmt::format("torque [{}]", unit);
     left.y_label = fmt::format("residual [{}]", unit);
     torque.series = {
-        {"recorded", Role::kData, own.torque.col(joint), {}, {}, false, false},
-        {"model with what was found", Role::kModel, own.model.col(joint), {}, {}, false, false}};
+        {"recorded", Role::kData, of_torque.cut(own.torque.col(joint)), {}, {}, false, false},
+        {"model with what was found",
+         Role::kModel,
+         of_torque.cut(own.model.col(joint)),
+         {},
+         {},
+         false,
+         false}};
     left.series = {
-        {"model alone", Role::kBefore, own.before.col(joint), {}, {}, false, false},
-        {"with what was found", Role::kAfter, own.after.col(joint), {}, {}, false, false}};
+        {"model alone", Role::kBefore, of_rest.cut(own.before.col(joint)), {}, {}, false, false},
+        {"with what was found",
+         Role::kAfter,
+         of_rest.cut(own.after.col(joint)),
+         {},
+         {},
+         false,
+         false}};
     if (std::isfinite(floor)) {
       const VectorXd zero = VectorXd::Zero(own.time.size());
       left.series.push_back({"twice the noise", Role::kFloor, VectorXd::Constant(zero.size(), NAN),
@@ -168,6 +197,9 @@ ReportChart proof_chart(const std::vector<HeldoutView>& heldout, int joint, doub
         {fmt::format("{}{}", heldout.size() > 1 ? fmt::format("{}. ", i + 1) : "", name),
          {std::move(torque), std::move(left)}});
   }
+  const std::string torque_cut = of_torque.words(unit), rest_cut = of_rest.words(unit);
+  if (!torque_cut.empty()) chart.caption += " Torque is cut:" + torque_cut;
+  if (!rest_cut.empty()) chart.caption += " The residual is cut:" + rest_cut;
   return chart;
 }
 

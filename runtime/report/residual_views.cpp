@@ -189,8 +189,10 @@ class ViewMaker {
 
   /// The joint whose torque the effect changes most, counted in what the noise of each is.
   [[nodiscard]] int joint_of(const Finding& found, const RunResiduals& others) const {
-    if (found.effect.joint >= 0 && found.effect.other < 0 && !found.effect.law.acts_on_all) {
-      return found.effect.joint;
+    constexpr double kOwn = 0.1;  // of the largest change: a joint's effect is shown on its joint
+    const int own = found.effect.joint;
+    if (own >= 0 && found.effect.other < 0 && !found.effect.law.acts_on_all) {
+      return own;
     }
     VectorXd change = VectorXd::Zero(train_.joints());
     for (std::size_t run = 0; run < others.size(); ++run) {
@@ -201,7 +203,8 @@ class ViewMaker {
       change = change.cwiseQuotient(noise.cwiseAbs2().cwiseMax(1e-300));
     }
     Index joint = 0;
-    change.maxCoeff(&joint);
+    const double most = change.maxCoeff(&joint);
+    if (own >= 0 && found.effect.other < 0 && change[own] >= kOwn * most) return own;
     return static_cast<int>(joint);
   }
 

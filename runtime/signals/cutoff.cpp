@@ -12,16 +12,15 @@
 
 #include "runtime/signals/differences.h"
 #include "runtime/signals/fourier.h"
+#include "runtime/signals/standing.h"
 
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kLowestHz = 2;
-constexpr double kHighest = 0.2;  // of the sampling frequency
 constexpr double kMargin = 2;
-constexpr double kMissed = 0.01;    // of the power of the velocity, above a gap in its spectrum
-constexpr double kMovesAbove = 20;  // standard deviations of the noise: six steps of an encoder
-constexpr double kNoNoise = 1e-9;   // of the range: no encoder is that good
+constexpr double kVelocityMissed =
+    0.01;                          // of the power of the velocity, above a gap in its spectrum
+constexpr double kNoNoise = 1e-9;  // of the range: no encoder is that good
 
 /// Samples a segment: lines of about a quarter of a hertz, and at least some segments to average.
 std::size_t segment_samples(Eigen::Index samples, double sample_time) {
@@ -33,9 +32,10 @@ std::size_t segment_samples(Eigen::Index samples, double sample_time) {
   return segment;
 }
 
-/// One-sided power spectral density of x, segments overlapping by three quarters (Welch 1967). The
-/// window is Hann's squared: what leaks from a line falls as the tenth power of the distance.
-std::vector<double> welch(const Eigen::VectorXd& x, std::size_t segment, double sample_time) {
+/// One-sided power spectral density of all x, segments overlapping by three quarters (Welch 1967).
+/// The window is Hann's squared: what leaks from a line falls as the tenth power of the distance.
+std::vector<double> welch(const std::vector<Eigen::VectorXd>& runs, std::size_t segment,
+                          double sample_time) {
   std::vector<double> window(segment), density(segment / 2, 0.0);
   double power = 0;
   for (std::size_t i = 0; i < segment; ++i) {
@@ -46,12 +46,14 @@ std::vector<double> welch(const Eigen::VectorXd& x, std::size_t segment, double 
   const auto length = static_cast<Eigen::Index>(segment);
   int segments = 0;
   std::vector<std::complex<double>> piece(segment);
-  for (Eigen::Index start = 0; start + length <= x.size(); start += length / 4, ++segments) {
-    for (std::size_t i = 0; i < segment; ++i) {
-      piece[i] = window[i] * x[start + static_cast<Eigen::Index>(i)];
+  for (const Eigen::VectorXd& x : runs) {
+    for (Eigen::Index start = 0; start + length <= x.size(); start += length / 4, ++segments) {
+      for (std::size_t i = 0; i < segment; ++i) {
+        piece[i] = window[i] * x[start + static_cast<Eigen::Index>(i)];
+      }
+      const auto lines = fourier(piece);
+      for (std::size_t k = 0; k < density.size(); ++k) density[k] += std::norm(lines[k]);
     }
-    const auto lines = fourier(piece);
-    for (std::size_t k = 0; k < density.size(); ++k) density[k] += std::norm(lines[k]);
   }
   for (double& value : density) value *= 2 * sample_time / (power * segments);
   return density;
@@ -130,14 +132,21 @@ double position_noise(const std::vector<double>& density, std::size_t segment, d
   return std::sqrt(*middle / (2 * sample_time));
 }
 
-JointCutoff joint_cutoff(const Eigen::VectorXd& q, double sample_time) {
+JointCutoff joint_cutoff(const std::vector<Eigen::MatrixXd>& runs, Eigen::Index joint,
+                         double sample_time) {
   JointCutoff result;
-  result.range = q.maxCoeff() - q.minCoeff();
+  Eigen::Index longest = 0;
+  std::vector<Eigen::VectorXd> accelerations;
+  for (const Eigen::MatrixXd& run : runs) {
+    if (run.rows() < 3) continue;
+    const Eigen::VectorXd q = run.col(joint);
+    longest = std::max(longest, q.size());
+    result.range = std::max(result.range, q.maxCoeff() - q.minCoeff());
+    accelerations.emplace_back(second_difference(q, sample_time).col(0).segment(1, q.size() - 2));
+  }
   if (result.range == 0) return result;
-  const std::size_t segment = segment_samples(q.size(), sample_time);
-  const Eigen::VectorXd acceleration =
-      second_difference(q, sample_time).col(0).segment(1, q.size() - 2);
-  std::vector<double> density = welch(acceleration, segment, sample_time);
+  const std::size_t segment = segment_samples(longest, sample_time);
+  std::vector<double> density = welch(accelerations, segment, sample_time);
   result.noise = position_noise(density, segment, sample_time);
   if (result.noise < kNoNoise * result.range) {
     result.hz = 0.5 / sample_time;
@@ -150,7 +159,7 @@ JointCutoff joint_cutoff(const Eigen::VectorXd& q, double sample_time) {
   // Motion may go on above a gap. Vibration is left alone: it accelerates, but moves nothing.
   const std::size_t further = least_error(density, noise);
   if (velocity_power(density, line, further) >
-      kMissed * velocity_power(density, 0, density.size() - 1)) {
+      kVelocityMissed * velocity_power(density, 0, density.size() - 1)) {
     line = further;
   }
   result.hz = static_cast<double>(line) / (static_cast<double>(segment) * sample_time);
@@ -160,17 +169,28 @@ JointCutoff joint_cutoff(const Eigen::VectorXd& q, double sample_time) {
 }  // namespace
 
 Cutoff choose_cutoff(const Eigen::MatrixXd& q, double sample_time) {
-  if (q.rows() < 64 || q.cols() < 1 || !(sample_time > 0)) {
-    throw std::invalid_argument(
-        fmt::format("choose_cutoff(): {} samples x {} joints of {} s, needed: at least 64 samples "
-                    "and one joint, a positive time",
-                    q.rows(), q.cols(), sample_time));
+  return choose_cutoff(std::vector<Eigen::MatrixXd>{q}, sample_time);
+}
+
+Cutoff choose_cutoff(const std::vector<Eigen::MatrixXd>& runs, double sample_time) {
+  const Eigen::Index joints = runs.empty() ? 0 : runs.front().cols();
+  Eigen::Index longest = 0;
+  bool same = true;
+  for (const Eigen::MatrixXd& run : runs) {
+    longest = std::max(longest, run.rows());
+    same = same && run.cols() == joints;
   }
-  const double highest = kHighest / sample_time;
+  if (longest < 64 || joints < 1 || !same || !(sample_time > 0)) {
+    throw std::invalid_argument(
+        fmt::format("choose_cutoff(): {} samples x {} joints of {} s, needed: a run of at least 64 "
+                    "samples, as many joints in all and one at least, a positive time",
+                    longest, joints, sample_time));
+  }
+  const double highest = kHighestCutoff / sample_time;
   JointCutoff largest;
   Eigen::Index joint = -1;
-  for (Eigen::Index j = 0; j < q.cols(); ++j) {
-    const JointCutoff found = joint_cutoff(q.col(j), sample_time);
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    const JointCutoff found = joint_cutoff(runs, j, sample_time);
     const bool moves = found.range > kMovesAbove * found.noise && found.range > 0;
     if (moves && (joint < 0 || found.hz > largest.hz)) {
       largest = found;
@@ -178,7 +198,7 @@ Cutoff choose_cutoff(const Eigen::MatrixXd& q, double sample_time) {
     }
   }
   if (joint < 0) {
-    return {std::min(kLowestHz, highest),
+    return {std::min(kLowestCutoff, highest),
             "no joint moves by more than its noise; the cut-off is the lowest there is"};
   }
   if (largest.noise < kNoNoise * largest.range) {
@@ -187,14 +207,14 @@ Cutoff choose_cutoff(const Eigen::MatrixXd& q, double sample_time) {
                                  joint + 1, highest)};
   }
   const double wanted = kMargin * largest.hz;
-  const double hz = std::min(std::max(wanted, kLowestHz), highest);
+  const double hz = std::min(std::max(wanted, kLowestCutoff), highest);
   return {hz, fmt::format(
                   "the acceleration of joint {} is above its noise (position noise {:.2g}) up to "
                   "{:.3g} Hz: cut-off {:.3g} Hz{}",
                   joint + 1, largest.noise, largest.hz, hz,
-                  wanted < kLowestHz ? ", the lowest allowed"
-                  : wanted > highest ? ", a fifth of the sampling frequency"
-                                     : "")};
+                  wanted < kLowestCutoff ? ", the lowest allowed"
+                  : wanted > highest     ? ", a fifth of the sampling frequency"
+                                         : "")};
 }
 
 }  // namespace dyngen::runtime

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 namespace dyngen::runtime {
 
@@ -23,12 +24,23 @@ struct Cutoff {
 /// sum). The largest of the joints that move, times 2 since a filter's edge is not sharp, between 2
 /// Hz and a fifth of the sampling frequency.
 ///
-/// @param q            (N x n) positions of one run, uniformly sampled; at least 64 samples
+/// All runs have one spectrum, the mean over pieces of one length, a quarter of the longest run or
+/// shorter: a run that is shorter than a piece decides nothing.
+///
+/// @param runs         positions of each run, (N x n), uniformly sampled; one has 64 samples or
+/// more
 /// @param sample_time  s, > 0
 /// @return             hz; message says what was found in a sentence, also if nothing moves (2 Hz)
-/// or
-///                     no noise is seen (a fifth of the sampling frequency)
-/// @throws std::invalid_argument  if N < 64, n < 1 or sample_time is not positive
+///                     or no noise is seen (a fifth of the sampling frequency)
+/// @throws std::invalid_argument  if all N < 64, n < 1 or differs, or sample_time is not positive
+Cutoff choose_cutoff(const std::vector<Eigen::MatrixXd>& runs, double sample_time);
+/// The same of one run.
 Cutoff choose_cutoff(const Eigen::MatrixXd& q, double sample_time);
+
+/// Lowest cut-off that is chosen, Hz: robots move at about a hertz.
+inline constexpr double kLowestCutoff = 2;
+/// Highest cut-off that is chosen, as a part of the sampling frequency: differences of positions
+/// are derivatives to some per cent up to there.
+inline constexpr double kHighestCutoff = 0.2;
 
 }  // namespace dyngen::runtime

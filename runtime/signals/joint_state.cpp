@@ -12,6 +12,7 @@
 #include "runtime/signals/kalman_filter.h"
 #include "runtime/signals/low_pass_state.h"
 #include "runtime/signals/spectral.h"
+#include "runtime/signals/standing.h"
 #include "runtime/signals/trim.h"
 
 namespace dyngen::runtime {
@@ -152,22 +153,27 @@ Filled fill_recorded(Motion& motion, const Recording& recording, const Rows& row
     motion.ddq = recording.ddq.middleRows(rows.begin, rows.count);
     return {};
   }
+  if (motion.dq.cwiseAbs().maxCoeff() == 0) return {};
   const LowPass filter = design_butterworth(options.order, cutoff_hz, motion.sample_time);
   motion.ddq = low_pass_states(filter, motion.dq).dq;
   return {filter_trim(filter), {}};
 }
 
-/// The largest over the runs: one of them may move what the others do not.
-Cutoff cutoff_of(const Recording& recording, const std::vector<Rows>& runs) {
-  Cutoff result;
-  for (const Rows& rows : runs) {
-    if (rows.count < 64) continue;
-    const auto time = recording.time.segment(rows.begin, rows.count);
-    const double T = (time[rows.count - 1] - time[0]) / static_cast<double>(rows.count - 1);
-    Cutoff found = choose_cutoff(recording.q.middleRows(rows.begin, rows.count), T);
-    if (found.hz > result.hz) result = std::move(found);
+/// Of all runs together; none where the longest is too short to tell.
+Cutoff cutoff_of(const Recording& recording, const std::vector<Rows>& runs,
+                 const std::vector<double>& sample_times) {
+  constexpr Index kEnough = 64;
+  std::vector<Eigen::MatrixXd> positions;
+  Index longest = 0;
+  double sample_time = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (runs[r].count < 3) continue;
+    positions.emplace_back(recording.q.middleRows(runs[r].begin, runs[r].count));
+    if (runs[r].count <= longest) continue;
+    longest = runs[r].count;
+    sample_time = sample_times[r];
   }
-  return result;
+  return longest < kEnough ? Cutoff{} : choose_cutoff(positions, sample_time);
 }
 
 /// One column for each joint, or one that all share; other counts say nothing of joints.
@@ -180,7 +186,19 @@ Eigen::MatrixXd temperature_of(const Recording& recording, const Rows& rows) {
 
 bool needs_cutoff(const JointStateOptions& options, const Recording& recording) {
   return options.method == StateMethod::kLowPass || options.method == StateMethod::kSpectral ||
-         (options.method == StateMethod::kRecorded && recording.ddq.size() == 0);
+         (options.method == StateMethod::kRecorded && recording.ddq.size() == 0 &&
+          recording.dq.cwiseAbs().maxCoeff() > 0);
+}
+
+/// Whether no run moves. @param shortest  samples of a run that counts
+bool all_stand(const Recording& recording, const std::vector<Rows>& runs, Index shortest) {
+  bool any = false;
+  for (const Rows& rows : runs) {
+    if (rows.count < shortest) continue;
+    if (!stands(recording.q.middleRows(rows.begin, rows.count))) return false;
+    any = true;
+  }
+  return any;
 }
 
 Eigen::MatrixXd rows_of_any(const Eigen::MatrixXd& matrix, Index from, Index count) {
@@ -246,17 +264,22 @@ JointStates joint_states(const Recording& recording, const JointStateOptions& op
     sample_times[r] = uniform_sample_time(recording.time.segment(runs[r].begin, runs[r].count), r);
   }
   JointStates result;
-  if (needs_cutoff(options, recording)) {
+  result.stands = options.method != StateMethod::kRecorded && all_stand(recording, runs, kShortest);
+  const bool filters = needs_cutoff(options, recording) && !result.stands;
+  if (result.stands) {
+    result.messages.push_back(
+        "no joint moves by more than the noise of its positions: each run is one pose, its mean");
+  }
+  if (filters) {
     result.cutoff = options.cutoff_hz > 0
                         ? Cutoff{options.cutoff_hz,
                                  fmt::format("cut-off {:.3g} Hz, as told", options.cutoff_hz)}
-                        : cutoff_of(recording, runs);
+                        : cutoff_of(recording, runs, sample_times);
     if (!result.cutoff.message.empty()) result.messages.push_back(result.cutoff.message);
   }
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Rows& rows = runs[r];
-    const bool no_cutoff = needs_cutoff(options, recording) && result.cutoff.hz == 0;
-    if (rows.count < kShortest || no_cutoff) {
+    if (rows.count < kShortest || (filters && result.cutoff.hz == 0)) {
       result.messages.push_back(fmt::format("run {} is left out: {} samples", r + 1, rows.count));
       continue;
     }
@@ -268,6 +291,12 @@ JointStates joint_states(const Recording& recording, const JointStateOptions& op
     motion.ddq = motion.dq;
     if (recording.tau.size() > 0) motion.tau = recording.tau.middleRows(rows.begin, rows.count);
     motion.temperature = temperature_of(recording, rows);
+    if (result.stands) {
+      motion.q.rowwise() = motion.q.colwise().mean().eval();
+      result.runs.push_back(std::move(motion));
+      result.first_rows.push_back(rows.begin);
+      continue;
+    }
     const Filled filled = fill(motion, recording, rows, options, result.cutoff.hz);
     for (const auto& message : filled.messages) {
       result.messages.push_back(fmt::format("run {}: {}", r + 1, message));
@@ -280,6 +309,7 @@ JointStates joint_states(const Recording& recording, const JointStateOptions& op
       continue;
     }
     result.runs.push_back(cut(motion, trim, rows.count - 2 * trim));
+    result.first_rows.push_back(rows.begin + trim);
   }
   return result;
 }

@@ -39,8 +39,10 @@ struct JointStateOptions {
 };
 
 struct JointStates {
-  std::vector<Motion> runs;  ///< those that are long enough
-  Cutoff cutoff;             ///< of the low-pass and the spectral method; 0 Hz if there is none
+  std::vector<Motion> runs;                ///< those that are long enough
+  std::vector<Eigen::Index> first_rows{};  ///< of the recording, at which each of them begins
+  bool stands = false;                     ///< no joint moves by more than the noise of positions
+  Cutoff cutoff;  ///< of the low-pass and the spectral method; 0 Hz if there is none
   std::vector<std::string> messages;
 };
 
@@ -48,7 +50,9 @@ struct JointStates {
 /// method's own (filtered), but for kRecorded. No filter crosses from one run to the next.
 ///
 /// A run that is too short for the method, or that trimming would leave nothing of, is left out and
-/// a message says so.
+/// a message says so. Where no run moves (poses that are held), every run has its mean position and
+/// speeds and accelerations of exactly 0, of every method but kRecorded; nothing is trimmed. So has
+/// a run of kRecorded whose dq is 0 throughout, but for the positions.
 ///
 /// @throws std::invalid_argument  if options are not valid, matrices do not fit, a run is not
 /// uniformly

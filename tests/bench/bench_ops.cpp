@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Operation counts of the emitted code beside the general bounds and the best others known.
 //
-//   bench_ops [--markdown] [FILE.robot ...]
+//   bench_ops [--markdown] [--compared] [FILE.robot ...]
 //
+// --compared: only what others have counts of.
 // Exit code 1 if a robot with known others needs more operations (mul + add) than the best of them.
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -149,13 +151,16 @@ RobotModel in_convention(const RobotModel& model, Case which) {
   return model;
 }
 
-CountedRobot count(const RobotModel& file, Case which) {
+/// @param compared  only functions that others have counts of; without such a function: no robot
+std::optional<CountedRobot> count(const RobotModel& file, Case which, bool compared) {
   const RobotModel model = in_convention(file, which);
   GeneratorOptions options;
   for (const CountedFunction& function : counted_functions()) {
     const bool named = find_function(function.name) != nullptr;  // fold comes by itself
-    if (function.in(which) && named) options.functions.emplace_back(function.name);
+    const bool wanted = !compared || best_other(model.name, function.name, which);
+    if (function.in(which) && named && wanted) options.functions.emplace_back(function.name);
   }
+  if (compared && options.functions.empty()) return std::nullopt;
   options.parameters = which == Case::kFile ? ParameterMode::kBaked : ParameterMode::kRuntime;
   options.fold = which == Case::kFolded;
   CodeModel code = make_code_model(model, options);
@@ -230,22 +235,30 @@ constexpr Convention kConventions[] = {
     {Case::kFolded, "(f) as (a), what depends on parameters alone worked out apart (--fold)"},
 };
 
-int run(const std::vector<std::filesystem::path>& paths, bool markdown) {
+int run(const std::vector<std::filesystem::path>& paths, bool markdown, bool compared) {
   std::vector<RobotModel> models;
   for (const auto& path : paths) models.push_back(build_model(read_robot_file(path.string())));
   int above = 0;
+  std::size_t rows = 0;
   for (const Convention& convention : kConventions) {
     std::vector<CountedRobot> robots;
-    for (const RobotModel& model : models) robots.push_back(count(model, convention.which));
+    for (const RobotModel& model : models) {
+      if (auto robot = count(model, convention.which, compared)) robots.push_back(*robot);
+    }
     for (const CountedFunction& function : counted_functions()) {
       if (!function.in(convention.which)) continue;
       Comparison comparison(function.name, convention.which);
-      for (const CountedRobot& robot : robots) comparison.add(robot);
+      for (const CountedRobot& robot : robots) {
+        if (!compared || robot.counts.contains(function.name)) comparison.add(robot);
+      }
+      if (comparison.table().rows.empty()) continue;
       fmt::print("{}{}, {}\n\n{}\n", markdown ? "### " : "", function.title, convention.title,
                  markdown ? comparison.table().markdown() : comparison.table().text());
       above += comparison.above();
+      rows += comparison.table().rows.size();
     }
   }
+  if (rows == 0) throw std::runtime_error("bench_ops: nothing was counted");
   if (above > 0) fmt::print(stderr, "bench_ops: above the best other in {} case(s)\n", above);
   return above > 0 ? 1 : 0;
 }
@@ -254,15 +267,18 @@ int run(const std::vector<std::filesystem::path>& paths, bool markdown) {
 }  // namespace dyngen::bench
 
 int main(int argc, char** argv) {
-  bool markdown = false;
+  bool markdown = false, compared = false;
   std::vector<std::filesystem::path> paths;
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
     if (argument == "--markdown") {
       markdown = true;
+    } else if (argument == "--compared") {
+      compared = true;
     } else if (argument.starts_with("-")) {
       fmt::print(stderr,
-                 "bench_ops: unknown option '{}'; usage: bench_ops [--markdown] [FILE...]\n",
+                 "bench_ops: unknown option '{}'; usage: bench_ops [--markdown] [--compared] "
+                 "[FILE...]\n",
                  argument);
       return 2;
     } else {
@@ -271,7 +287,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (paths.empty()) paths = dyngen::bench::project_robots();
-    return dyngen::bench::run(paths, markdown);
+    return dyngen::bench::run(paths, markdown, compared);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;

@@ -15,9 +15,8 @@
 #   suite.sh BUILD real [STEP]      make, diagnose, score of real recordings with something added
 #   suite.sh BUILD case KIND LAMBDA SEED [FAMILY]    one case, told in full
 #
-# BUILD is a build folder with the targets blind_make, blind_answer, blind_sealed_run, blind_baselines,
-# blind_strength, blind_reach, blind_score and dynid, for real recordings blind_spoil too. These lie in
-# DYNGEN_SHARED_DATA, else in ../shared/data beside the project; where they are absent nothing is done.
+# BUILD is a configured build folder: the targets blind and dynid are built where they are missing. Real
+# recordings lie in DYNGEN_SHARED_DATA, else in ../shared/data beside the project; where they are absent nothing is done.
 # With UNSEALED=allowed a kernel that cannot seal is no error: a comparison, but no proof. Everything is
 # written to BUILD/blind/SET, pictures to PICTURES where that is set. JOBS processes work at once.
 set -eu
@@ -206,6 +205,10 @@ one_case() {
   echo "report: $out/report.html"
 }
 
+if [ ! -x "$tools/blind_make" ] || [ ! -x "$dynid" ]; then
+  cmake --build "$build" --parallel "$jobs" --target blind dynid
+fi
+
 data=${DYNGEN_SHARED_DATA:-$here/../../../shared/data}
 if [ "$set_name" = real ] && [ ! -f "$data/tx40/tx40.csv" ]; then
   echo "skipped: $data holds no real recordings; DYNGEN_SHARED_DATA is the folder of them"
@@ -225,5 +228,5 @@ case "$set_name/$step" in
   */strength) measure_strength ;;
   */reach) measure_reach ;;
   */score) score_cases ;;
-  *) sed -n '2,22p' "$0"; exit 2 ;;
+  *) sed -n '2,21p' "$0"; exit 2 ;;
 esac

@@ -129,7 +129,7 @@ struct WrapperCase {
 void PrintTo(const WrapperCase& wrapper_case, std::ostream* out) { *out << wrapper_case.name; }
 
 GeneratorOptions options_of(const WrapperCase& wrapper_case) {
-  GeneratorOptions options = wrapper_case.options;
+  GeneratorOptions options = with_short_search(wrapper_case.options);
   options.prefix = "model";
   options.cpp_wrapper = true;
   return options;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gen/effect_code/bound_effect.h"
 #include "gen/robot_file/robot_file.h"
 #include "tests/support/golden.h"
 
@@ -32,7 +33,10 @@ std::string messages_of(const fs::path& path) {
   const std::string name = path.filename().string();
   const std::string text = read_text(path);
   try {
-    const RobotFile file = parse_robot_file(text, name);
+    const RobotFile file =
+        parse_robot_file(text, name, [](const RobotFile& rows, Diagnostics& diagnostics) {
+          if (!rows.effects.empty()) check_effect_rows(rows, EffectCatalogue(), diagnostics);
+        });
     Diagnostics warnings(name, text);
     for (const Diagnostic& d : file.warnings) {
       warnings.warning(d.position, d.length, d.message, d.hint);

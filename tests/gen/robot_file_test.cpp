@@ -105,8 +105,9 @@ TEST(RobotFile, ReadsTheFormOfAppendixB) {
   EXPECT_TRUE(holds(file, RowKey::kGx, {0})) << "three rows on a line";
   EXPECT_TRUE(holds(file, RowKey::kGz, {numeric(981, 100)}));
   EXPECT_TRUE(file.row(RowKey::kZZ).values[1].unknown);
-  ASSERT_EQ(file.warnings.size(), 1U) << "the negative Fv that the thesis prints";
-  EXPECT_EQ(file.warnings[0].position.line, 20);
+  ASSERT_EQ(file.warnings.size(), 2U) << "negative values that the thesis prints";
+  EXPECT_EQ(file.warnings[0].position.line, 20) << "Fv";
+  EXPECT_EQ(file.warnings[1].position.line, 10) << "XX, which is a base parameter";
 }
 
 TEST(RobotFile, KeepsThePlaceOfEveryField) {

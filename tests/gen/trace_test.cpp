@@ -77,6 +77,20 @@ TEST_F(TraceTest, WhatNoOutputNeedsIsDropped) {
   EXPECT_EQ(trace_.assignments()[0].target.get_name(), "a");
 }
 
+TEST_F(TraceTest, WhatWasDroppedIsWrittenAgainWhereItIsNeeded) {
+  const Trace::SinCos first = trace_.sin_cos("1", x_);
+  const GiNaC::ex product = trace_.assign("P", x_ * y_);
+  trace_.output("tau", 0, first.cos);
+  trace_.drop_dead_code();
+  const Trace::SinCos again = trace_.sin_cos("1", x_);
+  EXPECT_TRUE(again.cos.is_equal(first.cos)) << "it is still there";
+  EXPECT_FALSE(again.sin.is_equal(first.sin));
+  EXPECT_FALSE(trace_.assign("P", x_ * y_).is_equal(product));
+  trace_.output("tau", 1, again.sin);
+  ASSERT_EQ(trace_.assignments().size(), 3U);
+  EXPECT_TRUE(again.sin.is_equal(trace_.assignments()[1].target));
+}
+
 TEST_F(TraceTest, OutputThatIsAnInputIsCopiedFirst) {
   trace_.output("tau", 0, -x_);
   ASSERT_EQ(trace_.assignments().size(), 1U);

@@ -1,15 +1,16 @@
 # The command line: exit codes, messages, and no file where something went wrong.
 include(${CMAKE_CURRENT_LIST_DIR}/../script.cmake)
-set(robot ${SOURCE_DIR}/robots/puma560.robot)
+set(puma ${SOURCE_DIR}/robots/puma560.robot)
+set(robot ${SOURCE_DIR}/robots/planar2r.robot)  # written in a tenth of the Puma's time
 
 # The main use: a source of any of the four endings, and its header beside it.
 foreach(ending IN ITEMS c cc cpp cxx)
   file(MAKE_DIRECTORY ${WORK}/${ending})
-  run(text 0 ${DYNGEN} ${robot} -o ${ending}/puma.${ending})
-  expect_files("-o puma.${ending}" ${WORK}/${ending} puma.${ending} puma.h)
-  expect_text("-o puma.${ending}" "[${text}]" "[]")
-  file(READ ${WORK}/${ending}/puma.${ending} source)
-  expect_text("puma.${ending}" "${source}" "#include \"puma.h\"" "void puma560_id(" "puma560_gravity(")
+  run(text 0 ${DYNGEN} ${robot} -o ${ending}/arm.${ending})
+  expect_files("-o arm.${ending}" ${WORK}/${ending} arm.${ending} arm.h)
+  expect_text("-o arm.${ending}" "[${text}]" "[]")
+  file(READ ${WORK}/${ending}/arm.${ending} source)
+  expect_text("arm.${ending}" "${source}" "#include \"arm.h\"" "void planar2r_id(" "planar2r_gravity(")
 endforeach()
 run(text 0 ${DYNGEN} robots/planar2r.robot --prefix left --functions gravity,id -o /dev/null/../x.c
   --help)  # help comes before everything else
@@ -18,13 +19,13 @@ run(text 0 ${DYNGEN} --version)
 expect_text(--version "${text}" "dyngen 0.")
 
 # Options reach the code.
-run(text 0 ${DYNGEN} ${SOURCE_DIR}/robots/planar2r.robot -o options.c --prefix left
+run(text 0 ${DYNGEN} ${robot} -o options.c --prefix left
   --functions gravity,coriolis --scalar float --parameters runtime)
 file(READ ${WORK}/options.h header)
 expect_text(options.h "${header}" "void left_gravity(const float *q, const float *chi, float *tau);"
   "left_coriolis(" "LEFT_NQ 2")
 expect_no_text(options.h "${header}" planar2r_ left_id left_friction)
-run(text 0 ${DYNGEN} ${SOURCE_DIR}/robots/planar2r.robot -o all.c --functions all)
+run(text 0 ${DYNGEN} ${robot} -o all.c --functions all)
 file(READ ${WORK}/all.h header)
 expect_text(all.h "${header}" planar2r_id planar2r_gravity planar2r_coriolis planar2r_friction)
 
@@ -40,12 +41,12 @@ file(READ ${WORK}/wrapper/arm.d rule)
 expect_text("--depfile of three files" "${rule}" "/arm.cpp " "/arm.h " "/arm.hpp: ")
 
 # Options may stand before the robot file.
-run(text 0 ${DYNGEN} --functions id,gravity ${SOURCE_DIR}/robots/planar2r.robot -o before.c)
+run(text 0 ${DYNGEN} --functions id,gravity ${robot} -o before.c)
 
 # --count needs no output file; the bounds are those of the literature.
-run(text 0 ${DYNGEN} ${robot} --count)
+run(text 0 ${DYNGEN} ${puma} --count)
 expect_text(--count "${text}" "puma560: 6 joints" "id " "gravity " "538 478" "105n - 92" "94n - 86")
-run(text 0 ${DYNGEN} ${SOURCE_DIR}/robots/planar2r.robot --count)
+run(text 0 ${DYNGEN} ${robot} --count)
 expect_text(--count "${text}" "118 102")
 
 # The depfile: absolute paths, escaped as Make wants them.
@@ -53,12 +54,12 @@ set(odd "${WORK}/a folder \$ #1")
 file(MAKE_DIRECTORY "${odd}")
 file(COPY ${robot} DESTINATION "${odd}")
 file(RELATIVE_PATH relative ${WORK} "${odd}")
-run(text 0 ${DYNGEN} "${relative}/puma560.robot" -o "${relative}/puma.c" --depfile rule.d)
+run(text 0 ${DYNGEN} "${relative}/planar2r.robot" -o "${relative}/arm.c" --depfile rule.d)
 file(READ ${WORK}/rule.d rule)
 string(REPLACE "${WORK}" "" rule "${rule}")
 set(escaped "/a\\ folder\\ $$\\ \\#1")
 expect_text(--depfile "${rule}"
-  "${escaped}/puma.c ${escaped}/puma.h: ${escaped}/puma560.robot")
+  "${escaped}/arm.c ${escaped}/arm.h: ${escaped}/planar2r.robot")
 
 # What is wrong with the input or the output: exit 1, nothing written.
 set(out ${WORK}/out)
@@ -136,17 +137,17 @@ refuse(2 "the header as depfile" ARGUMENTS ${robot} -o out/x.c --depfile out/x.h
 refuse(2 "empty prefix" ARGUMENTS ${robot} -o out/x.c --prefix "" SAYS "--prefix")
 refuse(2 "no arguments" SAYS robot --help)
 refuse(2 "nothing to do" ARGUMENTS ${robot} SAYS "-o" "--count" "--explain")
-run(text 0 ${DYNGEN} ${robot} --explain)
+run(text 0 ${DYNGEN} ${puma} --explain)
 expect_text(--explain "${text}" "puma560: 6 joints" "ZZR2 = ZZ2 + IA2 + d3^2 (M3 + M4 + M5 + M6)" "d3 = 0.4318 m"
   "perpendicular" "only in sums" "Gravity alone")
 expect_text(--explain "${text}" "turns about +y through (0.4318, 0.1501, 0)" "gravity pulls with 9.81 m/s^2 along -z0")
 
 # The drawing: alone or beside other output; where it cannot be written nothing is.
-run(text 0 ${DYNGEN} --explain ${robot} --drawing puma.svg)
+run(text 0 ${DYNGEN} --explain ${puma} --drawing puma.svg)
 expect_text("--explain --drawing" "${text}" "puma560: 6 joints")
 file(READ ${WORK}/puma.svg drawing)
 expect_text(--drawing "${drawing}" "<svg " "joint-6" "all joints at 0" "</svg>")
-run(text 0 ${DYNGEN} ${robot} --drawing again.svg)
+run(text 0 ${DYNGEN} ${puma} --drawing again.svg)
 expect_text("--drawing alone" "[${text}]" "[]")
 expect_same_file("two drawings" ${WORK}/puma.svg ${WORK}/again.svg)
 refuse(1 "a drawing that cannot be written" ARGUMENTS ${robot} -o out/x.c --drawing out/none/x.svg
@@ -156,7 +157,7 @@ refuse(2 "the robot file as drawing" ARGUMENTS arm.svg --drawing arm.svg SAYS "s
 refuse(2 "unknown option" ARGUMENTS ${robot} -o out/x.c --frobnicate SAYS --frobnicate --help)
 refuse(2 "unknown function" ARGUMENTS ${robot} -o out/x.c --functions id,inverse
   SAYS "--functions" "'inverse'" "gravity")
-refuse(2 "frame of no link" ARGUMENTS ${robot} -o out/x.c --functions id,fk_7
+refuse(2 "frame of no link" ARGUMENTS ${puma} -o out/x.c --functions id,fk_7
   SAYS "--functions" "'fk_7'" "no link 7" "fk_1 to fk_6")
 refuse(2 "wrong scalar" ARGUMENTS ${robot} -o out/x.c --scalar half SAYS --scalar half double float)
 refuse(2 "wrong parameters" ARGUMENTS ${robot} -o out/x.c --parameters hot
@@ -171,8 +172,8 @@ refuse(2 "wrapper alone" ARGUMENTS ${robot} --count --cpp-wrapper SAYS --cpp-wra
 refuse(2 "the C++ header as depfile" ARGUMENTS ${robot} -o out/x.c --cpp-wrapper --depfile out/x.hpp
   SAYS "same file")
 refuse(1 "a keyword as namespace" ARGUMENTS ${robot} -o out/x.c --cpp-wrapper --prefix class
-  SAYS "puma560.robot: error:" "'class'" --prefix)
-refuse(2 "two robots" ARGUMENTS ${robot} ${robot} -o out/x.c SAYS puma560.robot)
+  SAYS "planar2r.robot: error:" "'class'" --prefix)
+refuse(2 "two robots" ARGUMENTS ${robot} ${robot} -o out/x.c SAYS planar2r.robot)
 
 # A good file that was there before a failure is there after it.
 file(WRITE ${WORK}/kept.c "kept")
@@ -181,3 +182,38 @@ file(READ ${WORK}/kept.c kept)
 if(NOT kept STREQUAL "kept")
   message(FATAL_ERROR "a failed run changed kept.c")
 endif()
+
+# Files that can be read but are hardly meant: warnings at their rows, and what was asked for.
+set(cases ${SOURCE_DIR}/tests/data/cases)
+run(text 0 ${DYNGEN} ${cases}/inertia_at_com/com.robot -o com.c)
+expect_text("inertia at the centre of mass" "${text}" "com.robot:8:9: warning: 'ZZ' of link 2 is 0.02, below"
+  "= 0.18" "given at the centre of mass?")
+run(text 0 ${DYNGEN} ${cases}/millimetres/mm.robot --count)
+expect_text(millimetres "${text}" "mm.robot:2:5: warning: 'd' of joint 2 is 450: a length of 450 m"
+  "millimetres? write 0.45")
+run(text 0 ${DYNGEN} ${cases}/pendulum_gradient/pend.robot --functions base_regressor_gradient -o pend.c)
+expect_text("gradient of a pendulum" "[${text}]" "[]")
+file(WRITE ${WORK}/nothing.robot "number_link 1\ngz 9.81\nstop\n")
+run(text 0 ${DYNGEN} nothing.robot -o nothing.c)
+expect_text("no mass at all" "${text}" "nothing.robot:3:1: warning: joint 1 carries neither mass nor inertia"
+  "nothing.robot: warning: fd is left out: joint 1")
+file(WRITE ${WORK}/friction.robot
+  "number_link 1\nm 1\nmX 0.1\nZZ 1\nFs 2\ngy 9.81\neffect stribeck joint=1 Fs=1 vs=0.1\nstop\n")
+run(text 0 ${DYNGEN} friction.robot -o friction.c)
+expect_text("Fs below Coulomb friction" "${text}" "friction.robot:7:28: warning: effect 'stribeck' of joint 1"
+  "expected Fc <= Fs")
+
+# What is wrong is reported together, also in rows of effects; XML is refused in one sentence.
+file(WRITE ${WORK}/several.robot
+  "number_link 1\nd L\ngy 9.81\neffect stribek joint=1\neffect stribeck joint=2\nstop\n")
+refuse(1 "several mistakes" ARGUMENTS several.robot -o out/x.c SAYS "several.robot:2:3: error: unknown symbol 'L'"
+  "several.robot:4:8: error: unknown effect 'stribek'" "several.robot:5:23: error: '2' is no joint")
+refuse(1 URDF ARGUMENTS ${cases}/urdf/rr.urdf --count SAYS "rr.urdf:1:1: error: this is XML")
+
+# Misspelt options are corrected, and no link leads to an input.
+refuse(2 "a misspelt option" ARGUMENTS ${robot} --functons id -o out/x.c
+  SAYS "unknown option '--functons'; did you mean '--functions'?")
+refuse(2 "one dash" ARGUMENTS ${robot} -count SAYS "did you mean '--count'?")
+file(COPY ${robot} DESTINATION ${WORK}/linked)
+file(CREATE_LINK ${WORK}/linked/puma560.robot ${WORK}/linked/puma.c)
+refuse(2 "a hard link to the robot file" ARGUMENTS linked/puma560.robot -o linked/puma.c SAYS "same file")

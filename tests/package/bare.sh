@@ -76,6 +76,8 @@ fresh_tree() {
   rm -rf "$tree"
   cp -a "$base" "$tree"
   cp /etc/resolv.conf "$tree/etc/resolv.conf"
+  # debootstrap leaves to the installer what every installed Debian has; without it a name server is asked for localhost
+  printf '127.0.0.1 localhost\n' >"$tree/etc/hosts"
   git -c safe.directory='*' clone -q --no-hardlinks "$project" "$tree$clone"
   mkdir -p "$tree/dev/shm"
   mount --bind /proc "$tree/proc"

@@ -14,7 +14,7 @@
 #include "tests/support/model_bridge.h"
 #include "tests/support/oracle_data.h"
 
-namespace dyngen::test {
+namespace dyngen::test::base_routes_tests {
 namespace {
 
 /// Every inertial parameter and rotor inertia a symbol of its own, in the modified frames.
@@ -162,4 +162,4 @@ TEST(BaseRoutes, AgreeOnRandomRobotsWithLengthsAtRunTime) {
 }
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::base_routes_tests

@@ -11,7 +11,7 @@
 #include "tests/support/model_bridge.h"
 #include "tests/support/shared_object.h"
 
-namespace dyngen::test {
+namespace dyngen::test::batch_tests {
 namespace {
 
 // No sample, less than a register of any width, exactly one, many and some more.
@@ -204,4 +204,4 @@ TEST(BatchFunctions, AreWrittenWhenNamed) {
 }
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::batch_tests

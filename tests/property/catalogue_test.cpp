@@ -10,7 +10,7 @@
 #include "tests/support/compiled_model.h"
 #include "tests/support/relative_error.h"
 
-namespace dyngen::test {
+namespace dyngen::test::catalogue_tests {
 namespace {
 
 struct CatalogueCase {
@@ -69,8 +69,8 @@ TEST_P(Catalogue, CompiledEqualsEvaluated) {
 TEST_P(Catalogue, SinglePrecisionAgreesToSinglePrecision) {
   GeneratorOptions options = GetParam().options;
   options.scalar = Scalar::kFloat;
-  // forward dynamics solves with a mass matrix of condition 1e4: it is left out; what reads weights,
-  // and effects, which these robots do not have, have tests of their own
+  // forward dynamics solves with a mass matrix of condition 1e4: it is left out; what reads
+  // weights, and effects, which these robots do not have, have tests of their own
   for (const FunctionSpec& spec : function_catalogue()) {
     if (spec.name == "fd" || spec.name == "effects" || spec.reads.weights) continue;
     options.functions.emplace_back(spec.name);
@@ -131,4 +131,4 @@ INSTANTIATE_TEST_SUITE_P(Robots, Catalogue, testing::ValuesIn(cases()),
                          [](const auto& entry) { return entry.param.name; });
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::catalogue_tests

@@ -20,7 +20,7 @@
 #include "tests/support/random_robot.h"
 #endif
 
-namespace dyngen::test {
+namespace dyngen::test::derivatives_tests {
 namespace {
 
 // Double arithmetic, some 3000 operations; the reference is good to 1e-13 or so.
@@ -181,4 +181,4 @@ RC_GTEST_PROP(DerivativesOfRandomRobots, EqualDifferencesOfTheJudge, ()) {
 #endif
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::derivatives_tests

@@ -14,6 +14,7 @@
 #include "tests/support/compiled_model.h"
 #include "tests/support/effect_arm.h"
 #include "tests/support/effect_judge.h"
+#include "tests/support/effect_names.h"
 #include "tests/support/relative_error.h"
 
 namespace dyngen::test {
@@ -53,18 +54,12 @@ std::vector<double> sum(std::vector<double> a, const std::vector<double>& b) {
   return a;
 }
 
-std::vector<std::string> effects_of_controllers() {
-  std::vector<std::string> names;
-  const EffectCatalogue catalogue;
-  for (const auto& effect : catalogue.all()) {
-    if (effect->runs_in_controller()) names.push_back(effect->name);
-  }
-  return names;
-}
-
 class EveryEffect : public testing::TestWithParam<std::string> {
  protected:
-  EveryEffect() : effect_(EffectCatalogue().find(GetParam())), values_(parameters_of(*effect_)) {}
+  void SetUp() override {
+    if (!effect_->runs_in_controller()) GTEST_SKIP() << "it does not run in a controller";
+    values_ = parameters_of(*effect_);
+  }
 
   /// What the effect's equations may read of a joint and its partner.
   static NumericValues variables(const MotionSample& sample, const std::vector<double>& load,
@@ -113,7 +108,7 @@ class EveryEffect : public testing::TestWithParam<std::string> {
         << GetParam() << " of joint " << joint;
   }
 
-  std::shared_ptr<const EffectFile> effect_;
+  std::shared_ptr<const EffectFile> effect_ = EffectCatalogue().find(GetParam());
   std::map<std::string, double> values_;
 };
 
@@ -173,7 +168,14 @@ TEST_P(EveryEffect, CompiledIsEvaluated) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(catalogue, EveryEffect, testing::ValuesIn(effects_of_controllers()),
+TEST(EffectsOfControllers, AreMostOfTheCatalogue) {
+  const EffectCatalogue catalogue;
+  int running = 0;
+  for (const auto& effect : catalogue.all()) running += effect->runs_in_controller() ? 1 : 0;
+  EXPECT_GT(running, 35);
+}
+
+INSTANTIATE_TEST_SUITE_P(catalogue, EveryEffect, testing::ValuesIn(effect_names()),
                          [](const auto& name) { return name.param; });
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "tests/support/physical_robot.h"
 #include "tests/support/relative_error.h"
 
-namespace dyngen::test {
+namespace dyngen::test::forward_dynamics_tests {
 namespace {
 
 // Links that could be built, of like size: the condition of M costs three digits or so.
@@ -146,4 +146,4 @@ TEST(ForwardDynamics, RobotWithAMotionThatMovesNothingHasNone) {
 }
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::forward_dynamics_tests

@@ -9,7 +9,7 @@
 
 #include "tests/support/inline_trig_library.h"
 
-namespace dyngen::test {
+namespace dyngen::test::inline_trig_tests {
 namespace {
 
 constexpr std::uint64_t kSeed = 1995;
@@ -154,4 +154,4 @@ INSTANTIATE_TEST_SUITE_P(Flags, InlineTrig,
                          });
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::inline_trig_tests

@@ -11,7 +11,7 @@
 #include "tests/support/model_bridge.h"
 #include "tests/support/relative_error.h"
 
-namespace dyngen::test {
+namespace dyngen::test::kinematics_tests {
 namespace {
 
 // Products of 12 matrices in double: some 1e-15 each.
@@ -98,4 +98,4 @@ TEST(FunctionNames, OfALinkThatTheRobotLacksAreRefused) {
 }
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::kinematics_tests

@@ -13,7 +13,7 @@
 #include "tests/support/physical_robot.h"
 #include "tests/support/relative_error.h"
 
-namespace dyngen::test {
+namespace dyngen::test::mass_matrix_tests {
 namespace {
 
 // Double against double, some 300 operations.
@@ -139,4 +139,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::mass_matrix_tests

@@ -11,7 +11,7 @@
 #include "tests/support/numeric_dynamics.h"
 #include "tests/support/relative_error.h"
 
-namespace dyngen::test {
+namespace dyngen::test::options_tests {
 namespace {
 
 constexpr double kTolerance = 1e-10;
@@ -206,4 +206,4 @@ TEST(ArgumentOptions, ComparisonFailsOnOneWrongArgument) {
 }
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::options_tests

@@ -10,7 +10,7 @@
 #include "tests/support/random_robot.h"
 #include "tests/support/relative_error.h"
 
-namespace dyngen::test {
+namespace dyngen::test::random_robots_tests {
 namespace {
 
 // 12 joints in double against a judge in double: rounding grows with the chain.
@@ -91,4 +91,4 @@ RC_GTEST_PROP(RandomRobot, RunTimeLengthsEqualKnownOnes, ()) {
 }
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::random_robots_tests

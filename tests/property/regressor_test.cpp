@@ -18,7 +18,7 @@
 #include "tests/support/random_robot.h"
 #endif
 
-namespace dyngen::test {
+namespace dyngen::test::regressor_tests {
 namespace {
 
 // What the project promises; rounding of a long chain in double stays some digits below.
@@ -291,4 +291,4 @@ RC_GTEST_PROP(RegressorOfRandomRobot, LengthsOfTheRunTime, ()) {
 #endif
 
 }  // namespace
-}  // namespace dyngen::test
+}  // namespace dyngen::test::regressor_tests

@@ -56,6 +56,8 @@ std::string verdict_name(runtime::Verdict verdict) {
       return "clean";
     case runtime::Verdict::kExplained:
       return "explained";
+    case runtime::Verdict::kNotExplained:
+      return "not explained";
     case runtime::Verdict::kUnexplainedStructure:
       return "unexplained";
     case runtime::Verdict::kInsufficientData:

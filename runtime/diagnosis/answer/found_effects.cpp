@@ -127,8 +127,6 @@ Found found(const Search& search, std::size_t place, const Naming& naming, Effec
     finding.where.recording =
         search.parts().train[static_cast<std::size_t>(finding.effect.recording)].name;
   }
-  finding.evidence.heldout_gain =
-      1 - std::sqrt(winner.heldout_after / std::max(winner.heldout_before, 1e-300));
   for (const EffectRemark& remark : fit.remarks) {
     if (!fit.objects(remark, static_cast<int>(place))) continue;
     finding.probability = std::min(finding.probability, kObjection);

@@ -29,13 +29,22 @@ double nameless_part(const Search& search, const std::vector<Finding>& findings,
 }
 
 std::string explanation(const std::vector<Finding>& findings) {
+  constexpr double kNamed = 0.5;  // probability of a name that is said to explain
   const auto changes = std::count_if(findings.begin(), findings.end(),
                                      [](const Finding& own) { return own.since_reference; });
-  const auto effects = static_cast<std::ptrdiff_t>(findings.size()) - changes;
+  const auto uncertain = std::count_if(findings.begin(), findings.end(), [](const Finding& own) {
+    return !own.since_reference && own.probability < kNamed;
+  });
+  const auto effects = static_cast<std::ptrdiff_t>(findings.size()) - changes - uncertain;
   std::string text;
   if (effects > 0) {
     text = fmt::format("{} left-out effect{} explain{} what the model leaves.", effects,
                        effects == 1 ? "" : "s", effects == 1 ? "s" : "");
+  }
+  if (uncertain > 0) {
+    text += fmt::format("{}{} effect{} {} found whose name{} uncertain (probability below 0.5).",
+                        text.empty() ? "" : " ", uncertain, uncertain == 1 ? "" : "s",
+                        uncertain == 1 ? "was" : "were", uncertain == 1 ? " is" : "s are");
   }
   if (changes > 0) {
     text += fmt::format(

@@ -67,8 +67,6 @@ bool Acceptance::keep(Candidate candidate, const Screening& screening) {
   winner.trial = std::move(candidate.named.best);
   winner.surprise = candidate.named.surprise;
   winner.at_stops = candidate.at_stops;
-  winner.heldout_before = proof.residual_before;
-  winner.heldout_after = proof.residual_after;
   winner.others = screening.named;
   winner.generic = screening.generic;
   result_.winners.push_back(std::move(winner));

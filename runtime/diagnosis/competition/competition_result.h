@@ -20,8 +20,6 @@ struct Winner {
   /// It makes the impulses at the stops of its joints (Stops::Part::kBecause): judged beside what
   /// is left of those it would not be seen.
   bool at_stops = false;
-  double heldout_before = 0;  ///< whitened squares of held-out residuals of its joints
-  double heldout_after = 0;
   std::vector<NamedResult> others;     ///< its round's results, its own among them
   std::vector<GenericResult> generic;  ///< and those of structures without a name
 };

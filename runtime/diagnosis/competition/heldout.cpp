@@ -124,8 +124,6 @@ HeldoutProof heldout_proof(const EffectRecordings& heldout, EffectPoint before, 
       columns << one.col(j), other.col(j),
           counted.col(j).asDiagonal() * rows_of(heldout.runs[run].rows, j);
       whiten(columns, noise, j, counted.col(j));
-      proof.residual_before += columns.col(0).squaredNorm();
-      proof.residual_after += columns.col(1).squaredNorm();
       const VectorXd noise_like =
           (columns.col(0).cwiseAbs().cwiseMin(columns.col(1).cwiseAbs()).array() < kJolt)
               .template cast<double>();

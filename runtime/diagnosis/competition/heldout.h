@@ -37,8 +37,6 @@ struct HeldoutProof {
   double change = 0;      ///< squares of what the effect changes; one that is not there adds them
   double parameters = 0;  ///< that were estimated
   double fitted = 0;      ///< squares that it explains of the recordings that it was fitted to
-  double residual_before = 0,
-         residual_after = 0;  ///< of all residuals, in units of the noise alone
   [[nodiscard]] bool helps() const;
   /// What the effect changes in them is enough to tell.
   [[nodiscard]] bool informs() const;

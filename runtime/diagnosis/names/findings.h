@@ -14,6 +14,7 @@ namespace dyngen::runtime {
 enum class Verdict {
   kClean,                 ///< nothing above the noise
   kExplained,             ///< findings explain it
+  kNotExplained,          ///< held-out torque is far above the noise, or predicted worse than before
   kUnexplainedStructure,  ///< something is left that no effect explains
   kInsufficientData       ///< the recordings cannot carry a test
 };
@@ -36,7 +37,9 @@ struct Whereabouts {
 struct Evidence {
   double lambda = 0;        ///< noncentrality of what a refit of the model does not absorb
   double delta_bic = 0;     ///< of adding it; negative is better
-  double heldout_gain = 0;  ///< part by which it lowers the held-out rms of its joints
+  /// Part by which it lowers the rms of the held-out torque of its joints: 1 less the rms of the
+  /// answer over that of the answer without it, refitted
+  double heldout_gain = 0;
 };
 
 /// A test that a name must pass.

@@ -2,16 +2,21 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "gen/diagnostic/diagnostic.h"
+#include "gen/tool/fitted_lines.h"
 #include "gen/tool/output_files.h"
 #include "runtime/estimation/matrix_products.h"
 #include "runtime/identification/summary_file.h"
+#include "runtime/plausibility/remark.h"
 #include "runtime/plots/figure.h"
 #include "runtime/recordings/notice.h"
 #include "runtime/tools/dynid/fit/file_summaries.h"
+#include "runtime/tools/dynid/input/output_paths.h"
+#include "runtime/tools/dynid/input/robot_warnings.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/options/options.h"
 #include "runtime/tools/dynid/options/parts.h"
@@ -62,6 +67,12 @@ int guarded_run(const ToolOptions& parsed, ProcessGroup& group) {
       std::cerr << missing;
       return kUsage;
     }
+    const std::string collision = output_collision(options);
+    if (!collision.empty()) {
+      std::cerr << "dynid: " << collision << "\n";
+      return kUsage;
+    }
+    std::cerr << robot_warnings(options);
     return run(options, group);
   } catch (const ModelError& error) {
     std::cerr << error.what();
@@ -78,6 +89,12 @@ int guarded_run(const ToolOptions& parsed, ProcessGroup& group) {
   } catch (const FigureError& error) {
     std::cerr << "dynid: error: " << error.what() << "\n";
     return kInputWrong;
+  } catch (const TooLittleDataError& error) {
+    std::cerr << error.what() << "\ndynid: these recordings hold too little for an answer\n";
+    return kCannotAnswer;
+  } catch (const ImplausibleError& error) {
+    std::cerr << error.what() << "\n";
+    return kCannotAnswer;
   } catch (const std::invalid_argument& error) {
     std::cerr << "dynid: error: " << error.what() << "\n";
     return kInputWrong;
@@ -100,11 +117,18 @@ int main_of_group(int argc, const char* const* argv, ProcessGroup& group) {
     std::cout.rdbuf(nullptr);
     std::cerr.rdbuf(nullptr);
   }
+  std::optional<FittedLines> out, errors;
+  if (group.rank() == 0) {
+    out.emplace(std::cout);
+    errors.emplace(std::cerr);
+  }
   const ParsedOptions parsed = parse_options(argc, argv);
   if (parsed.exit_code >= 0) return parsed.exit_code;
   const bool serves = group.connected() && group.rank() > 0;
   const int code =
       serves ? guarded_serve(parsed.options, group) : guarded_run(parsed.options, group);
+  out.reset();
+  errors.reset();
   std::cout << std::flush;
   // where the others are is not known
   if (code == kOurBug) group.abort(code);

@@ -20,7 +20,7 @@ struct Reach {
 
 /// Diagnoses recordings, and asks the equations that it ends with for what only the truth knows.
 /// @param without  the fitted recordings less the torque that was left out
-/// @throws TooShortError  as a diagnosis
+/// @throws TooLittleDataError  as a diagnosis
 Reach reach_of(const dyngen::runtime::DiagnosisInput& input,
                std::vector<dyngen::runtime::MotionSource> without);
 

@@ -148,13 +148,16 @@ TEST(FitConsistent, InconsistentAndMissingPriorsAreReportedAndReplaced) {
   ball[0] = ball[3] = ball[5] = 0.2;
   ball[9] = 2;
   EXPECT_LT((estimate.chi.segment<10>(0) - robot.chi.segment<10>(0)).norm(), 1e-6);
-  EXPECT_LT((estimate.chi.segment<10>(14) - ball).norm(), 1e-6);
+  // the mass and the centre of an impossible body stay
+  EXPECT_LT((estimate.chi.segment<4>(20) - robot.problem.prior.segment<4>(20)).norm(), 1e-6);
   EXPECT_LT((estimate.chi.segment<10>(28) - ball).norm(), 1e-6);
   EXPECT_EQ(estimate.pull.norm(), 0);
   EXPECT_EQ(estimate.message,
-            "Links 3: not all ten parameters have a prior; a ball of 2 kg, radius 0.5 m stands for "
+            "Links 3: not all ten parameters have a prior; a ball of their mass (2 kg where there "
+            "is none), radius 0.5 m stands for "
             "it.\n"
-            "Links 2: the prior is of no physical body; a ball of 2 kg, radius 0.5 m stands for "
+            "Links 2: the prior is of no physical body; a ball of their mass (2 kg where there "
+            "is none), radius 0.5 m stands for "
             "it.\n"
             "The prior of FV1 is negative; 0 stands for it.\n" +
                 std::string("The data determine 0 of ") + std::to_string(robot.problem.R.cols()) +

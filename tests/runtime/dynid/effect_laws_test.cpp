@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <set>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "gen/effect_file/effect_variables.h"
+#include "tests/support/effect_names.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -79,9 +81,13 @@ MatrixXd motion_of(const EffectLaw& law, Index samples, double phase) {
   return variables;
 }
 
-EffectLaw law_of(const std::string& name) {
+/// Made once: the symbolic derivatives of a law take longer than most tests of it.
+const EffectLaw& law_of(const std::string& name) {
   static const EffectCatalogue kCatalogue;
-  return effect_law(*kCatalogue.find(name));
+  static std::map<std::string, EffectLaw> laws;
+  const auto found = laws.find(name);
+  if (found != laws.end()) return found->second;
+  return laws.emplace(name, effect_law(*kCatalogue.find(name))).first->second;
 }
 
 VectorXd still(const EffectLaw& law) {
@@ -119,7 +125,7 @@ double largest_difference(const MatrixXd& slope, const MatrixXd& above, const Ma
 }
 
 TEST_P(EveryEffect, HasDerivativesThatDifferencesAgreeWith) {
-  const EffectLaw law = law_of(GetParam());
+  const EffectLaw& law = law_of(GetParam());
   const VectorXd parameters = sizes(law);
   const MatrixXd motion = motion_of(law, 240, 0.4);
   VectorXd state = still(law);
@@ -161,7 +167,7 @@ TEST_P(EveryEffect, HasDerivativesThatDifferencesAgreeWith) {
 }
 
 TEST_P(EveryEffect, SaysByLinearParametersAloneWhatItSaysByAll) {
-  const EffectLaw law = law_of(GetParam());
+  const EffectLaw& law = law_of(GetParam());
   const VectorXd parameters = sizes(law);
   const MatrixXd motion = motion_of(law, 240, 0.4);
   for (const bool held : {false, true}) {
@@ -185,7 +191,7 @@ TEST_P(EveryEffect, SaysByLinearParametersAloneWhatItSaysByAll) {
 }
 
 TEST_P(EveryEffect, SaysWhetherItsTorqueIsProportionalToItsLinearParameters) {
-  const EffectLaw law = law_of(GetParam());
+  const EffectLaw& law = law_of(GetParam());
   VectorXd parameters = sizes(law);
   bool linear = false;
   for (Index k = 0; k < law.size(); ++k) {
@@ -198,7 +204,7 @@ TEST_P(EveryEffect, SaysWhetherItsTorqueIsProportionalToItsLinearParameters) {
 }
 
 TEST_P(EveryEffect, IsLinearInWhatItsFileCallsLinear) {
-  const EffectLaw law = law_of(GetParam());
+  const EffectLaw& law = law_of(GetParam());
   const VectorXd parameters = sizes(law);
   const MatrixXd motion = motion_of(law, 100, 1.3);
   const MatrixXd whole = torque_of(law, motion, parameters, still(law));
@@ -218,7 +224,7 @@ TEST_P(EveryEffect, IsLinearInWhatItsFileCallsLinear) {
 }
 
 TEST_P(EveryEffect, HasTypicalAndFirstSizesWithinItsBounds) {
-  const EffectLaw law = law_of(GetParam());
+  const EffectLaw& law = law_of(GetParam());
   const EffectSizes sizes = law.sizes(usual_scales());
   EXPECT_TRUE(sizes.start.allFinite());
   EXPECT_TRUE(sizes.typical.allFinite());
@@ -233,7 +239,7 @@ TEST_P(EveryEffect, HasTypicalAndFirstSizesWithinItsBounds) {
 }
 
 TEST_P(EveryEffect, IsTheSameInPiecesOfARun) {
-  const EffectLaw law = law_of(GetParam());
+  const EffectLaw& law = law_of(GetParam());
   const VectorXd parameters = sizes(law);
   const MatrixXd motion = motion_of(law, 60, 0.2);
   VectorXd state = still(law);
@@ -254,13 +260,7 @@ TEST_P(EveryEffect, IsTheSameInPiecesOfARun) {
             1e-12 * (1 + whole.cwiseAbs().maxCoeff()));
 }
 
-std::vector<std::string> all_effects() {
-  std::vector<std::string> names;
-  const EffectCatalogue catalogue;
-  for (const auto& effect : catalogue.all()) names.push_back(effect->name);
-  return names;
-}
-INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(all_effects()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(test::effect_names()),
                          [](const auto& own) { return own.param; });
 
 TEST(EffectCatalogueTest, HasEveryFamilyAndTheMembersThatAreKnown) {
@@ -335,7 +335,7 @@ TEST(Dahl, ClosesALoopOfTheKnownArea) {
   // F' = (F0 - F s)/zs along the path. In the closed loop of stroke +-a: with E = exp(-2a/zs) the
   // force starts at -F0 (1 - E)/(1 + E), and the area of the loop is
   //   4 a F0 - 4 zs F0 (1 - E)/(1 + E).
-  const EffectLaw law = law_of("dahl");
+  const EffectLaw& law = law_of("dahl");
   const double F = 8, zs = 0.004, a = 0.006;
   const Cycle cycle = cycle_of(law, a, 6, 4000);
   const VectorXd torque = state_torque(law, Eigen::Vector2d(F, zs), cycle, F);
@@ -350,7 +350,7 @@ TEST(Dahl, ClosesALoopOfTheKnownArea) {
 }
 
 TEST(Dahl, TracesTheSameLoopAtAnySpeed) {
-  const EffectLaw law = law_of("dahl");
+  const EffectLaw& law = law_of("dahl");
   const Eigen::Vector2d parameters(8, 0.004);
   const Cycle slow = cycle_of(law, 0.006, 3, 8000), fast = cycle_of(law, 0.006, 3, 2000);
   const VectorXd a = state_torque(law, parameters, slow, 8);
@@ -360,7 +360,7 @@ TEST(Dahl, TracesTheSameLoopAtAnySpeed) {
 
 TEST(Lugre, BreaksAwayAtTheStaticFriction) {
   // pulled slowly, the bristles carry up to F rise; at speed, F
-  const EffectLaw law = law_of("lugre");
+  const EffectLaw& law = law_of("lugre");
   const double F = 8, rise = 1.4, vs = 0.05, zs = 0.002;
   VectorXd parameters(5);
   parameters << F, rise, vs, zs, 0;
@@ -386,7 +386,7 @@ TEST(Lugre, BreaksAwayAtTheStaticFriction) {
 
 TEST(MaxwellSlip, ReturnsToWhereAnInnerLoopLeftTheOuterOne) {
   // return-point memory: after a small loop within a larger one the force goes on as without it
-  const EffectLaw law = law_of("maxwell_slip");
+  const EffectLaw& law = law_of("maxwell_slip");
   VectorXd parameters(5);
   parameters << 2, 2, 2, 2, 0.001;
   const auto follow = [&](const std::vector<double>& stops) {
@@ -420,7 +420,7 @@ TEST(MaxwellSlip, ReturnsToWhereAnInnerLoopLeftTheOuterOne) {
 }
 
 TEST(LinkFlexibility, SwingsAtItsFrequency) {
-  const EffectLaw law = law_of("link_flexibility");
+  const EffectLaw& law = law_of("link_flexibility");
   VectorXd parameters(3);
   parameters << 1, 10, 0.01;  // gain, Hz, damping
   MatrixXd load = MatrixXd::Zero(2000, 1);
@@ -433,7 +433,7 @@ TEST(LinkFlexibility, SwingsAtItsFrequency) {
 }
 
 TEST(LinkFlexibility, BeginsWhereItDoesNotSwing) {
-  const EffectLaw law = law_of("link_flexibility");
+  const EffectLaw& law = law_of("link_flexibility");
   VectorXd parameters(3);
   parameters << 0.3, 10, 0.01;
   const MatrixXd load = MatrixXd::Constant(500, 1, 5);
@@ -442,7 +442,7 @@ TEST(LinkFlexibility, BeginsWhereItDoesNotSwing) {
   EXPECT_EQ(first[1], 0);
   EXPECT_LT(torque_of(law, load, parameters, first).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_GT(torque_of(law, load, parameters, still(law)).cwiseAbs().maxCoeff(), 1);
-  const EffectLaw dahl = law_of("dahl");  // its file says nothing of a start
+  const EffectLaw& dahl = law_of("dahl");  // its file says nothing of a start
   EXPECT_TRUE(
       first_states(dahl, MatrixXd::Ones(3, static_cast<Index>(dahl.variables.size()))).isZero(0));
 }

@@ -31,6 +31,14 @@ using test::temporary_path;
 const std::string kRobot = DYNGEN_SOURCE_DIR "/tests/studies/robots/puma3.robot";
 const std::string kShort = " --evaluations 120 --starts 2";
 
+TEST(Excite, APendulumOfOneFirstMomentHasATrajectory) {
+  const Outcome excite = dynid("excite " DYNGEN_SOURCE_DIR
+                               "/tests/data/cases/pendulum_gradient/pend.robot -o " +
+                               temporary_path("p.csv") + kShort);
+  ASSERT_EQ(excite.exit_code, 0) << excite.out;
+  EXPECT_GT(read_trajectory(temporary_path("p.csv")).samples(), 1000);
+}
+
 TEST(Excite, WritesATrajectoryWithinTheFilesLimits) {
   const Outcome excite =
       dynid("excite " + kRobot + " -o " + temporary_path("t.csv") + " --json " +

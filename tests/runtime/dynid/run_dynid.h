@@ -15,6 +15,9 @@ struct Outcome {
 /// @param environment  variables for it alone: "PATH= A=1"
 Outcome dynid(const std::string& arguments, const std::string& environment = "");
 
+/// Any call of the shell.
+Outcome run_shell(const std::string& call);
+
 /// All of a file; empty if there is none.
 std::string content(const std::string& path);
 

@@ -13,6 +13,7 @@
 #include "runtime/tools/dynid/effects/effect_laws.h"
 #include "runtime/tools/dynid/effects/recorded_effects.h"
 #include "runtime/tools/dynid/simulate/simulated_robot.h"
+#include "tests/support/effect_names.h"
 #include "tests/support/temporary_path.h"
 
 namespace dyngen::runtime {
@@ -125,6 +126,7 @@ class EveryActingEffect : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryActingEffect, ActsOnTheRobotAsItsFileSays) {
   const EffectLaw law = effect_law(*catalogue().find(GetParam()));
+  if (!acts_on_plant(law)) GTEST_SKIP() << "it is recorded: SimulatedEffects.OthersAreRecorded";
   const ArmFile bare(arm_text(""));
   const SimulatedRobot without = read_simulated_robot(bare.path(), RobotUse::kPlant, catalogue());
   const VectorXd parameters = typical(law, arm_scales(without, 1));
@@ -199,22 +201,15 @@ TEST_P(EveryActingEffect, ActsOnTheRobotAsItsFileSays) {
   EXPECT_LE(wrong, stateful ? compared / 50 : 0) << "of " << compared;
 }
 
-std::vector<std::string> acting() {
-  std::vector<std::string> names;
-  for (const auto& effect : catalogue().all()) {
-    if (acts_on_plant(effect_law(*effect))) names.push_back(effect->name);
-  }
-  return names;
-}
-INSTANTIATE_TEST_SUITE_P(Catalogue, EveryActingEffect, testing::ValuesIn(acting()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryActingEffect, testing::ValuesIn(test::effect_names()),
                          [](const auto& own) { return own.param; });
 
 TEST(SimulatedEffects, OthersAreRecorded) {
   const auto& all = catalogue().all();
   int recorded = 0;
   for (const auto& effect : all) recorded += acts_on_plant(effect_law(*effect)) ? 0 : 1;
-  EXPECT_EQ(recorded + static_cast<int>(acting().size()), static_cast<int>(all.size()));
   EXPECT_GT(recorded, 15);
+  EXPECT_GT(static_cast<int>(all.size()) - recorded, 40);
 }
 
 TEST(SimulatedEffects, BristlesHoldAnArmThatCoulombFrictionWouldHold) {

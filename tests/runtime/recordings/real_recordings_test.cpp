@@ -7,6 +7,7 @@
 #include "runtime/recordings/quantisation.h"
 #include "runtime/recordings/reader.h"
 #include "runtime/recordings/time_base.h"
+#include "tests/runtime/recordings/recording_texts.h"
 #include "tests/support/shared_data.h"
 
 namespace dyngen::test {
@@ -52,6 +53,47 @@ TEST(RealRecordings, DoublePendulumIsJittered) {
   EXPECT_NEAR(runtime::find_quantisation(recording.q.col(0)).step, 25.0 / 65535, 1e-6);
   const Recording even = runtime::resample(recording, base.sample_time);
   EXPECT_TRUE(runtime::examine_time_base(even).uniform);
+}
+
+/// Nothing is repaired but a time that stands twice in one of them.
+TEST(RealRecordings, AreLeftAsTheyAre) {
+  int read = 0;
+  for (const std::string name : {"kr300/train_1.csv.gz",
+                                 "kr300/train_2.csv.gz",
+                                 "kr300/heldout_1.csv.gz",
+                                 "xl330/kp400_lift_and_drop.csv.gz",
+                                 "xl330/kp400_sin_sin.csv.gz",
+                                 "xl330/kp400_sin_time_square.csv.gz",
+                                 "xl330/kp400_up_and_down.csv.gz",
+                                 "tx40/tx40.csv",
+                                 "dfki/a_0.csv",
+                                 "dfki/a_1.csv",
+                                 "dfki/a_2.csv",
+                                 "dfki/a_3.csv",
+                                 "dfki/c_0.csv",
+                                 "dfki/c_1.csv",
+                                 "dfki/c_2.csv",
+                                 "dfki/c_3.csv",
+                                 "dfki_friction/off_1.csv.gz",
+                                 "dfki_friction/off_2.csv.gz",
+                                 "dfki_friction/off_3.csv.gz",
+                                 "dfki_friction/compensated.csv.gz"}) {
+#ifndef DYNGEN_WITH_ZLIB
+    if (name.ends_with(".gz")) continue;
+#endif
+    const auto path = shared_data(name);
+    if (!path) continue;
+    ++read;
+    std::vector<runtime::Notice> notices;
+    const Recording repaired = runtime::read_recording(*path, {}, &notices);
+    runtime::ReadOptions raw;
+    raw.repair_signals = false;
+    const Recording recording = runtime::read_recording(*path, raw);
+    EXPECT_TRUE(same(repaired, recording)) << name;
+    const std::size_t expected = name == "dfki_friction/compensated.csv.gz" ? 1 : 0;
+    EXPECT_EQ(notices.size(), expected) << name << (notices.empty() ? "" : notices[0].text());
+  }
+  if (read == 0) GTEST_SKIP() << skip_sentence("kr300, xl330, tx40, dfki");
 }
 
 }  // namespace

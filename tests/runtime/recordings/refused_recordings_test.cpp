@@ -20,13 +20,13 @@ std::string with_header(const std::string& header) { return with_line(20, 1, hea
 
 std::vector<Refusal> refusals() {
   const std::string expected_header = "expected a header such as 'time,q1,q2,tau1,tau2'";
-  std::vector<std::string> many_bad = plain_lines(500);
-  for (std::size_t i = 10; i < 400; i += 10) many_bad[i].replace(0, 5, "nan,1");
   std::vector<std::string> scattered = plain_lines(500);
-  for (std::size_t i = 10; i < 400; i += 10) {
+  for (std::size_t i = 10; i < 500; i += 10) {
     const std::size_t comma = scattered[i].rfind(',');
     scattered[i].replace(comma + 1, std::string::npos, "1e99");
   }
+  std::vector<std::string> unrecorded = plain_lines(500);
+  for (std::size_t i = 100; i < 400; ++i) unrecorded[i] = unrecorded[i].substr(0, 5) + ",nan,1,1,1";
   std::string binary = joined(plain_lines(20));
   binary[40] = '\0';
   std::vector<std::string> short_runs = {"time,q1,tau1"};
@@ -40,7 +40,36 @@ std::vector<Refusal> refusals() {
       {"one sample", "time,q1,tau1\n0,1,2\n",
        "run.csv:2:1: error: found one row of data, expected two or more"},
       {"no header", "0,1,2\n1,2,3\n",
-       "run.csv:1:1: error: found no column 'time' in '0,1,2', " + expected_header},
+       "run.csv:1:1: error: found numbers in the first line, expected a header: put a line before "
+       "it that names its 3 columns, such as 'time,q1,tau1' if that is their order (names of other "
+       "columns are free)"},
+      {"no header, of many columns", "0;1;2;3;4;5;6;7;8;9\n",
+       "run.csv:1:1: error: found numbers in the first line, expected a header: put a line before "
+       "it that names its 10 columns, such as 'time;q1;...;q4;tau1;...;tau4;x1' if that is their "
+       "order (names of other columns are free)"},
+      {"a unit that is none", with_line(20, 2, "s,rad,furlong,Nm,Nm"),
+       "run.csv:2:7: error: found unit 'furlong' of column 'q2', expected rad, deg, turn, m, mm or "
+       "the like"},
+      {"a unit of something else", with_line(20, 2, "[s],[rad],[rad],[Nm],[A]"),
+       "run.csv:2:22: error: found unit 'A' of column 'tau2', expected N m, mN m, N mm, N cm, kN "
+       "m, "
+       "N, mN or kN"},
+      {"a unit in a name that is none", with_header("time,q1 [deg],q2 [counts],tau1,tau2"),
+       "run.csv:1:15: error: found unit 'counts' of 'q2 [counts]', expected rad, deg, turn, m, mm "
+       "or the like"},
+      {"a million N m", with_header("time,q1,q2,tau1 (MNm),tau2"),
+       "run.csv:1:12: error: found unit 'MNm' of 'tau1 (MNm)', expected N m, mN m, N mm, N cm, kN "
+       "m, N, mN or kN"},
+      {"units that contradict each other",
+       joined({"time,q1 [deg],tau1", "s,rad,Nm", "0,1,2", "1,2,3"}),
+       "run.csv:2:3: error: found unit 'rad' of column 'q1 [deg]', expected the unit in its name, "
+       "or none"},
+      {"commas that part thousands, or not", joined({"time;q1;tau1", "0.1;1,234;2.5"}),
+       "run.csv:2:5: error: found '1,234' in column q1 beside numbers with a decimal point, "
+       "expected one decimal sign (does the comma part thousands?)"},
+      {"decimal commas between commas", joined({"time,q1,tau1", "0,5,1,5,2,5"}),
+       "run.csv:2:7: error: found 6 columns, expected 3 as in the header (line 1); numbers with a "
+       "decimal comma need quotes, or semicolons between columns"},
       {"no time", with_header("t,q1,q2,tau1,tau2"),
        "run.csv:1:1: error: found no column 'time' in 't,q1,q2,tau1,tau2', " + expected_header},
       {"no positions", with_header("time,a,b,tau1,tau2"),
@@ -80,8 +109,15 @@ std::vector<Refusal> refusals() {
       {"an endless line", joined(plain_lines(10)) + std::string(3 << 20, '1'),
        "run.csv:12:1: error: found a line of more than 1 MB, expected one row a line"},
       {"bad values everywhere", joined(scattered),
-       "run.csv:11:16: error: found '1e99' in tau2, the first of 39 bad rows in 500, expected at "
-       "most 1 % of the rows to miss a value or to have one beyond 1e9"},
+       "run.csv:11:16: error: found '1e99' in tau2, the first of 49 bad rows here and there in "
+       "500, "
+       "expected at most 5 % of the rows to miss a value or to have one beyond 1e9: delete these "
+       "rows if the rest is to be used"},
+      {"more blocks of bad values than rows", joined(unrecorded),
+       "run.csv:101:7: error: found 'nan' in q1, the first of 300 bad rows of 500 in blocks, "
+       "expected at most half of the rows to miss a value or to have one beyond 1e9: was this "
+       "column "
+       "recorded?"},
       {"no run long enough", joined(short_runs),
        "run.csv:41:1: error: found no run of 8 samples among 40 rows of data, expected one or more "
        "(a run ends where time goes back or leaves a gap)"},

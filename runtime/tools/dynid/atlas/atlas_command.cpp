@@ -64,9 +64,8 @@ struct Motions {
 
 Motions of_trajectory(const ToolOptions& options, AtlasReport& report) {
   const LinearModel& model = report.robot.linear;
-  std::vector<Notice> repairs;
-  const Trajectory trajectory = read_trajectory(options.atlas.trajectory, &repairs);
-  for (const Notice& notice : repairs) std::cerr << notice.text() << "\n";
+  ToldRepairs repairs;
+  const Trajectory trajectory = read_trajectory(options.atlas.trajectory, &repairs.notices);
   if (trajectory.joints() != model.joints()) {
     throw std::invalid_argument(fmt::format("{}: {} joints, but {} has {} that move",
                                             options.atlas.trajectory, trajectory.joints(),

@@ -24,6 +24,7 @@
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/arm_drawing.h"
 #include "runtime/tools/dynid/page/page_output.h"
+#include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
 
@@ -50,10 +51,8 @@ LoadedRecordings load_unexplained(const std::vector<std::string>& paths, const T
   LoadedRecordings loaded;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     progress.show("reading " + paths[i], i, paths.size());
-    loaded.sources.push_back(unexplained_motion(paths[i], options.motion));
-    for (const Notice& notice : loaded.sources.back().condition.repairs) {
-      std::cerr << notice.text() << "\n";
-    }
+    ToldRepairs repairs;
+    loaded.sources.push_back(unexplained_motion(paths[i], options.motion, &repairs.notices));
     loaded.lines.push_back(describe(loaded.sources.back(), options, false));
   }
   return loaded;
@@ -66,12 +65,27 @@ DiagnosedMotions read_motions(const std::vector<std::string>& paths, const std::
                                       ? load_unexplained(paths, options, progress)
                                       : load_recordings(paths, options, false, progress);
   DiagnosedMotions motions;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+  for (std::size_t i = 0; i < loaded.sources.size(); ++i) {
     motions.sources.push_back(without_effects(loaded.sources[i], known));
     motions.recorded.push_back(loaded.sources[i]);
-    motions.recordings.push_back({paths[i], use, loaded.lines[i].seconds});
+    motions.recordings.push_back({loaded.lines[i].name, use, loaded.lines[i].seconds});
   }
   return motions;
+}
+
+/// Structure that is sought in all joints at once needs the torque of all.
+/// @throws TooLittleDataError  if one was not measured
+void refuse_dead_torque(const std::vector<MotionSource>& sources) {
+  for (const MotionSource& source : sources) {
+    const std::vector<bool>& dead = source.condition.torque_dead;
+    for (std::size_t j = 0; j < dead.size(); ++j) {
+      if (!dead[j]) continue;
+      throw TooLittleDataError(fmt::format(
+          "{}: the torque of joint {} was not measured (one number throughout), and a diagnosis "
+          "needs that of all joints.",
+          source.name, j + 1));
+    }
+  }
 }
 
 std::vector<MotionSource> joined_sources(const DiagnosisInput& input) {
@@ -105,7 +119,8 @@ ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& r
   ForwardTask task{
       options.diagnose.loop, options.diagnose.controller_model, std::move(heldout), {}};
   for (const std::string& path : options.diagnose.commanded) {
-    task.commanded.push_back(read_trajectory(path));
+    ToldRepairs repairs;
+    task.commanded.push_back(read_trajectory(path, &repairs.notices));
   }
   return compare_forward(report, robot, catalogue, task, [&](double done) {
     progress.show("simulation", static_cast<std::size_t>(1000 * done), 1000);
@@ -229,6 +244,10 @@ int run_diagnose(const ToolOptions& options) {
   };
   try {
     input.train = read(options.recordings, "fitted");
+    if (!settings.residual_only) {
+      judge_recordings(robot, input.train, options, progress);
+      refuse_dead_torque(input.train);
+    }
     input.heldout = read(options.heldout, "held out");
     input.reference = read(options.diagnose.reference, "reference");
     input.hypotheses = competing_effects(robot, catalogue, joined_sources(input));
@@ -236,8 +255,12 @@ int run_diagnose(const ToolOptions& options) {
       progress.show(stage, static_cast<std::size_t>(100 * done), 100);
     };
     diagnosis = diagnose(input, settings, tell, witness);
-  } catch (const TooShortError& error) {
+  } catch (const TooLittleDataError& error) {
     diagnosis.sentence = error.what();
+  } catch (const ImplausibleError& error) {
+    progress.clear();
+    std::cerr << error.what() << "\n";
+    diagnosis.sentence = error.sentence();
   }
   DiagnosisReport report = diagnosis_report(std::move(diagnosis), robot, catalogue);
   report.views = std::move(views);

@@ -37,9 +37,11 @@ std::string objection(const EffectInstance& effect, bool open) {
 
 }  // namespace
 
-MotionSource unexplained_motion(const std::string& path, const MotionOptions& options) {
-  std::vector<Notice> repairs;
-  Recording recording = read_recording(path, {}, &repairs);
+MotionSource unexplained_motion(const std::string& path, const MotionOptions& options,
+                                std::vector<Notice>* repairs) {
+  std::vector<Notice> own;
+  std::vector<Notice>& told = repairs == nullptr ? own : *repairs;
+  Recording recording = read_recording(path, {}, &told);
   if (recording.tau_sim.size() == 0) {
     throw std::invalid_argument(fmt::format(
         "{}: there are no columns tausim1 .. tausim{}: --residual-only explains what another "
@@ -48,7 +50,7 @@ MotionSource unexplained_motion(const std::string& path, const MotionOptions& op
   }
   recording.tau -= recording.tau_sim;
   MotionSource source = motion_of(std::move(recording), options);
-  source.condition.repairs = std::move(repairs);
+  source.condition.repairs = told;
   return source;
 }
 

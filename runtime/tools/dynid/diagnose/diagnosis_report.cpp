@@ -78,6 +78,8 @@ std::string verdict_name(Verdict verdict) {
       return "clean";
     case Verdict::kExplained:
       return "explained";
+    case Verdict::kNotExplained:
+      return "not_explained";
     case Verdict::kUnexplainedStructure:
       return "unexplained_structure";
     case Verdict::kInsufficientData:

@@ -66,7 +66,7 @@ DiagnosisReport diagnosis_report(Diagnosis diagnosis, const DescribedRobot& robo
 /// Coordinates, from 0, of joints on which something was found, with a name or without.
 std::vector<int> marked_joints(const Diagnosis& diagnosis);
 
-/// "clean", "explained", "unexplained_structure", "insufficient_data".
+/// "clean", "explained", "not_explained", "unexplained_structure", "insufficient_data".
 std::string verdict_name(Verdict verdict);
 
 /// The joint of an effect as the answer counts: coordinates from 1, as the columns of a recording;

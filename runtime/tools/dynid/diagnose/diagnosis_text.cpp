@@ -100,8 +100,8 @@ std::string shape_lines(const DiagnosisReport& report, std::size_t place, const 
 std::string heldout_table(const DiagnosisReport& report, const TextStyle& style) {
   const HeldoutResidual& rms = report.diagnosis.heldout;
   if (rms.before.size() == 0) return {};
-  constexpr int kWidth = 24;
-  std::string text = fmt::format("{:<13}{:<26}{:>12}{:>19}{:>9}\n", "held-out rms", "",
+  constexpr int kWidth = 20;
+  std::string text = fmt::format("{:<13}{:<22}{:>12}{:>19}{:>9}\n", "held-out rms", "",
                                  "model alone", "with the findings", "noise");
   const auto number = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
@@ -128,7 +128,7 @@ std::string forward_table(const DiagnosisReport& report) {
   const auto row = [&](const char* name, const Eigen::VectorXd& values) {
     if (values.size() == 0) return;
     text += fmt::format("  {:<18}", name);
-    for (const double value : values) text += fmt::format("{:>10}", fmt::format("{:.3g}", value));
+    for (const double value : values) text += fmt::format("{:>8}", fmt::format("{:.3g}", value));
     text += "\n";
   };
   row("position, alone", forward.before.position);

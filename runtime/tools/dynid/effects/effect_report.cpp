@@ -72,15 +72,15 @@ std::string effect_rows(const EffectReport& report, const DescribedRobot& robot)
   }
   for (const EffectRemark& remark : report.fit.remarks) text += "  " + remark.text + "\n";
   const bool heldout = report.heldout_rms.size() != 0;
-  text += fmt::format("\n{:<14}{:>18}{:>14}", "residual rms", "without effects", "with them");
-  if (heldout) text += fmt::format("{:>28}{:>14}", "held-out, without effects", "with them");
+  text += fmt::format("\n{:<13}{:>16}{:>10}", "residual rms", "without effects", "with them");
+  if (heldout) text += fmt::format("{:>27}{:>10}", "held-out, without effects", "with them");
   text += "\n";
   for (Index j = 0; j < report.fit.rms.size(); ++j) {
-    text += fmt::format("{:<14}{:>18.4g}{:>14.4g}", fmt::format("joint {}", j + 1),
+    text += fmt::format("{:<13}{:>16.4g}{:>10.4g}", fmt::format("joint {}", j + 1),
                         report.fit.rms_without[j], report.fit.rms[j]);
     if (heldout) {
       text +=
-          fmt::format("{:>28.4g}{:>14.4g}", report.heldout_rms_without[j], report.heldout_rms[j]);
+          fmt::format("{:>27.4g}{:>10.4g}", report.heldout_rms_without[j], report.heldout_rms[j]);
     }
     text += fmt::format(" {}\n", robot.linear.revolute[static_cast<std::size_t>(j)] ? "N m" : "N");
   }

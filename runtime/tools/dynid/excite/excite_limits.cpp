@@ -14,6 +14,7 @@
 #include "gen/generator/generator.h"
 #include "gen/program/program.h"
 #include "gen/symbols/exact.h"
+#include "runtime/tools/dynid/robot/row_values.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -22,20 +23,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-/// A row of the file for the moving joints; infinite where it is absent or unknown.
-VectorXd row_values(const DescribedRobot& robot, RowKey key) {
-  VectorXd values = VectorXd::Constant(robot.linear.joints(), kInfinite);
-  const Row& row = robot.file.row(key);
-  if (!row.present) return values;
-  for (std::size_t j = 0; j < row.values.size(); ++j) {
-    const int coordinate = robot.model.joints[j].coordinate;
-    if (coordinate >= 0 && !row.values[j].unknown) {
-      values[coordinate] = to_double(row.values[j].value);
-    }
-  }
-  return values;
-}
 
 std::string joints_text(const std::vector<Index>& joints, Index all) {
   if (static_cast<Index>(joints.size()) == all) return "all joints";

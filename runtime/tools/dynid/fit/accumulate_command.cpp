@@ -7,6 +7,7 @@
 #include "gen/tool/output_files.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/options/commands.h"
+#include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 
 namespace dyngen::runtime {
@@ -31,10 +32,23 @@ int run_accumulate(const ToolOptions& options) {
   RobotSummaries all = empty_summaries(robot.linear);
   RecordingSummary sum = empty_summary(robot.linear.columns, robot.linear.size());
   // one recording in memory at a time
+  std::vector<std::string> left_out;
   for (std::size_t i = 0; i < options.recordings.size(); ++i) {
-    const LoadedRecordings one = load_recordings({options.recordings[i]}, options, false, progress);
-    progress.show("equations of " + options.recordings[i], i, options.recordings.size());
-    merge(sum, summarise(robot.linear, one.sources.front(), options.rows));
+    try {
+      LoadedRecordings one = load_recordings({options.recordings[i]}, options, false, progress);
+      LoadedRecordings none;
+      settle_cutoff(&robot.linear, one, none, options, progress);
+      judge_recordings(robot, one.sources, options, progress);
+      merge(sum, summarise_together(robot.linear, one, options, progress));
+    } catch (const TooLittleDataError& error) {
+      left_out.emplace_back(error.what());
+      progress.clear();
+      std::cerr << left_out.back() << "; it adds nothing\n";
+    }
+  }
+  if (left_out.size() == options.recordings.size()) {
+    std::cerr << "dynid: there are no equations to add up; nothing was written\n";
+    return kCannotAnswer;
   }
   all.robots.emplace(options.robot_name, std::move(sum));
   progress.clear();

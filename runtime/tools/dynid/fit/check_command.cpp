@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 
 #include "gen/diagnostic/diagnostic.h"
@@ -8,6 +9,7 @@
 #include "runtime/tools/dynid/fit/check_report.h"
 #include "runtime/tools/dynid/fit/fit_with_effects.h"
 #include "runtime/tools/dynid/options/commands.h"
+#include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 
 namespace dyngen::runtime {
@@ -43,12 +45,19 @@ std::string check_text(const CheckReport& report) {
         "\n{}: {:.1f} s at {:.6g} Hz, {:.0f} equations a joint, cut-off {:.3g} Hz\n", line.name,
         line.seconds, 1 / line.condition.sample_time, equations, line.cutoff);
     for (const std::string& message : line.condition.messages) text += "  " + message + "\n";
+    if (equations == 0) {
+      text += "  no equations, so nothing is known of these numbers\n";
+      continue;
+    }
     text += fmt::format("{:<14}{:>12}{:>12}\n", "residual", "rms", "% torque");
     for (std::size_t j = 0; j < report.revolute.size(); ++j) {
       const auto place = static_cast<Eigen::Index>(j);
-      text += fmt::format("{:<14}{:>8.4g} {:<3}{:>12.1f}\n", fmt::format("joint {}", j + 1),
-                          residual.rms[place], report.revolute[j] ? "N m" : "N",
-                          residual.percent[place]);
+      const auto number = [](double value, const char* format) {
+        return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string("-");
+      };
+      text += fmt::format("{:<14}{:>8} {:<3}{:>12}\n", fmt::format("joint {}", j + 1),
+                          number(residual.rms[place], "{:.4g}"), report.revolute[j] ? "N m" : "N",
+                          number(residual.percent[place], "{:.1f}"));
     }
   }
   return text;
@@ -61,12 +70,15 @@ int run_check(const ToolOptions& options) {
   const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAsWritten);
   const VectorXd beta = values_of(robot);
   const EffectTask task = EffectTask::of(robot, options);
-  const LoadedRecordings loaded =
-      load_recordings(options.recordings, task.reading(options), false, progress);
+  const ToolOptions reading = task.reading(options);
+  LoadedRecordings loaded = load_recordings(options.recordings, reading, false, progress), none;
+  settle_cutoff(task.effects.empty() ? &robot.linear : nullptr, loaded, none, reading, progress);
+  judge_recordings(robot, loaded.sources, options, progress);
   CheckReport report;
   report.robot = robot.linear.name;
   report.revolute = robot.linear.revolute;
   report.base_parameters = robot.linear.size();
+  std::vector<std::string> reasons = loaded.left_out;
   for (std::size_t i = 0; i < loaded.sources.size(); ++i) {
     progress.show("equations of " + loaded.sources[i].name, i, loaded.sources.size());
     const RowSource rows = task.effects.empty()
@@ -75,11 +87,16 @@ int run_check(const ToolOptions& options) {
     const TorqueFactor equations = factor_of(rows, robot.linear.columns, robot.linear.size());
     report.recordings.push_back(
         {loaded.lines[i], equations.samples(), residual_of(equations, beta)});
+    RecordingLine& line = report.recordings.back().line;
+    line.equations = equations_of(equations);
+    const std::string reason = why_no_equations(line, options.rows);
+    if (!reason.empty()) reasons.push_back(reason);
   }
   progress.clear();
   if (!options.json.empty()) write_files({{options.json, check_json(report)}});
   std::cout << check_text(report);
-  return kDone;
+  for (const std::string& reason : reasons) std::cerr << reason << "\n";
+  return reasons.empty() ? kDone : kCannotAnswer;
 }
 
 }  // namespace dyngen::runtime

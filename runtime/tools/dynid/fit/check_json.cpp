@@ -11,17 +11,16 @@ std::string check_json(const CheckReport& report) {
     const Residual& residual = recording.residual;
     Json repairs = Json::array();
     for (const Notice& notice : line.condition.repairs) repairs.push_back(notice.text());
-    files.push_back(
-        {{"file", line.name},
-         {"seconds", line.seconds},
-         {"sample_time", line.condition.sample_time},
-         {"jitter", line.condition.jitter},
-         {"cutoff_hz", line.cutoff},
-         {"equations", recording.equations},
-         {"rms", std::vector<double>(residual.rms.begin(), residual.rms.end())},
-         {"percent", std::vector<double>(residual.percent.begin(), residual.percent.end())},
-         {"repairs", repairs},
-         {"messages", line.condition.messages}});
+    files.push_back({{"file", line.name},
+                     {"seconds", line.seconds},
+                     {"sample_time", line.condition.sample_time},
+                     {"jitter", line.condition.jitter},
+                     {"cutoff_hz", line.cutoff},
+                     {"equations", recording.equations},
+                     {"rms", numbers(residual.rms)},
+                     {"percent", numbers(residual.percent)},
+                     {"repairs", repairs},
+                     {"messages", line.condition.messages}});
   }
   const Json json = {{"schema", "dynid.check/1"},
                      {"robot", report.robot},

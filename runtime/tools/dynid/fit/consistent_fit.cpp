@@ -3,7 +3,9 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <limits>
 
+#include "gen/symbols/exact.h"
 #include "runtime/consistency/consistent_parameters.h"
 
 namespace dyngen::runtime {
@@ -11,6 +13,25 @@ namespace dyngen::runtime {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+namespace {
+
+/// Numbers of the file, a 0 that is written among them; NaN where it says nothing.
+VectorXd written_values(const RobotFile& file) {
+  const RobotModel model = build_model(file);
+  VectorXd values(static_cast<Index>(kChiCount) * model.size());
+  for (int j = 1; j <= model.size(); ++j) {
+    for (std::size_t k = 0; k < kChiCount; ++k) {
+      const Quantity& quantity = model.joint(j).chi[k];
+      const bool said = quantity.line != 0 && !quantity.unknown;
+      values[static_cast<Index>(kChiCount) * (j - 1) + static_cast<Index>(k)] =
+          said ? to_double(quantity.value) : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return values;
+}
+
+}  // namespace
 
 ConsistentFit fit_consistently(const FitReport& report) {
   const TorqueFactor& equations = report.data.summary.equations;
@@ -30,7 +51,7 @@ ConsistentFit fit_consistently(const FitReport& report) {
   problem.K = robot.grouping;
   problem.R = R.topLeftCorner(nb, nb).triangularView<Eigen::Upper>();
   problem.z = R.topRightCorner(nb, 1);
-  problem.prior = robot.standard;
+  problem.prior = written_values(robot.file);
   problem.free.assign(static_cast<std::size_t>(robot.standard.size()), true);
   for (int link = 1; link <= problem.links; ++link) {
     for (std::size_t k = kInertialCount; k < kChiCount; ++k) {

@@ -10,8 +10,10 @@
 #include <stdexcept>
 
 #include "gen/diagnostic/diagnostic.h"
+#include "runtime/identification/common_cutoff.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/process/message.h"
+#include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 
 namespace dyngen::runtime {
@@ -31,15 +33,41 @@ std::string named(const std::string& path, const std::string& reason) {
                                                 : fmt::format("{}: error: {}", path, reason);
 }
 
+/// @param warnings  what was repaired, also where the recording is refused then
+MotionSource motion_and_warnings(const std::string& path, const ToolOptions& options,
+                                 std::string& warnings) {
+  std::vector<Notice> repairs;
+  const auto add = [&] {
+    for (const Notice& notice : repairs) warnings += notice.text() + "\n";
+  };
+  try {
+    MotionSource source = motion_of_file(path, options.motion, &repairs);
+    add();
+    return source;
+  } catch (...) {
+    add();
+    throw;
+  }
+}
+
 std::string summary_bytes(const std::string& path, const DescribedRobot& robot,
                           const ToolOptions& options, std::string& warnings) {
   if (path.ends_with(".qr") || is_summary_file(path)) {
     return write_summaries(read_summary_file(path));
   }
-  const MotionSource source = motion_of_file(path, options.motion);
-  for (const Notice& notice : source.condition.repairs) warnings += notice.text() + "\n";
+  MotionSource source = motion_and_warnings(path, options, warnings);
+  source = at_cutoff({source}, common_cutoff(robot.linear, {source})).front();
+  for (const Remark& remark : judge(judged_robot(robot), {source})) {
+    if (remark.refused && !options.as_recorded) throw ImplausibleError(remark.words(), remark.text);
+    warnings += remark.words() + "\n";
+  }
   RobotSummaries one = empty_summaries(robot.linear);
-  one.robots.emplace("", summarise(robot.linear, source, options.rows));
+  const RecordingSummary summary = summarise(robot.linear, source, options.rows);
+  RecordingLine line = describe(source, options, false);
+  line.equations = equations_of(summary.equations);
+  const std::string reason = why_no_equations(line, options.rows);
+  if (!reason.empty()) throw TooLittleDataError(reason);
+  one.robots.emplace("", summary);
   return write_summaries(one);
 }
 

@@ -10,6 +10,7 @@
 #include "gen/tool/progress_line.h"
 #include "runtime/identification/simulated_motion.h"
 #include "runtime/identification/summary_file.h"
+#include "runtime/recordings/trajectory_file.h"
 #include "runtime/tools/dynid/fit/consistent_fit.h"
 #include "runtime/tools/dynid/fit/file_summaries.h"
 #include "runtime/tools/dynid/fit/fit_with_effects.h"
@@ -17,6 +18,7 @@
 #include "runtime/tools/dynid/fit/number_notes.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/page_output.h"
+#include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
 
@@ -68,6 +70,31 @@ Conditioning examine_conditioning(const FitReport& report) {
   return result;
 }
 
+/// Noise that is larger than what a combination of parameters shows: (4.1) has no bound then.
+void warn_of_hidden_directions(FitReport& report) {
+  if (std::isfinite(report.trust.perturbation_bound) || report.main().estimate.unseen.cols() > 0) {
+    return;
+  }
+  report.notes.emplace_back(
+      "warning: noise of accelerations is larger than what the weakest combination of parameters "
+      "shows: values that share in it may be wrong beyond their deviations (more motion, longer "
+      "recordings or a lower --cutoff would show it)");
+}
+
+/// Torque of held-out recordings that is not predicted.
+void warn_of_held_out(FitReport& report) {
+  constexpr double kMostLeft = 50;  // % of a joint's torque
+  const VectorXd& left = report.main().heldout_percent;
+  for (Index j = 0; j < left.size(); ++j) {
+    if (!(left[j] > kMostLeft)) continue;
+    report.notes.push_back(fmt::format(
+        "warning: {:.0f} % of joint {}'s held-out torque is not predicted: another motion than was "
+        "fitted, another state of the robot, or physics that the model leaves out ('dynid "
+        "diagnose')",
+        left[j], j + 1));
+  }
+}
+
 /// Recordings, or files of their summaries: not both.
 bool are_summaries(const std::vector<std::string>& paths) {
   const auto count = std::count_if(paths.begin(), paths.end(), is_summary_file);
@@ -107,18 +134,26 @@ void make_instruments(const ToolOptions& options, const LoadedRecordings& train,
   if (options.tracked.empty()) {
     if (!wanted) return;
     throw std::invalid_argument(
-        "method iv needs the motion that was commanded: --tracked FILE, a recording of it");
+        "method iv needs the motion that was commanded: --tracked FILE, a trajectory (time, q1.., "
+        "as "
+        "'dynid excite' writes it) or a recording of it");
   }
   if (train.sources.size() != 1) {
     throw std::invalid_argument("--tracked goes with one recording, of the same samples");
   }
-  MotionOptions motion = options.motion;
-  motion.state.cutoff_hz = train.sources.front().cutoff.hz;
-  MotionSource commanded = motion_of_file(options.tracked, motion);
-  if (options.heldout_part > 0) commanded = part_of(commanded, 0, 1 - options.heldout_part);
+  ToldRepairs repairs;
+  const MotionSource commanded = commanded_motion(
+      read_trajectory(options.tracked, &repairs.notices), options.tracked, train.sources.front());
   const Estimate start = weighted_least_squares(report.data.summary.equations);
-  report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
-                                                  commanded, options.rows, start.beta);
+  try {
+    report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
+                                                    commanded, options.rows, start.beta);
+  } catch (const std::runtime_error& error) {
+    throw TooLittleDataError(fmt::format(
+        "method iv: the model that least squares give cannot track the commanded motion: "
+        "{}",
+        error.what()));
+  }
 }
 
 /// "arm.robot" -> "arm.NAME.robot"
@@ -207,6 +242,7 @@ void examine(FitReport& report, ProgressLine& progress) {
   const RecordingSummary& summary = report.data.summary;
   report.trust = measure_trust(summary.equations, report.main().estimate, summary.regressor_noise,
                                summary.row_time);
+  warn_of_hidden_directions(report);
   report.conditioning = examine_conditioning(report);
   // what a method leaves out on purpose is not what the data do not see
   const Estimate plain = weighted_least_squares(summary.equations);
@@ -261,14 +297,20 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     train = load_recordings(options.recordings, reading, false, progress);
     heldout = load_recordings(options.heldout, reading, true, progress);
     hold_out_parts(options.heldout_part, train, heldout, options);
-    report.recordings = train.lines;
+    settle_cutoff(with_effects ? nullptr : &model, train, heldout, reading, progress);
+    for (std::string& remark :
+         judge_recordings(report.robot, train.sources, options, progress)) {
+      report.notes.push_back(std::move(remark));
+    }
     if (with_effects) {
       fit_with_effects(task, options, train.sources, heldout.sources, progress, report);
     } else {
-      report.data.summary = summarise_together(model, train.sources, options, progress);
+      report.data.summary = summarise_together(model, train, options, progress);
       report.data.rows = joined(rows_of_all(model, train.sources, options));
       make_instruments(options, train, report);
     }
+    report.recordings = train.lines;
+    report.notes.insert(report.notes.end(), train.left_out.begin(), train.left_out.end());
   }
   if (!options.heldout.empty() && heldout.sources.empty()) {
     heldout = load_recordings(options.heldout, options, true, progress);
@@ -276,9 +318,17 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   if (!heldout.sources.empty()) {
     if (!with_effects) {
       report.heldout_rows = joined(rows_of_all(model, heldout.sources, options));
-      report.data.heldout = factor_of(report.heldout_rows, model.columns, model.size());
+      report.data.heldout = heldout_equations(model, heldout, options);
     }
     report.recordings.insert(report.recordings.end(), heldout.lines.begin(), heldout.lines.end());
+  }
+  report.notes.insert(report.notes.end(), heldout.left_out.begin(), heldout.left_out.end());
+  const bool heldout_wanted = !options.heldout.empty() || options.heldout_part > 0;
+  const bool nothing_heldout =
+      heldout_wanted && !(report.data.heldout && report.data.heldout->samples() > 0);
+  if (nothing_heldout) {
+    report.data.heldout.reset();
+    report.heldout_rows = {};
   }
   if (!with_effects) {
     FitOptions fit_options = options.fit;
@@ -304,11 +354,17 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     progress.show("physical consistency", 0, 1);
     report.consistent = fit_consistently(report);
   }
+  warn_of_held_out(report);
   progress.clear();
   std::cout << fit_table(report) << std::flush;
   const std::vector<std::string> made = write_outputs(options, report, progress);
   progress.clear();
   tell_written(made);
+  if (nothing_heldout) {
+    std::cerr
+        << "dynid: what was held out has no equations: nothing is known of the fit beyond the "
+           "recordings that were fitted\n";
+  }
   if (!report.unseen.empty()) {
     std::cerr << fmt::format(
         "dynid: these recordings do not determine {} combination{} of parameters (listed above)\n",
@@ -320,7 +376,7 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
                  "above)\n";
     return kCannotAnswer;
   }
-  return kDone;
+  return nothing_heldout ? kCannotAnswer : kDone;
 }
 
 }  // namespace dyngen::runtime

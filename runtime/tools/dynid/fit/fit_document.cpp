@@ -36,10 +36,20 @@ std::string percent_words(double percent) {
   return percent < 10 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
 }
 
+/// Without joints that have no equations; 0 if none has.
+VectorXd known_of(const VectorXd& values) {
+  std::vector<double> known;
+  for (const double value : values) {
+    if (std::isfinite(value)) known.push_back(value);
+  }
+  if (known.empty()) known.push_back(0);
+  return Eigen::Map<const VectorXd>(known.data(), static_cast<Index>(known.size()));
+}
+
 std::string sentence_of(const FitReport& report) {
   const MethodFit& fit = report.main();
   const bool heldout = fit.heldout_percent.size() != 0;
-  const VectorXd& percent = heldout ? fit.heldout_percent : fit.percent;
+  const VectorXd percent = known_of(heldout ? fit.heldout_percent : fit.percent);
   const int weak = count_of(report, Seen::kWeak), unseen = count_of(report, Seen::kNo);
   const int size = report.robot.linear.size();
   std::string text = fmt::format(

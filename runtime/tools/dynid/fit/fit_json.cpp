@@ -32,6 +32,8 @@ Json recordings(const FitReport& report) {
                      {"decimation", line.decimation},
                      {"position_step", line.condition.position_step},
                      {"torque_clipped", line.condition.torque_clipped},
+                     {"torque_dead", line.condition.torque_dead},
+                     {"equations", numbers(line.equations)},
                      {"periods", line.condition.periods},
                      {"period", line.condition.period},
                      {"repairs", repairs},
@@ -84,13 +86,14 @@ Json joints(const FitReport& report) {
   const LinearModel& model = report.robot.linear;
   for (int j = 0; j < model.joints(); ++j) {
     const bool heldout = fit.heldout_rms.size() != 0;
-    array.push_back({{"joint", j + 1},
-                     {"name", model.joint_names[static_cast<std::size_t>(j)]},
-                     {"unit", model.revolute[static_cast<std::size_t>(j)] ? "N m" : "N"},
-                     {"rms", fit.estimate.residual_rms[j]},
-                     {"percent", fit.percent[j]},
-                     {"heldout_rms", heldout ? Json(fit.heldout_rms[j]) : Json(nullptr)},
-                     {"heldout_percent", heldout ? Json(fit.heldout_percent[j]) : Json(nullptr)}});
+    array.push_back(
+        {{"joint", j + 1},
+         {"name", model.joint_names[static_cast<std::size_t>(j)]},
+         {"unit", model.revolute[static_cast<std::size_t>(j)] ? "N m" : "N"},
+         {"rms", number(fit.estimate.residual_rms[j])},
+         {"percent", number(fit.percent[j])},
+         {"heldout_rms", heldout ? number(fit.heldout_rms[j]) : Json(nullptr)},
+         {"heldout_percent", heldout ? number(fit.heldout_percent[j]) : Json(nullptr)}});
   }
   return array;
 }
@@ -119,6 +122,7 @@ Json methods(const FitReport& report) {
       entry["hausman"] = {{"chi_square", fit.instrumental->hausman},
                           {"degrees", fit.instrumental->degrees},
                           {"p", fit.instrumental->p_value},
+                          {"largest_move", number(fit.instrumental->largest_move)},
                           {"relevance", fit.instrumental->relevance}};
     }
     array.push_back(std::move(entry));

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/tools/dynid/robot/identified_file.h"
@@ -10,6 +11,13 @@
 namespace dyngen::runtime {
 
 using Eigen::Index;
+
+namespace {
+
+/// Bias by noise of the regressor, of a value, above which the value is no longer known.
+constexpr double kBiasOfValue = 0.1;
+
+}  // namespace
 
 Seen seen(const FitReport& report, int parameter) {
   for (const UnseenCombination& combination : report.unseen) {
@@ -19,8 +27,12 @@ Seen seen(const FitReport& report, int parameter) {
   }
   const MethodFit& fit = report.main();
   if (fit.estimate.covariance.size() == 0) return Seen::kYes;
-  const double bound = fit.interval * std::sqrt(fit.estimate.covariance(parameter, parameter));
-  return std::abs(fit.estimate.beta[parameter]) < bound ? Seen::kWeak : Seen::kYes;
+  const double deviation = std::sqrt(fit.estimate.covariance(parameter, parameter));
+  const double value = std::abs(fit.estimate.beta[parameter]);
+  if (value < fit.interval * deviation) return Seen::kWeak;
+  const double bias =
+      report.trust.attenuation.size() != 0 ? std::abs(report.trust.attenuation[parameter]) : 0;
+  return bias > std::max(kBiasOfValue * value, fit.interval * deviation) ? Seen::kWeak : Seen::kYes;
 }
 
 std::string_view seen_name(Seen seen) {

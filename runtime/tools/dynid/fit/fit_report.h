@@ -57,7 +57,7 @@ struct FitReport {
 /// How well a parameter is known.
 enum class Seen {
   kYes,
-  kWeak,  ///< its interval contains zero
+  kWeak,  ///< its interval contains zero, or noise of accelerations biases it by more than that
   kNo     ///< part of a combination that the data do not see
 };
 Seen seen(const FitReport& report, int parameter);

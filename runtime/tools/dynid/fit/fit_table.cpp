@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "runtime/estimation/covariance.h"
 #include "runtime/tools/dynid/fit/fit_report.h"
@@ -15,6 +16,16 @@ using Eigen::VectorXd;
 
 std::string number_text(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
+}
+
+std::string percent_text(double value) {
+  return std::isfinite(value) ? fmt::format("{:.1f}", value) : std::string("-");
+}
+
+std::string percents_text(const VectorXd& values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(percent_text(value));
+  return fmt::format("{}", fmt::join(texts, " "));
 }
 
 /// Long sums are whole in the robot file and the JSON. What is said behind a sum stays.
@@ -55,29 +66,27 @@ std::string parameter_rows(const FitReport& report) {
   if (model.size() == 0) return "";
   const MethodFit& fit = report.main();
   const bool known = fit.estimate.covariance.size() != 0;
-  std::string text = fmt::format("\n{:<8}{:>12}{:>11}{:>8}  {:<10}{:<6}", "", "value", "stddev",
+  std::string text = fmt::format("\n{:<8}{:>11}{:>10}{:>7}  {:<10}{:<5}", "", "value", "stddev",
                                  "%", "unit", "seen");
-  if (report.consistent) text += fmt::format("{:>12}{:>7}", "consistent", "pull");
-  text += "  what it is\n";
+  text += report.consistent ? fmt::format("{:>12}{:>7}\n", "consistent", "pull") : " what it is\n";
   for (int i = 0; i < model.size(); ++i) {
     const LinearParameter& parameter = model.parameters[static_cast<std::size_t>(i)];
     const double value = fit.estimate.beta[i];
     const double stddev = known ? std::sqrt(fit.estimate.covariance(i, i)) : 0;
     const Seen state = seen(report, i);
-    std::string line = fmt::format("{:<8}{:>12.5g}", parameter.name, value);
+    std::string line = fmt::format("{:<8}{:>11.5g}", parameter.name, value);
     if (known && state != Seen::kNo) {
       const double relative = value != 0 ? 100 * stddev / std::abs(value) : INFINITY;
-      line += fmt::format("{:>11.3g}{:>8}", stddev,
+      line += fmt::format("{:>10.3g}{:>7}", stddev,
                           relative < 1000 ? fmt::format("{:.1f}", relative) : ">1000");
     } else {
-      line += fmt::format("{:>11}{:>8}", "-", "-");
+      line += fmt::format("{:>10}{:>7}", "-", "-");
     }
-    line += fmt::format("  {:<10}{:<6}", parameter.unit, seen_name(state));
-    if (report.consistent) {
-      line +=
-          fmt::format("{:>12.5g}{:>7.1f}", report.consistent->beta[i], report.consistent->pull[i]);
-    }
-    text += line + "  " + shortened(parameter.formula) + "\n";
+    line += fmt::format("  {:<10}{:<5}", parameter.unit, seen_name(state));
+    line += report.consistent ? fmt::format("{:>12.5g}{:>7.1f}", report.consistent->beta[i],
+                                            report.consistent->pull[i])
+                              : " " + shortened(parameter.formula);
+    text += line + "\n";
   }
   return text;
 }
@@ -87,18 +96,23 @@ std::string joint_rows(const FitReport& report) {
   const LinearModel& model = report.robot.linear;
   const bool heldout = fit.heldout_rms.size() != 0;
   std::string text =
-      fmt::format("\n{:<14}{:>10}{:>12}{:>12}", "residual", "equations", "rms", "% torque");
-  if (heldout) text += fmt::format("{:>12}{:>12}", "held-out", "% torque");
+      fmt::format("\n{:<9}{:>10}{:>13}{:>10}", "residual", "equations", "rms", "% torque");
+  if (heldout) text += fmt::format("{:>10}{:>10}", "held-out", "% torque");
   const VectorXd times = report.data.summary.noise.correlation_time();
   text += fmt::format("{:>16}\n", "correlated over");
   for (int j = 0; j < model.joints(); ++j) {
-    text += fmt::format("{:<14}{:>10.0f}{:>8.4g} {:<3}{:>12.1f}", fmt::format("joint {}", j + 1),
-                        report.data.summary.equations.joints[static_cast<std::size_t>(j)].rows,
-                        fit.estimate.residual_rms[j],
-                        model.revolute[static_cast<std::size_t>(j)] ? "N m" : "N", fit.percent[j]);
-    if (heldout)
-      text += fmt::format("{:>12.4g}{:>12.1f}", fit.heldout_rms[j], fit.heldout_percent[j]);
-    text += fmt::format("{:>14.3g} s\n", std::max(1.0, times[j]) * report.data.summary.row_time);
+    const double rows = report.data.summary.equations.joints[static_cast<std::size_t>(j)].rows;
+    text += fmt::format("{:<9}{:>9.0f} {:>9} {:<3}{:>10}", fmt::format("joint {}", j + 1), rows,
+                        number_text(fit.estimate.residual_rms[j]),
+                        model.revolute[static_cast<std::size_t>(j)] ? "N m" : "N",
+                        percent_text(fit.percent[j]));
+    if (heldout) {
+      text += fmt::format("{:>10}{:>10}", number_text(fit.heldout_rms[j]),
+                          percent_text(fit.heldout_percent[j]));
+    }
+    text += rows > 0 ? fmt::format("{:>14.3g} s\n",
+                                   std::max(1.0, times[j]) * report.data.summary.row_time)
+                     : fmt::format("{:>14}\n", "-");
   }
   return text;
 }
@@ -174,13 +188,12 @@ std::string unseen_rows(const FitReport& report) {
 std::string consistent_rows(const FitReport& report) {
   if (!report.consistent) return "";
   const ConsistentFit& fit = *report.consistent;
-  std::string text = fmt::format(
-      "\nphysically consistent: residual per joint {:.1f} % of torque (free: {:.1f} %)\n",
-      fmt::join(fit.percent, " "), fmt::join(report.main().percent, " "));
+  std::string text =
+      fmt::format("\nphysically consistent: residual per joint {} % of torque (free: {} %)\n",
+                  percents_text(fit.percent), percents_text(report.main().percent));
   if (fit.heldout_percent.size() != 0) {
-    text +=
-        fmt::format("  held-out: {:.1f} % (free: {:.1f} %)\n", fmt::join(fit.heldout_percent, " "),
-                    fmt::join(report.main().heldout_percent, " "));
+    text += fmt::format("  held-out: {} % (free: {} %)\n", percents_text(fit.heldout_percent),
+                        percents_text(report.main().heldout_percent));
   }
   std::vector<int> pulling;
   for (Index i = 0; i < fit.pull.size(); ++i) {
@@ -205,20 +218,18 @@ std::string consistent_rows(const FitReport& report) {
   return text;
 }
 
-/// Robots that share inertia: their own friction beside each other.
-std::string hierarchy_rows(const FitReport& report) {
-  if (!report.hierarchy) return "";
+/// @param robots  as many as a line holds
+std::string hierarchy_block(const FitReport& report, std::span<const HierarchyFit::Robot> robots) {
   const HierarchyFit& fit = *report.hierarchy;
-  std::string text = fmt::format("\n{} robots share {} parameters; own friction of each:\n{:<10}",
-                                 fit.robots.size(), fit.shared.size(), "");
-  for (const HierarchyFit::Robot& robot : fit.robots) {
+  std::string text = fmt::format("{:<10}", "");
+  for (const HierarchyFit::Robot& robot : robots) {
     text += fmt::format("{:>22}", robot.name.empty() ? "(not named)" : robot.name);
   }
   text += "\n";
   for (std::size_t i = 0; i < fit.own.size(); ++i) {
     text += fmt::format("{:<10}",
                         report.robot.linear.parameters[static_cast<std::size_t>(fit.own[i])].name);
-    for (const HierarchyFit::Robot& robot : fit.robots) {
+    for (const HierarchyFit::Robot& robot : robots) {
       text += fmt::format("{:>11.4g} +- {:<7.2g}", robot.own_beta[static_cast<Index>(i)],
                           robot.own_stddev[static_cast<Index>(i)]);
     }
@@ -226,7 +237,7 @@ std::string hierarchy_rows(const FitReport& report) {
   }
   for (int j = 0; j < report.robot.linear.joints(); ++j) {
     text += fmt::format("{:<10}", fmt::format("fit % {}", j + 1));
-    for (const HierarchyFit::Robot& robot : fit.robots) {
+    for (const HierarchyFit::Robot& robot : robots) {
       text += fmt::format("{:>22.1f}", robot.percent[j]);
     }
     text += "\n";
@@ -234,27 +245,39 @@ std::string hierarchy_rows(const FitReport& report) {
   return text;
 }
 
-/// Methods side by side, as the thesis's Tables 7.3 to 7.5.
-std::string method_columns(const FitReport& report) {
-  if (report.fits.size() < 2) return "";
+/// Robots that share inertia: their own friction beside each other.
+std::string hierarchy_rows(const FitReport& report) {
+  constexpr std::size_t kOfALine = 3;
+  if (!report.hierarchy) return "";
+  const HierarchyFit& fit = *report.hierarchy;
+  std::string text = fmt::format("\n{} robots share {} parameters; own friction of each:\n",
+                                 fit.robots.size(), fit.shared.size());
+  for (std::size_t i = 0; i < fit.robots.size(); i += kOfALine) {
+    const std::span<const HierarchyFit::Robot> all(fit.robots);
+    text += hierarchy_block(report, all.subspan(i, std::min(kOfALine, all.size() - i)));
+  }
+  return text;
+}
+
+/// Methods side by side, as the thesis's Tables 7.3 to 7.5. @param fits  as many as a line holds
+std::string method_block(const FitReport& report, std::span<const MethodFit> fits) {
   const LinearModel& model = report.robot.linear;
   std::string text = fmt::format("\n{:<10}", "methods");
-  for (const MethodFit& fit : report.fits) {
+  for (const MethodFit& fit : fits) {
     text += fmt::format("{:>11}", fit_method_names()[static_cast<std::size_t>(fit.method)]);
   }
   text += "\n";
   for (int i = 0; i < model.size(); ++i) {
     text += fmt::format("{:<10}", model.parameters[static_cast<std::size_t>(i)].name);
-    for (const MethodFit& fit : report.fits) text += fmt::format("{:>11.4g}", fit.estimate.beta[i]);
+    for (const MethodFit& fit : fits) text += fmt::format("{:>11.4g}", fit.estimate.beta[i]);
     text += "\n";
   }
   const auto percents = [&](const char* name, auto values) {
     for (int j = 0; j < model.joints(); ++j) {
       text += fmt::format("{:<10}", fmt::format("{} {}", name, j + 1));
-      for (const MethodFit& fit : report.fits) {
+      for (const MethodFit& fit : fits) {
         const VectorXd& of_fit = values(fit);
-        text +=
-            of_fit.size() != 0 ? fmt::format("{:>11.1f}", of_fit[j]) : fmt::format("{:>11}", "-");
+        text += fmt::format("{:>11}", of_fit.size() != 0 ? percent_text(of_fit[j]) : "-");
       }
       text += "\n";
     }
@@ -262,6 +285,17 @@ std::string method_columns(const FitReport& report) {
   percents("fit %", [](const MethodFit& fit) -> const VectorXd& { return fit.percent; });
   if (report.data.heldout) {
     percents("held %", [](const MethodFit& fit) -> const VectorXd& { return fit.heldout_percent; });
+  }
+  return text;
+}
+
+std::string method_columns(const FitReport& report) {
+  constexpr std::size_t kOfALine = 6;
+  if (report.fits.size() < 2) return "";
+  std::string text;
+  for (std::size_t i = 0; i < report.fits.size(); i += kOfALine) {
+    const std::span<const MethodFit> all(report.fits);
+    text += method_block(report, all.subspan(i, std::min(kOfALine, all.size() - i)));
   }
   return text;
 }

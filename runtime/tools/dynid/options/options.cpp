@@ -12,6 +12,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "gen/tool/usage_hint.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/options/parts.h"
 #include "runtime/tools/dynid/robot/held_numbers.h"
@@ -60,6 +61,11 @@ void add_state_options(CLI::App& command, ToolOptions& options, Words& words) {
       ->capture_default_str();
 }
 
+void add_as_recorded(CLI::App& command, ToolOptions& options) {
+  command.add_flag("--as-recorded", options.as_recorded,
+                   "believe recordings that cannot be meant (units, signs, columns)");
+}
+
 void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
   add_state_options(command, options, words);
   command
@@ -70,6 +76,7 @@ void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
       .add_option("--period", words.period,
                   "seconds, auto (periods are looked for and averaged) or off")
       ->capture_default_str();
+  add_as_recorded(command, options);
 }
 
 void add_recordings(CLI::App& command, ToolOptions& options, const char* text) {
@@ -176,6 +183,7 @@ void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
   add_page_options(*diagnose, options.page);
   add_diagnose_options(*diagnose, options.diagnose);
   add_state_options(*diagnose, options, words);
+  add_as_recorded(*diagnose, options);
 }
 
 void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
@@ -270,7 +278,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     parsed.exit_code = tool.exit(version);
     return parsed;
   } catch (const CLI::ParseError& error) {
-    parsed.exit_code = usage(error.what());
+    parsed.exit_code = usage(usage_message(tool, argc, argv, error.what()));
     return parsed;
   }
   const std::string name = tool.get_subcommands().front()->get_name();

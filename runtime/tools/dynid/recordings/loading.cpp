@@ -3,9 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
+#include "runtime/identification/common_cutoff.h"
+
 namespace dyngen::runtime {
+
+ToldRepairs::~ToldRepairs() {
+  for (const Notice& notice : notices) std::cerr << notice.text() << "\n";
+}
 
 OpenParameters opened_by(const ToolOptions& options) {
   return options.consistent ? OpenParameters::kEverything : OpenParameters::kAbsentRows;
@@ -32,13 +39,43 @@ LoadedRecordings load_recordings(const std::vector<std::string>& paths, const To
   LoadedRecordings loaded;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     progress.show("reading " + paths[i], i, paths.size());
-    loaded.sources.push_back(motion_of_file(paths[i], options.motion));
-    for (const Notice& notice : loaded.sources.back().condition.repairs) {
-      std::cerr << notice.text() << "\n";
+    ToldRepairs repairs;
+    try {
+      loaded.sources.push_back(motion_of_file(paths[i], options.motion, &repairs.notices));
+    } catch (const TooLittleDataError& error) {
+      loaded.left_out.emplace_back(error.what());
+      continue;
     }
     loaded.lines.push_back(describe(loaded.sources.back(), options, heldout));
   }
+  if (!heldout && loaded.sources.empty() && !loaded.left_out.empty()) {
+    throw TooLittleDataError(fmt::format("{}", fmt::join(loaded.left_out, "\n")));
+  }
+  for (const std::string& reason : loaded.left_out) {
+    std::cerr << reason << "; it adds no equations\n";
+  }
   return loaded;
+}
+
+namespace {
+
+void use_cutoff(const Cutoff& cutoff, LoadedRecordings& loaded, const ToolOptions& options) {
+  loaded.sources = at_cutoff(loaded.sources, cutoff);
+  for (std::size_t i = 0; i < loaded.sources.size(); ++i) {
+    loaded.lines[i] = describe(loaded.sources[i], options, loaded.lines[i].heldout);
+  }
+}
+
+}  // namespace
+
+void settle_cutoff(const LinearModel* model, LoadedRecordings& fitted, LoadedRecordings& heldout,
+                   const ToolOptions& options, ProgressLine& progress) {
+  progress.show("cut-off", 0, 1);
+  const Cutoff cutoff =
+      model != nullptr ? common_cutoff(*model, fitted.sources) : median_cutoff(fitted.sources);
+  if (cutoff.hz == 0) return;
+  use_cutoff(cutoff, fitted, options);
+  use_cutoff(cutoff, heldout, options);
 }
 
 std::vector<RowSource> rows_of_all(const LinearModel& model,
@@ -49,18 +86,73 @@ std::vector<RowSource> rows_of_all(const LinearModel& model,
   return rows;
 }
 
-RecordingSummary summarise_together(const LinearModel& model,
-                                    const std::vector<MotionSource>& sources,
+Eigen::VectorXd equations_of(const TorqueFactor& factor) {
+  Eigen::VectorXd rows(static_cast<Eigen::Index>(factor.joints.size()));
+  for (Eigen::Index j = 0; j < rows.size(); ++j) {
+    rows[j] = factor.joints[static_cast<std::size_t>(j)].rows;
+  }
+  return rows;
+}
+
+std::string why_no_equations(const RecordingLine& line, const RowOptions& rows) {
+  if (line.equations.size() == 0 || line.equations.sum() > 0) return {};
+  const std::string begin = line.name + ": no equations: ";
+  const RecordingCondition& condition = line.condition;
+  const bool dead = !condition.torque_dead.empty() &&
+                    std::all_of(condition.torque_dead.begin(), condition.torque_dead.end(),
+                                [](bool joint) { return joint; });
+  if (dead) return begin + "no torque was measured (each joint's is one number throughout)";
+  if (condition.stands && rows.still_speed != 0) {
+    return begin + "no joint moves; '--still 0' fits gravity to poses that are held";
+  }
+  if (rows.still_speed > 0) {
+    return begin + fmt::format("no joint is as fast as '--still {:.4g}' asks", rows.still_speed);
+  }
+  return begin + fmt::format(
+                     "no run is as long as the parallel filter of one equation every {:.3g} ms "
+                     "('--decimation 1' does without it)",
+                     1e3 * line.row_time);
+}
+
+RecordingSummary summarise_together(const LinearModel& model, LoadedRecordings& loaded,
                                     const ToolOptions& options, ProgressLine& progress) {
   RecordingSummary all = empty_summary(model.columns, model.size());
+  const std::vector<MotionSource>& sources = loaded.sources;
   const std::vector<RowSource> rows = rows_of_all(model, sources, options);
+  std::vector<std::string> reasons;
   for (std::size_t i = 0; i < sources.size(); ++i) {
     progress.show("equations of " + sources[i].name, i, sources.size());
-    merge(all, summarise_without_noise(model, sources[i], options.rows));
+    const RecordingSummary own = summarise_without_noise(model, sources[i], options.rows);
+    loaded.lines[i].equations = equations_of(own.equations);
+    const std::string reason = why_no_equations(loaded.lines[i], options.rows);
+    if (!reason.empty()) reasons.push_back(reason);
+    merge(all, own);
   }
+  if (all.equations.samples() == 0) {
+    throw TooLittleDataError(fmt::format("{}", fmt::join(reasons, "\n")));
+  }
+  loaded.left_out.insert(loaded.left_out.end(), reasons.begin(), reasons.end());
+  for (const std::string& reason : reasons) std::cerr << reason << "\n";
   progress.show("noise", 0, 1);
   const Estimate fit = weighted_least_squares(all.equations);
   all.noise = noise_at(fit, all.equations, joined(rows));
+  return all;
+}
+
+TorqueFactor heldout_equations(const LinearModel& model, LoadedRecordings& loaded,
+                               const ToolOptions& options) {
+  TorqueFactor all = empty_factor(model.columns, model.size());
+  for (std::size_t i = 0; i < loaded.sources.size(); ++i) {
+    const TorqueFactor own =
+        factor_of(rows_of(model, loaded.sources[i], options.rows), model.columns, model.size());
+    loaded.lines[i].equations = equations_of(own);
+    const std::string reason = why_no_equations(loaded.lines[i], options.rows);
+    if (!reason.empty()) {
+      loaded.left_out.push_back(reason);
+      std::cerr << reason << "\n";
+    }
+    merge(all, own);
+  }
   return all;
 }
 

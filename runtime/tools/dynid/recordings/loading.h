@@ -21,7 +21,8 @@ struct RecordingLine {
   double cutoff = 0;  ///< Hz
   std::string cutoff_reason;
   Eigen::Index decimation = 1;
-  double row_time = 0;  ///< s
+  double row_time = 0;        ///< s
+  Eigen::VectorXd equations;  ///< (n) that each joint has; empty: not counted
   RecordingCondition condition;
 };
 
@@ -29,14 +30,32 @@ struct RecordingLine {
 struct LoadedRecordings {
   std::vector<MotionSource> sources;
   std::vector<RecordingLine> lines;
+  std::vector<std::string> left_out;  ///< why a file holds too little, in a sentence for each
+};
+
+/// What was repaired in a recording: printed to standard error when it goes out of scope, also
+/// where reading the recording or what follows fails.
+class ToldRepairs {
+ public:
+  ToldRepairs() = default;
+  ~ToldRepairs();
+  ToldRepairs(const ToldRepairs&) = delete;
+  ToldRepairs& operator=(const ToldRepairs&) = delete;
+  std::vector<Notice> notices;
 };
 
 /// What of the robot file a fit asks about.
 OpenParameters opened_by(const ToolOptions& options);
 
-/// Reads all; repairs are printed to standard error.
+/// Reads all; repairs, and which files are left out, are printed to standard error.
+/// @throws TooLittleDataError  if recordings that are fitted are all left out
 LoadedRecordings load_recordings(const std::vector<std::string>& paths, const ToolOptions& options,
                                  bool heldout, ProgressLine& progress);
+
+/// One cut-off for all: chosen from those that are fitted, with the model where there is one
+/// (common_cutoff()), else by their spectra alone.
+void settle_cutoff(const LinearModel* model, LoadedRecordings& fitted, LoadedRecordings& heldout,
+                   const ToolOptions& options, ProgressLine& progress);
 
 /// The line of a source.
 RecordingLine describe(const MotionSource& source, const ToolOptions& options, bool heldout);
@@ -47,8 +66,19 @@ std::vector<RowSource> rows_of_all(const LinearModel& model,
                                    const ToolOptions& options);
 
 /// A summary of several recordings whose noise is taken at the fit to all of them.
-RecordingSummary summarise_together(const LinearModel& model,
-                                    const std::vector<MotionSource>& sources,
+/// @param loaded  learns how many equations each recording has
+/// @throws TooLittleDataError  if there are none
+RecordingSummary summarise_together(const LinearModel& model, LoadedRecordings& loaded,
                                     const ToolOptions& options, ProgressLine& progress);
+
+/// Equations of held-out recordings. @param loaded  learns how many each recording has
+TorqueFactor heldout_equations(const LinearModel& model, LoadedRecordings& loaded,
+                               const ToolOptions& options);
+
+/// How many equations each joint has. @return (n)
+Eigen::VectorXd equations_of(const TorqueFactor& factor);
+
+/// Why a recording has no equations, beginning with its name; empty: it has some.
+std::string why_no_equations(const RecordingLine& line, const RowOptions& rows);
 
 }  // namespace dyngen::runtime

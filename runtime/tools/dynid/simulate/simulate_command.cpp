@@ -15,6 +15,7 @@
 #include "runtime/tools/dynid/effects/effect_laws.h"
 #include "runtime/tools/dynid/effects/recorded_effects.h"
 #include "runtime/tools/dynid/options/commands.h"
+#include "runtime/tools/dynid/recordings/loading.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 #include "runtime/tools/dynid/simulate/simulate_picture.h"
 #include "runtime/tools/dynid/simulate/simulated_loop.h"
@@ -25,6 +26,11 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+Trajectory trajectory_of(const std::string& path) {
+  ToldRepairs repairs;
+  return read_trajectory(path, &repairs.notices);
+}
 
 void check_joints(const std::string& what, int found, const SimulatedRobot& robot) {
   if (found == robot.joints()) return;
@@ -82,13 +88,13 @@ std::string robustness(const Controller& controller, const SimulatedRobot& model
 std::string table(const SimulatedRobot& plant, const ClosedLoopRun& run, const VectorXd& limit) {
   const Tracking tracking = tracking_of(run);
   std::string text =
-      fmt::format("\n{:<16}{:>12}{:>12}{:>4}{:>13}{:>11}{:>4}{:>11}{:>8}\n", "joint", "rms error",
+      fmt::format("\n{:<13}{:>10}{:>10}{:>4}{:>12}{:>9}{:>4}{:>10}{:>8}\n", "joint", "rms error",
                   "worst", "", "peak torque", "limit", "", "saturated", "stuck");
   for (Index j = 0; j < plant.joints(); ++j) {
     const bool revolute = plant.revolute[static_cast<std::size_t>(j)];
     text += fmt::format(
-        "{:<16}{:>12.4g}{:>12.4g} {:<3}{:>13.5g}{:>11} {:<3}{:>9.1f} %{:>6.1f} %\n",
-        fmt::format("{} {}", j + 1, plant.joint_names[static_cast<std::size_t>(j)]).substr(0, 15),
+        "{:<13}{:>10.4g}{:>10.4g} {:<3}{:>12.5g}{:>9} {:<3}{:>8.1f} %{:>6.1f} %\n",
+        fmt::format("{} {}", j + 1, plant.joint_names[static_cast<std::size_t>(j)]).substr(0, 12),
         tracking.rms[j], tracking.worst[j], revolute ? "rad" : "m", run.largest_torque[j],
         std::isfinite(limit[j]) ? fmt::format("{:.5g}", limit[j]) : "none", revolute ? "N m" : "N",
         100 * run.saturated_share[j], 100 * run.stuck_share[j]);
@@ -100,9 +106,7 @@ std::string table(const SimulatedRobot& plant, const ClosedLoopRun& run, const V
 
 int run_simulate(const SimulateOptions& options) {
   ProgressLine progress("dynid");
-  std::vector<Notice> repairs;
-  const Trajectory trajectory = read_trajectory(options.trajectory, &repairs);
-  for (const Notice& notice : repairs) std::cerr << notice.text() << "\n";
+  const Trajectory trajectory = trajectory_of(options.trajectory);
   progress.show("equations of " + options.robot, 0, 1);
   const bool same = options.plant.empty();
   const EffectCatalogue catalogue = effect_catalogue(options.effects);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "runtime/diagnosis/answer/verdict.h"
+#include "runtime/diagnosis/names/findings.h"
+#include "runtime/diagnosis/views/raw_residual.h"
+
+namespace dyngen::runtime {
+
+/// What is known of held-out torque besides its rms.
+struct HeldoutKnowledge {
+  /// (n) variance that the parameters' uncertainty adds to held-out torque, over that of what the
+  /// fit leaves
+  Eigen::VectorXd predicted;
+  /// (n) independent samples of what is left, of the fitted and of the held-out recordings
+  Eigen::VectorXd fitted_worth, heldout_worth;
+  /// (n) standard deviations by which blocks of held-out torque are predicted worse with the
+  /// findings than without; 0: they are not
+  Eigen::VectorXd worse;
+};
+
+/// (n) The mean over blocks of the logarithm of squares with the findings over those without, in
+/// standard deviations of that mean; 0 where they are lower.
+Eigen::VectorXd worsening(const EffectRecordings& heldout, const RunResiduals& before,
+                          const RunResiduals& after);
+
+/// Recordings are not explained where held-out torque of a joint is further above the noise than
+/// the uncertainty of its parameters tells (Fisher's F of both rms, and a third at least), or where
+/// findings predict it worse. Where nothing was found and held-out motion goes beyond the fitted
+/// one, it is the recordings that cannot tell.
+/// @return  none: nothing speaks against what was concluded
+std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const HeldoutKnowledge& known,
+                                       bool found_nothing, const std::vector<bool>& revolute);
+
+}  // namespace dyngen::runtime

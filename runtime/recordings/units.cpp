@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/recordings/units.h"
+
+#include <array>
+#include <numbers>
+
+#include "runtime/recordings/columns.h"
+
+namespace dyngen::runtime {
+namespace {
+
+struct NamedUnit {
+  std::string_view name;
+  UnitConversion conversion;
+};
+
+constexpr double kRadPerTurn = 2 * std::numbers::pi;
+
+constexpr std::array<NamedUnit, 13> kTimes = {{{"s", {}},
+                                               {"ms", {1, 1e3}},
+                                               {"us", {1, 1e6}},
+                                               {"ns", {1, 1e9}},
+                                               {"min", {60, 1}},
+                                               {"sec", {}},
+                                               {"msec", {1, 1e3}},
+                                               {"usec", {1, 1e6}},
+                                               {"nsec", {1, 1e9}},
+                                               {"second", {}},
+                                               {"millisecond", {1, 1e3}},
+                                               {"microsecond", {1, 1e6}},
+                                               {"nanosecond", {1, 1e9}}}};
+
+constexpr std::array<NamedUnit, 17> kLengths = {{{"rad", {}},
+                                                 {"radian", {}},
+                                                 {"mrad", {1, 1e3}},
+                                                 {"urad", {1, 1e6}},
+                                                 {"deg", {std::numbers::pi, 180}},
+                                                 {"degree", {std::numbers::pi, 180}},
+                                                 {"turn", {kRadPerTurn, 1}},
+                                                 {"rev", {kRadPerTurn, 1}},
+                                                 {"arcmin", {std::numbers::pi, 10800}},
+                                                 {"arcsec", {std::numbers::pi, 648000}},
+                                                 {"m", {}},
+                                                 {"dm", {1, 10}},
+                                                 {"cm", {1, 100}},
+                                                 {"mm", {1, 1e3}},
+                                                 {"um", {1, 1e6}},
+                                                 {"meter", {}},
+                                                 {"metre", {}}}};
+
+constexpr std::array<NamedUnit, 13> kTorques = {{{"nm", {}},
+                                                 {"mnm", {1, 1e3}},
+                                                 {"unm", {1, 1e6}},
+                                                 {"knm", {1e3, 1}},
+                                                 {"ncm", {1, 100}},
+                                                 {"nmm", {1, 1e3}},
+                                                 {"n", {}},
+                                                 {"mn", {1, 1e3}},
+                                                 {"kn", {1e3, 1}},
+                                                 {"newton", {}},
+                                                 {"newtonmeter", {}},
+                                                 {"newtonmetre", {}},
+                                                 {"j/rad", {}}}};
+
+constexpr std::array<NamedUnit, 4> kTemperatures = {
+    {{"c", {}}, {"degc", {}}, {"celsius", {}}, {"k", {1, 1, -273.15}}}};
+
+template <std::size_t kSize>
+std::optional<UnitConversion> find_unit(const std::array<NamedUnit, kSize>& units,
+                                        std::string_view word) {
+  for (const NamedUnit& unit : units) {
+    if (unit.name == word) return unit.conversion;
+  }
+  if (word.size() > 3 && word.back() == 's')
+    return find_unit(units, word.substr(0, word.size() - 1));
+  return std::nullopt;
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+/// A rate of a length: "deg/s" of power 1, "deg/s2" of power 2.
+std::optional<UnitConversion> rate_unit(std::string_view word, int power) {
+  if (power == 1 && (word == "rpm" || word == "1/min")) return UnitConversion{kRadPerTurn, 60, 0};
+  const std::array<std::string_view, 4> first = {"/s", "ps", "s-1", "/min"};
+  const std::array<std::string_view, 4> second = {"/s2", "/s/s", "s-2", "/(s2)"};
+  for (const std::string_view end : power == 1 ? first : second) {
+    if (word.size() <= end.size() || !word.ends_with(end)) continue;
+    std::optional<UnitConversion> length =
+        find_unit(kLengths, word.substr(0, word.size() - end.size()));
+    if (length && end == "/min") length->divisor *= 60;
+    if (length) return length;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string_view without_brackets(std::string_view word) {
+  word = trimmed(word);
+  if (word.size() < 2) return word;
+  constexpr std::array<std::string_view, 4> kPairs = {"[]", "()", "<>", "{}"};
+  for (const std::string_view pair : kPairs) {
+    if (word.front() == pair[0] && word.back() == pair[1]) {
+      return trimmed(word.substr(1, word.size() - 2));
+    }
+  }
+  return word;
+}
+
+std::string plain_unit(std::string_view word) {
+  std::string text(without_brackets(word));
+  constexpr std::array<std::array<std::string_view, 2>, 12> kSigns = {{{"\xC2\xB0", "deg"},
+                                                                       {"\xC2\xBA", "deg"},
+                                                                       {"\xC2\xB5", "u"},
+                                                                       {"\xCE\xBC", "u"},
+                                                                       {"\xC2\xB2", "2"},
+                                                                       {"\xC2\xB7", ""},
+                                                                       {"\xE2\x8B\x85", ""},
+                                                                       {"\xE2\x80\xA2", ""},
+                                                                       {"\xB0", "deg"},
+                                                                       {"\xB5", "u"},
+                                                                       {"\xB2", "2"},
+                                                                       {"\xB7", ""}}};
+  for (const auto& [from, to] : kSigns) replace_all(text, from, to);
+  std::string normal;
+  for (const char c : text) {
+    if (is_blank(c) || c == '*' || c == '.' || c == '_' || c == '^') continue;
+    normal += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  replace_all(normal, "n-m", "nm");
+  replace_all(normal, "/sec", "/s");
+  return normal;
+}
+
+std::optional<UnitConversion> unit_conversion(std::string_view word, Quantity quantity) {
+  word = without_brackets(word);
+  // "MNm" would be a million N m; nobody means that, and nobody should get a thousandth of it.
+  if (word.empty() || (quantity == Quantity::kTorque && word.front() == 'M')) return std::nullopt;
+  const std::string normal = plain_unit(word);
+  switch (quantity) {
+    case Quantity::kTime:
+      return find_unit(kTimes, normal);
+    case Quantity::kPosition:
+      return find_unit(kLengths, normal);
+    case Quantity::kVelocity:
+      return rate_unit(normal, 1);
+    case Quantity::kAcceleration:
+      return rate_unit(normal, 2);
+    case Quantity::kTorque:
+      return find_unit(kTorques, normal);
+    case Quantity::kTemperature:
+      return find_unit(kTemperatures, normal);
+  }
+  return std::nullopt;
+}
+
+std::string_view known_units(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kTime:
+      return "s, ms, us, ns or min";
+    case Quantity::kPosition:
+      return "rad, deg, turn, m, mm or the like";
+    case Quantity::kVelocity:
+      return "rad/s, deg/s, rpm, m/s, mm/s or the like";
+    case Quantity::kAcceleration:
+      return "rad/s^2, deg/s^2, m/s^2, mm/s^2 or the like";
+    case Quantity::kTorque:
+      return "N m, mN m, N mm, N cm, kN m, N, mN or kN";
+    case Quantity::kTemperature:
+      return "C or K";
+  }
+  return {};
+}
+
+}  // namespace dyngen::runtime
