@@ -297,9 +297,8 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     train = load_recordings(options.recordings, reading, false, progress);
     heldout = load_recordings(options.heldout, reading, true, progress);
     hold_out_parts(options.heldout_part, train, heldout, options);
-    settle_cutoff(with_effects ? nullptr : &model, train, heldout, reading, progress);
-    for (std::string& remark :
-         judge_recordings(report.robot, train.sources, options, progress)) {
+    settle_cutoff(with_effects || model.held ? nullptr : &model, train, heldout, reading, progress);
+    for (std::string& remark : judge_recordings(report.robot, train.sources, options, progress)) {
       report.notes.push_back(std::move(remark));
     }
     if (with_effects) {
