@@ -19,8 +19,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kBlock = 1024;   // samples whose regressor is in memory at once
-constexpr double kTravel = 2.5;  // encoder steps that a joint moves back before its sign turns
+constexpr Index kSignalBlock = 1024;  // samples whose regressor is in memory at once
+constexpr double kTravel = 2.5;       // encoder steps that a joint moves back before its sign turns
 
 /// A variable that is a part of the model's torque, or its rate.
 struct TorqueVariable {
@@ -134,8 +134,8 @@ const EffectSignals::RigidTorque& EffectSignals::rigid(std::size_t run) {
   const Index n = model.joints(), size = model.size();
   rigid.torque = rigid.load = MatrixXd::Zero(motion.samples(), n);
   MatrixXd Y;
-  for (Index start = 0; start < motion.samples(); start += kBlock) {
-    const Index rows = std::min(kBlock, motion.samples() - start);
+  for (Index start = 0; start < motion.samples(); start += kSignalBlock) {
+    const Index rows = std::min(kSignalBlock, motion.samples() - start);
     model.regressor(motion.q.middleRows(start, rows), motion.dq.middleRows(start, rows),
                     motion.ddq.middleRows(start, rows), Y);
     for (Index j = 0; j < n; ++j) {
@@ -164,8 +164,8 @@ const MatrixXd& EffectSignals::regressor_rows(std::size_t run, int joint) {
   const std::vector<int>& columns = model.columns[static_cast<std::size_t>(joint)];
   rows.resize(motion.samples(), static_cast<Index>(columns.size()));
   MatrixXd Y;
-  for (Index start = 0; start < motion.samples(); start += kBlock) {
-    const Index count = std::min(kBlock, motion.samples() - start);
+  for (Index start = 0; start < motion.samples(); start += kSignalBlock) {
+    const Index count = std::min(kSignalBlock, motion.samples() - start);
     model.regressor(motion.q.middleRows(start, count), motion.dq.middleRows(start, count),
                     motion.ddq.middleRows(start, count), Y);
     for (std::size_t i = 0; i < columns.size(); ++i) {

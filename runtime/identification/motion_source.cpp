@@ -266,9 +266,9 @@ MotionSource motion_of_file(const std::string& path, const MotionOptions& option
   if (bytes_of_text(path) > options.stream_above && options.state.method == StateMethod::kLowPass) {
     return stream_of_file(path, options);
   }
-  std::vector<Notice> own;
-  std::vector<Notice>& told = repairs == nullptr ? own : *repairs;
   RecordingCondition condition;
+  std::vector<Notice> own;
+  std::vector<Notice>& told = repairs != nullptr ? *repairs : own;
   Recording recording = read_recording(path, {}, &told);
   condition.repairs = told;
   return motion_in_memory(std::move(recording), std::move(condition), options);

@@ -25,9 +25,10 @@ constexpr double kNotMuchWorse = 1.2;  // what it may leave of other joints
 constexpr double kMuchIsLeft = 0.3;  // from here on any gravity is tried, and many turns are asked
 constexpr double kMuch = 0.5;        // said, if nothing explains it
 constexpr double kGravityBetter = 0.5;
-constexpr double kLagMatters = 0.05;  // from here on lags are tried
+constexpr double kCertainlyNegative = 5;  // standard deviations
+constexpr double kLagMatters = 0.01;      // from here on lags are tried
 constexpr double kLagBetter = 0.5;
-constexpr double kMostLag = 0.05;          // s
+constexpr double kLagTried = 0.05;         // s
 constexpr double kManyTurns = 25;          // rad: four turns
 constexpr double kStandardGravity = 9.81;  // m/s^2
 /// kg/m^3: what arms weigh, over the cube of their reach (UR5 30, KR300 70), and how far beyond
@@ -60,12 +61,19 @@ class ModelJudge {
     add_sign_remarks(model_, samples_, plain_, remarks_);
     if (refused_since(before)) return;
     const double most = plain_.left.maxCoeff();
-    if (most >= kSuspicious && other_reading()) return;
-    if (most >= kSuspicious && other_gravity(most >= kMuchIsLeft)) return;
+    const std::optional<int> impossible = negative_parameter();
+    const bool suspicious = most >= kSuspicious || impossible;
+    if (suspicious && other_reading()) return;
+    if (suspicious && other_gravity(most >= kMuchIsLeft)) return;
     if (most >= kMuchIsLeft && many_turns(farthest)) return;
     torque_unit();
     if (plain_.left.maxCoeff() >= kLagMatters) lags();
-    if (plain_.left.maxCoeff() >= kMuch && remarks_.size() == before) much_is_left();
+    if (remarks_.size() > before) return;
+    if (impossible) {
+      no_body(*impossible);
+    } else if (most >= kMuch) {
+      much_is_left();
+    }
   }
 
  private:
@@ -202,6 +210,30 @@ class ModelJudge {
     return norm > 0 ? 1 / norm : INFINITY;
   }
 
+  /// A parameter that is no sum of others, negative where no body and no bearing has it so.
+  [[nodiscard]] std::optional<int> negative_parameter() const {
+    for (int c = 0; c < model_.size(); ++c) {
+      const LinearParameter& parameter = model_.parameters[static_cast<std::size_t>(c)];
+      const std::string& name = parameter.name;
+      const bool own = parameter.formula == name || parameter.kind != ParameterKind::kInertial;
+      const bool positive = parameter.kind == ParameterKind::kInertial
+                                ? name.starts_with("XX") || name.starts_with("YY") ||
+                                      name.starts_with("ZZ") || parameter.unit == "kg"
+                                : parameter.kind != ParameterKind::kOffset;
+      if (own && positive && plain_.estimate.beta[c] < -kCertainlyNegative * deviation(c)) return c;
+    }
+    return std::nullopt;
+  }
+
+  void no_body(int place) {
+    const LinearParameter& parameter = model_.parameters[static_cast<std::size_t>(place)];
+    remarks_.push_back(
+        {"negative", false, 0, "",
+         fmt::format("{} comes out negative ({:.3g} {}), which nothing is: a sign, gravity, or "
+                     "physics that the model leaves out?",
+                     parameter.name, plain_.estimate.beta[place], parameter.unit)});
+  }
+
   void lags() {
     const Index most = samples_.most_lag();
     if (most < 1) return;
@@ -285,7 +317,7 @@ double farthest_span(const LinearModel& model, const std::vector<MotionSource>& 
 
 void add_model_remarks(const JudgedRobot& robot, const std::vector<MotionSource>& sources,
                        std::vector<Remark>& remarks) {
-  TrialSamples samples(sources, kMostLag);
+  TrialSamples samples(sources, kLagTried);
   if (samples.empty()) samples = TrialSamples(sources, 0);  // runs too short for lags
   if (samples.empty()) return;
   ModelJudge(robot, samples, remarks).run(farthest_span(*robot.model, sources));

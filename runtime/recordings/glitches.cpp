@@ -68,9 +68,9 @@ class PositionGlitches {
     };
     if (left >= 0) collect(std::max<Index>(0, left - kNearGlitch), left);
     if (right >= 0) collect(right, std::min(x_.size() - 1, right + kNearGlitch));
-    constexpr std::size_t kFewestSteps = 5;
+    constexpr std::size_t kFewestSeconds = 5;
     constexpr double kUsual = 0.7;
-    near.known = seconds.size() >= kFewestSteps;
+    near.known = seconds.size() >= kFewestSeconds;
     near.moves = std::any_of(steps.begin(), steps.end(), [](double step) { return step > 0; });
     near.step = quantile_of(steps, kUsual);
     near.second = quantile_of(seconds, kUsual);
@@ -175,8 +175,10 @@ std::vector<Glitch> repair_torque_glitches(const Eigen::Ref<const Eigen::VectorX
   std::vector<Glitch> found;
   const Index size = torque.size();
   if (size < kNearGlitch || !(range > 0)) return found;
-  const auto far = [&](Index k, double from) {
-    return std::abs(torque(k) - from) > kRanges * range;
+  // At an end of a run the answer to a step looks alike, so more is asked.
+  constexpr double kAtEnd = 2;
+  const auto far = [&](Index k, double from, bool at_end) {
+    return std::abs(torque(k) - from) > (at_end ? kAtEnd : 1) * kRanges * range;
   };
   for (Index k = 0; k < size; ++k) {
     for (Index count = 1; count <= kLongestGlitch && k + count <= size; ++count) {
@@ -187,7 +189,8 @@ std::vector<Glitch> repair_torque_glitches(const Eigen::Ref<const Eigen::VectorX
       const double after = torque(right >= size ? left : right);
       if (std::abs(after - before) > range / 2) continue;
       bool all_far = true;
-      for (Index i = k; i < k + count; ++i) all_far = all_far && far(i, (before + after) / 2);
+      for (Index i = k; i < k + count; ++i)
+        all_far = all_far && far(i, (before + after) / 2, at_end);
       if (!all_far) continue;
       found.push_back({k, count, at_end, torque(k)});
       if (!at_end) {

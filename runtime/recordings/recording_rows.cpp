@@ -22,6 +22,12 @@ char told_separator(std::string_view line) {
   return word == "sep=" && text.size() - begin == 5 ? text[begin + 4] : '\0';
 }
 
+/// A comment without what makes it one.
+std::string_view without_marks(std::string_view comment) {
+  const std::size_t begin = comment.find_first_not_of("# \t");
+  return begin == comment.npos ? std::string_view() : comment.substr(begin);
+}
+
 bool reads_as_number(std::string_view text) {
   std::string word(text);
   if (!word.empty() && word[0] == '+') word.erase(0, 1);
@@ -50,7 +56,10 @@ std::string numbered_names(std::string_view word, std::size_t count, char separa
 RecordingRows::RecordingRows(ByteSource source, const ExpectedColumns& expected, NoticeLog& log)
     : log_(&log), lines_(std::move(source), log), columns_(find_header(expected)) {
   // A row of units changes the columns, so it is read before the first row of data.
+  units_may_come_ = true;
+  if (!comment_after_.empty()) read_unit_row(comment_after_, comment_after_line_, columns_, log);
   if (next_line()) held_back_ = !read_unit_row(line_.text, line_.number, columns_, log);
+  units_may_come_ = false;
   parser_.emplace(columns_, log);
 }
 
@@ -80,8 +89,10 @@ bool RecordingRows::next_line() {
     if (text.empty()) {
       log_->add("blank", line_.number, 1, "found a blank line; skipped");
     } else if (text.front() == '#') {
+      const std::string_view words = without_marks(text);
+      if (units_may_come_ && read_unit_row(words, line_.number, columns_, *log_)) continue;
       log_->add("comment", line_.number, 1, "found a comment; skipped");
-      keep_comment(text);
+      keep_comment(words);
     } else {
       return true;
     }
@@ -89,14 +100,17 @@ bool RecordingRows::next_line() {
   return false;
 }
 
-/// Some programs write the header as a comment.
+/// Some programs write the header as a comment, and units in the next one.
 void RecordingRows::keep_comment(std::string_view text) {
-  if (header_found_) return;
-  text.remove_prefix(text.find_first_not_of("# \t") == text.npos ? text.size()
-                                                                 : text.find_first_not_of("# \t"));
-  if (text.size() <= 1 << 16 && looks_like_header(text)) {
+  constexpr std::size_t kLongest = 1 << 16;
+  if (header_found_ || text.size() > kLongest) return;
+  if (looks_like_header(text)) {
     comment_.assign(text);
     comment_line_ = line_.number;
+    comment_after_.clear();
+  } else if (!comment_.empty() && comment_after_.empty()) {
+    comment_after_.assign(text);
+    comment_after_line_ = line_.number;
   }
 }
 
@@ -152,6 +166,7 @@ Columns RecordingRows::find_header(const ExpectedColumns& expected) {
     held_back_ = true;
     return read_header(comment_, comment_line_, told, expected.joints, expected.torque, *log_);
   }
+  comment_after_.clear();
   if (numbers) refuse_numbers(expected, separator);
   return read_header(line_.text, line_.number, told, expected.joints, expected.torque, *log_);
 }

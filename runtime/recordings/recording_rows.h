@@ -49,6 +49,9 @@ class RecordingRows {
   bool held_back_ = false;  ///< line_ is still to be used
   std::string comment_;     ///< the last one that looks like a header
   std::size_t comment_line_ = 0;
+  std::string comment_after_;  ///< that one's next
+  std::size_t comment_after_line_ = 0;
+  bool units_may_come_ = false;
   Columns columns_;
   std::optional<RowParser> parser_;
   std::optional<RecordingError> last_short_;  ///< an error, unless the file ends there

@@ -93,7 +93,9 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
         robots = {name: arms.Arm(name, folder, options.dyngen) for name in arms.GEOMETRY}
         truths = {name: truth_of(arm, options.dynid, folder) for name, arm in robots.items()}
-        pairs = [(robots[name], kind) for kind in wanted for name in kind.arms]
+        # all kinds first, then each of them on another arm
+        pairs = [(robots[kind.arms[(turn + place) % len(kind.arms)]], kind)
+                 for turn in range(len(robots)) for place, kind in enumerate(wanted)]
         tasks = [(*pairs[i % len(pairs)], options.seed * 100003 + i) for i in range(options.count)]
         with ThreadPoolExecutor(options.jobs) as pool:
             results = list(pool.map(

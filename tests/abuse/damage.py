@@ -225,12 +225,10 @@ def motor_side(record, random, arm):
 @kind("unwrapped|whole turn|wrapped", arms=("planar2r", "elbow6r"))
 def wrapped(record, random, arm):
     file = plain(record)
-    low = random.choice([-np.pi, 0.0])
     for name in revolute_columns(record, arm):
         q = file.columns[name]
-        q += random.uniform(0.8, 1) * (np.pi if low else 2 * np.pi) - q.max() + 0.3
-        file.columns[name] = (q - low) % (2 * np.pi) + low
-    file.columns = dict(file.columns)
+        low = random.uniform(q.min(), q.max())  # where the encoder's turn ends
+        file.columns[name] = (q - low) % (2 * np.pi) + low - 2 * np.pi * (low > 0)
     return file
 
 
@@ -553,7 +551,7 @@ def nothing(record, random, arm):
 
 # ---- too little
 
-@kind("samples|short|equations|determine|filter")
+@kind("samples|short|equations|determine|filter|noise of accelerations")
 def few_samples(record, random, arm):
     begin = int(random.integers(0, 1000))
     return rows(plain(record), slice(begin, begin + int(random.integers(2, 200))))
@@ -585,7 +583,7 @@ def gravity_absent(record, random, arm):
     return file
 
 
-@kind("gravity|negative|sign")
+@kind("gravity|negative|sign|axis")
 def gravity_downward(record, random, arm):
     file = plain(record)
     file.robot = lambda arm: arm.text(False, gravity=-9.81)

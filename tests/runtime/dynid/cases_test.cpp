@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "runtime/recordings/trajectory_file.h"
 #include "tests/runtime/dynid/run_dynid.h"
 
 namespace dyngen::test {
@@ -181,6 +182,47 @@ TEST_F(Cases, MissingGravityIsNoPhysics) {
   const CaseJson diagnosis = answer("diagnose " + call, 3);
   EXPECT_EQ(diagnosis.at("verdict"), "insufficient_data");
   EXPECT_TRUE(diagnosis.at("findings").empty());
+}
+
+TEST_F(Cases, ATrajectoryIsTheCommandedMotionOfInstruments) {
+  constexpr Eigen::Index kSamples = 2001;
+  runtime::Trajectory asked;
+  asked.time = Eigen::VectorXd::LinSpaced(kSamples, 0, 8);
+  for (auto* part : {&asked.q, &asked.dq, &asked.ddq}) part->resize(kSamples, 2);
+  for (Eigen::Index j = 0; j < 2; ++j) {
+    const double w = 2.2 + 1.3 * static_cast<double>(j);
+    const Eigen::ArrayXd phase = w * asked.time.array();
+    asked.q.col(j) = phase.sin() + 0.4 * (2.7 * phase).sin();
+    asked.dq.col(j) = w * (phase.cos() + 2.7 * 0.4 * (2.7 * phase).cos());
+    asked.ddq.col(j) = -w * w * (phase.sin() + 2.7 * 2.7 * 0.4 * (2.7 * phase).sin());
+  }
+  write_trajectory(asked, made("asked.csv"));
+  const std::string robot = file("restart/true2.robot");
+  const Outcome simulated =
+      dynid("simulate " + robot + " --trajectory " + made("asked.csv") +
+            " --controller ff --torque-noise 0.1 --encoder 1e-4 -o " + made("run.csv"));
+  if (simulated.exit_code == 2) GTEST_SKIP() << simulated.out;
+  ASSERT_EQ(simulated.exit_code, 0) << simulated.out;
+
+  const std::string call = "fit " + file("gap/arm2.robot") + " " + made("run.csv") +
+                           " --period off --method iv --method wls --tracked ";
+  const CaseJson fit = answer(call + made("asked.csv"), 0);
+  expect_near(fit, kArm2);
+  const CaseJson& test = fit.at("methods").at(0).at("hausman");
+  EXPECT_GT(test.at("relevance").get<double>(), 0.3) << outcome_.out;
+  EXPECT_LT(test.at("largest_move").get<double>(), 3) << outcome_.out;
+  // a recording of the motion is taken too
+  EXPECT_EQ(dynid(call + made("run.csv")).exit_code, 0);
+  // one that does not cover it is refused
+  runtime::Trajectory half;
+  half.time = asked.time.head(kSamples / 2);
+  half.q = asked.q.topRows(kSamples / 2);
+  half.dq = asked.dq.topRows(kSamples / 2);
+  half.ddq = asked.ddq.topRows(kSamples / 2);
+  write_trajectory(half, made("half.csv"));
+  const Outcome refused = dynid(call + made("half.csv"));
+  EXPECT_EQ(refused.exit_code, 1) << refused.out;
+  EXPECT_NE(refused.out.find("same zero of time"), std::string::npos) << refused.out;
 }
 
 #ifdef DYNGEN_WITH_CERES

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/recordings/gzip.h"
-#include "runtime/recordings/trajectory_file.h"
 #include "runtime/recordings/writer.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/runtime/dynid/multisine.h"
@@ -52,32 +51,6 @@ class Commands : public testing::Test {
   fs::path folder_;
   DescribedRobot robot_;
 };
-
-TEST_F(Commands, ATrajectoryIsTheCommandedMotionOfInstruments) {
-  const test::MultisineOptions options{.torque_noise = 0.2, .seed = 4};
-  const std::string recording = record("run.csv", options);
-  const Recording motion =
-      test::multisine(robot_.linear, test::plausible_beta(robot_.linear, 1), options);
-  write_trajectory({motion.time, motion.q, motion.dq, motion.ddq}, path("commanded.csv"));
-  const std::string call = "fit " + std::string(kRobot) + " " + recording +
-                           " --period off --method iv --method wls --tracked ";
-  const Outcome fit = dynid(call + path("commanded.csv") + " --json " + path("fit.json"));
-  ASSERT_EQ(fit.exit_code, 0) << fit.out;
-  const auto json = nlohmann::json::parse(content(path("fit.json")));
-  const auto& iv = json["methods"][0];
-  EXPECT_EQ(iv["method"], "iv");
-  EXPECT_GT(iv["hausman"]["relevance"].get<double>(), 0.5) << fit.out;
-  EXPECT_LT(iv["hausman"]["largest_move"].get<double>(), 3) << fit.out;
-  // a recording of it is taken too, and one that does not cover it is refused
-  EXPECT_EQ(dynid(call + recording).exit_code, 0);
-  const Trajectory half{
-      motion.time.head(motion.samples() / 2), motion.q.topRows(motion.samples() / 2),
-      motion.dq.topRows(motion.samples() / 2), motion.ddq.topRows(motion.samples() / 2)};
-  write_trajectory(half, path("half.csv"));
-  const Outcome refused = dynid(call + path("half.csv"));
-  EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_NE(refused.out.find("same zero of time"), std::string::npos) << refused.out;
-}
 
 TEST_F(Commands, HoldsOutAllRecordingsThatFollow) {
   const std::string call = "fit " + std::string(kRobot) + " " + record("a.csv", {.seed = 1}) +

@@ -24,7 +24,7 @@ namespace dyngen::runtime {
 namespace {
 
 using Eigen::Index;
-using Json = nlohmann::ordered_json;
+using ForJson = nlohmann::ordered_json;
 using test::content;
 using test::dynid;
 using test::Outcome;
@@ -46,10 +46,10 @@ std::string small_arm() {
 }
 
 /// What dynid diagnose writes of one finding on the small arm.
-Json findings(const std::string& family, int joint,
+ForJson findings(const std::string& family, int joint,
               const std::vector<std::pair<std::string, double>>& parameters,
               const std::vector<std::string>& aliases) {
-  Json numbers = Json::object();
+  ForJson numbers = ForJson::object();
   for (const auto& [name, value] : parameters) {
     numbers[name] = {{"value", value}, {"std", nullptr}, {"unit", "1"}};
   }
@@ -65,22 +65,22 @@ Json findings(const std::string& family, int joint,
              {"probability", 0.6},
              {"formula", ""},
              {"parameters", numbers}}}},
-          {"base_parameters", Json::array()},
+          {"base_parameters", ForJson::array()},
           {"heldout", {{"noise_floor", {0.3, 0.2}}}}};
 }
 
-Json stribeck_findings() {
+ForJson stribeck_findings() {
   return findings("stribeck", 2, {{"Fs", 3.3}, {"vs", 0.05}, {"delta", 2}},
                   {"stribeck", "presliding"});
 }
 
-std::string written(const std::string& name, const Json& json) {
+std::string written(const std::string& name, const ForJson& json) {
   std::ofstream(temporary_path(name)) << json.dump();
   return temporary_path(name);
 }
 
 struct Pair {
-  Json findings;
+  ForJson findings;
   double least_gain;  ///< over a random motion of the same length; in brackets what was seen
 };
 
@@ -162,10 +162,10 @@ TEST(ExciteFor, WritesTheTrajectoryAndSaysWhatItIsWorth) {
   }
   const Trajectory trajectory = read_trajectory(temporary_path("a.csv"));
   EXPECT_EQ(trajectory.samples(), 5 * 2000 + 1);
-  const Json json = Json::parse(content(temporary_path("s.json")));
+  const ForJson json = ForJson::parse(content(temporary_path("s.json")));
   EXPECT_EQ(json["schema"], "dynid.separation/1");
   EXPECT_TRUE(json["found"]);
-  EXPECT_EQ(json["rivals"], Json({"presliding"}));
+  EXPECT_EQ(json["rivals"], ForJson({"presliding"}));
   EXPECT_EQ(json["finding"]["effect"], "stribeck");
   EXPECT_GT(json["separation"].get<double>(), 3 * json["random"].get<double>());
   EXPECT_EQ(json["archetypes"].size(), 8u);
@@ -201,7 +201,7 @@ class ExciteForWrong : public testing::Test {
     EXPECT_NE(run.out.find("wrong.json"), std::string::npos) << run.out;
     return run.out;
   }
-  static std::string refused(const Json& json) { return refused(json.dump()); }
+  static std::string refused(const ForJson& json) { return refused(json.dump()); }
 
   static void expect_part(const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
@@ -216,7 +216,7 @@ TEST_F(ExciteForWrong, FilesThatAreNoFindings) {
   expect_part(refused(std::string("{\n\"schema\": \n")), "not JSON, expected what dynid diagnose");
   expect_part(refused(std::string("[1, 2]")), "the file: found [1,2], expected an object");
   expect_part(refused(std::string("{}")), "schema: found nothing, expected the key of schema");
-  Json other = stribeck_findings();
+  ForJson other = stribeck_findings();
   other["schema"] = "dynid.atlas/1";
   expect_part(refused(other), "schema: found \"dynid.atlas/1\", expected \"dynid.diagnosis/1\"");
   other = stribeck_findings();
@@ -237,7 +237,7 @@ TEST_F(ExciteForWrong, FilesThatAreNoFindings) {
 }
 
 TEST_F(ExciteForWrong, FindingsThatDoNotFitTheRobotOrTheCatalogue) {
-  Json other = stribeck_findings();
+  ForJson other = stribeck_findings();
   other["findings"][0]["joint"] = 3;
   expect_part(refused(other), "findings[0].joint: found 3, expected at most 2, the joints of");
   other = stribeck_findings();
@@ -256,10 +256,10 @@ TEST_F(ExciteForWrong, FindingsThatDoNotFitTheRobotOrTheCatalogue) {
 }
 
 TEST_F(ExciteForWrong, NothingIsLeftToSeparate) {
-  Json other = stribeck_findings();
+  ForJson other = stribeck_findings();
   other["findings"][0]["aliases"] = {"stribeck"};
   expect_part(refused(other), "each of its 1 findings has one name: nothing is left to separate");
-  other["findings"] = Json::array();
+  other["findings"] = ForJson::array();
   expect_part(refused(other), "it has no findings: nothing is left to separate");
 }
 
@@ -276,7 +276,7 @@ TEST_F(ExciteForWrong, OptionsOfTheOtherDesignAreRefused) {
 }
 
 TEST(ExciteFor, TheFirstFindingWithSeveralNamesIsMeant) {
-  Json several = findings("load_friction", 1, {{"mu", 0.05}}, {"load_friction"});
+  ForJson several = findings("load_friction", 1, {{"mu", 0.05}}, {"load_friction"});
   several["findings"].push_back(stribeck_findings()["findings"][0]);
   const OpenFinding finding = read_open_finding(written("f.json", several));
   EXPECT_EQ(finding.number, 2);
@@ -336,14 +336,14 @@ TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
     const Outcome run =
         dynid("diagnose " + arm + " " + recordings + " --json " + temporary_path("d.json"));
     EXPECT_EQ(run.exit_code, 0) << run.out;
-    const Json json = Json::parse(content(temporary_path("d.json")));
+    const ForJson json = ForJson::parse(content(temporary_path("d.json")));
     EXPECT_EQ(json["findings"].size(), 1u) << run.out;
-    return json["findings"].empty() ? Json::object() : json["findings"][0];
+    return json["findings"].empty() ? ForJson::object() : json["findings"][0];
   };
-  const Json before = finding(first);
+  const ForJson before = finding(first);
   ASSERT_EQ(before["family"], "stribeck") << before;
   // the motion that would tell it from pre-sliding holds more of it
-  Json asked = Json::parse(content(temporary_path("d.json")));
+  ForJson asked = ForJson::parse(content(temporary_path("d.json")));
   asked["findings"][0]["aliases"] = {"stribeck", "presliding"};
   written("d.json", asked);
   const Outcome design = dynid("excite " + arm + " --for " + temporary_path("d.json") +
@@ -356,8 +356,8 @@ TEST(ExciteFor, OneRecordingOfItSpeaksForTheTruth) {
   motion.dq = trajectory.dq;
   motion.ddq = trajectory.ddq;
   const std::string second = record("second.csv", motion, plant, kOwnSeed + 100);
-  const Json after = finding(first + " " + second);
-  EXPECT_EQ(after["aliases"], Json({"stribeck"})) << after;
+  const ForJson after = finding(first + " " + second);
+  EXPECT_EQ(after["aliases"], ForJson({"stribeck"})) << after;
   const double doubt = 1 - before["probability"].get<double>();
   EXPECT_LT(1 - after["probability"].get<double>(), 0.1 * doubt) << before << after;
   const double lambda = before["evidence"]["lambda"];

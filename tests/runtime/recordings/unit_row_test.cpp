@@ -138,6 +138,18 @@ TEST(Units, OfSiAreReadToo) {
                                                      "all of them SI; read"});
 }
 
+TEST(Units, MayStandInAComment) {
+  const std::string rows = in_degrees("", "").substr(1);
+  for (const std::string header : {"time,q1,tau1,qd1\n# ms,deg,mNm,deg/s\n",
+                                   "# time,q1,tau1,qd1\n# [ms],[deg],[mNm],[deg/s]\n",
+                                   "# time [ms],q1 [deg],tau1 [mNm],qd1 [deg/s]\n"}) {
+    const ReadResult result = read_text(header + rows);
+    ASSERT_EQ(result.recording.samples(), 20) << header;
+    EXPECT_DOUBLE_EQ(result.recording.q(3, 0), 9 * M_PI / 180) << header;
+    EXPECT_EQ(result.recording.time(7), 0.014) << header;
+  }
+}
+
 TEST(Units, AreNotSeenInOtherNames) {
   std::vector<std::string> lines = plain_lines(20);
   lines[0] = "time,q1,q1_filtered,tau1,q1_ref";

@@ -13,6 +13,7 @@
 #include "runtime/identification/common_cutoff.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/process/message.h"
+#include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 
 namespace dyngen::runtime {
@@ -56,6 +57,10 @@ std::string summary_bytes(const std::string& path, const DescribedRobot& robot,
   }
   MotionSource source = motion_and_warnings(path, options, warnings);
   source = at_cutoff({source}, common_cutoff(robot.linear, {source})).front();
+  for (const Remark& remark : judge(judged_robot(robot), {source})) {
+    if (remark.refused && !options.as_recorded) throw ImplausibleError(remark.words(), remark.text);
+    warnings += remark.words() + "\n";
+  }
   RobotSummaries one = empty_summaries(robot.linear);
   const RecordingSummary summary = summarise(robot.linear, source, options.rows);
   RecordingLine line = describe(source, options, false);

@@ -142,8 +142,15 @@ void make_instruments(const ToolOptions& options, const LoadedRecordings& train,
   const MotionSource commanded = commanded_motion(
       read_trajectory(options.tracked, &repairs.notices), options.tracked, train.sources.front());
   const Estimate start = weighted_least_squares(report.data.summary.equations);
-  report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
-                                                  commanded, options.rows, start.beta);
+  try {
+    report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
+                                                    commanded, options.rows, start.beta);
+  } catch (const std::runtime_error& error) {
+    throw TooLittleDataError(fmt::format(
+        "method iv: the model that least squares give cannot track the commanded motion: "
+        "{}",
+        error.what()));
+  }
 }
 
 /// "arm.robot" -> "arm.NAME.robot"
