@@ -146,6 +146,10 @@ const EffectSignals::RigidTorque& EffectSignals::rigid(std::size_t run) {
       }
     }
   }
+  if (model.held) {
+    rigid.torque += model.held->torque(motion.q, motion.dq, motion.ddq, false);
+    rigid.load += model.held->torque(motion.q, motion.dq, motion.ddq, true);
+  }
   const VectorXd& rotors = data_.robot.joined_rotors;
   for (Index j = 0; j < rotors.size(); ++j) rigid.load.col(j) -= rotors[j] * motion.ddq.col(j);
   return rigid;
@@ -174,6 +178,15 @@ const MatrixXd& EffectSignals::regressor_rows(std::size_t run, int joint) {
     }
   }
   return rows;
+}
+
+const MatrixXd& EffectSignals::held_torque(std::size_t run) {
+  const auto [place, added] = held_torque_.try_emplace(run);
+  if (added) {
+    const Motion& motion = data_.runs[run].motion;
+    place->second = data_.model.held->torque(motion.q, motion.dq, motion.ddq, false);
+  }
+  return place->second;
 }
 
 const MatrixXd& EffectSignals::filtered_rates(std::size_t run, int joint) {
@@ -229,8 +242,7 @@ VectorXd EffectSignals::signal(std::size_t run, const std::string& name,
                           torque->differences);
   }
   if (const auto kind = parameter_variable(name)) {
-    const int place = parameter_of(data_.model, joint, *kind);
-    return VectorXd::Constant(motion.samples(), place < 0 ? 0 : beta_[place]);
+    return VectorXd::Constant(motion.samples(), parameter_value(data_.model, beta_, joint, *kind));
   }
   if (of_rigid_model(name)) {
     const int column = name.starts_with("wrench_") ? joint : target;

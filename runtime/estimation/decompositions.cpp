@@ -22,11 +22,15 @@ Eigen::CompleteOrthogonalDecomposition<MatrixXd> orthogonal(const MatrixXd& A, d
 }  // namespace
 
 SingularValues decomposed(const MatrixXd& A) {
+  if (A.size() == 0) {
+    return {MatrixXd(A.rows(), 0), VectorXd(0), MatrixXd::Identity(A.cols(), A.cols())};
+  }
   const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
 }
 
 VectorXd singular_values(const MatrixXd& A) {
+  if (A.size() == 0) return VectorXd(0);
   return Eigen::JacobiSVD<MatrixXd>(A).singularValues();
 }
 
@@ -36,6 +40,7 @@ MatrixXd triangle_of(const MatrixXd& A) {
 }
 
 MatrixXd triangle_in_place(MatrixXd& A) {
+  if (A.size() == 0) return MatrixXd::Zero(A.cols(), A.cols());
   const Index size = A.cols(), rows = std::min(size, A.rows());
   const Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> qr(A);
   MatrixXd R = MatrixXd::Zero(size, size);
@@ -47,10 +52,12 @@ MatrixXd triangle_in_place(MatrixXd& A) {
 }
 
 MatrixXd least_norm_solution(const MatrixXd& A, const MatrixXd& B, double tolerance) {
+  if (A.size() == 0) return MatrixXd::Zero(A.cols(), B.cols());
   return orthogonal(A, tolerance).solve(B);
 }
 
 MatrixXd pseudo_inverse(const MatrixXd& A, double tolerance) {
+  if (A.size() == 0) return MatrixXd::Zero(A.cols(), A.rows());
   return orthogonal(A, tolerance).pseudoInverse();
 }
 

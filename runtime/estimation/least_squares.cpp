@@ -73,8 +73,9 @@ Estimate least_squares(const TorqueFactor& factor, const VectorXd& joint_weights
   const SingularValues svd = decomposed(A);
   const VectorXd& singular = svd.values;
   estimate.condition = condition_number(singular);
-  estimate.rank = static_cast<int>(
-      (singular.array() > options.tolerance * std::max(singular[0], 1e-300)).count());
+  const double largest = singular.size() > 0 ? singular[0] : 0;
+  estimate.rank =
+      static_cast<int>((singular.array() > options.tolerance * std::max(largest, 1e-300)).count());
   const bool deficient = estimate.rank < parameters;
   const int rank =
       std::min(estimate.rank, static_cast<int>(parameters) - options.dropped_directions);

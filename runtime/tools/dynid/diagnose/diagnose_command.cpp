@@ -20,6 +20,7 @@
 #include "runtime/tools/dynid/effects/effect_hypotheses.h"
 #include "runtime/tools/dynid/effects/effect_laws.h"
 #include "runtime/tools/dynid/effects/robot_tangents.h"
+#include "runtime/tools/dynid/fit/number_notes.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/arm_drawing.h"
 #include "runtime/tools/dynid/page/page_output.h"
@@ -130,6 +131,22 @@ void add_code(DiagnosisReport& report, const DescribedRobot& robot,
   }
 }
 
+/// What held numbers cannot go with.
+void refuse_with_hold(const ToolOptions& options, const HeldNumbers& held) {
+  if (!held.any()) return;
+  if (options.diagnose.diagnosis.residual_only) {
+    throw std::invalid_argument(
+        "--hold and --residual-only: expected one of them, since the model's own parameters are "
+        "not "
+        "fitted to what another simulator leaves");
+  }
+  if (held.deviations.size() > 0) {
+    throw std::invalid_argument(
+        "--hold: standard deviations (+-) are for 'dynid fit'; a diagnosis takes held numbers for "
+        "exact");
+  }
+}
+
 /// The JSON and the page, then the robot file: an answer is not lost with it.
 void write_outputs(const ToolOptions& options, const DescribedRobot& robot, DiagnosisReport& report,
                    ProgressLine& progress) {
@@ -176,8 +193,10 @@ int run_diagnose(const ToolOptions& options) {
   check_simulation(options);
   const auto shared = std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects));
   const EffectCatalogue& catalogue = *shared;
-  const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAbsentRows);
+  const DescribedRobot robot =
+      describe_robot(options.robot, OpenParameters::kAbsentRows, {.hold = options.hold});
   refuse_without_parameters(robot);
+  refuse_with_hold(options, robot.held);
   const KnownEffects known = known_effects(options.robot, catalogue);
   const ToolOptions how = reading(options);
   std::vector<DiagnosedRecording> recordings;
@@ -224,6 +243,7 @@ int run_diagnose(const ToolOptions& options) {
   report.views = std::move(views);
   report.arm = arm_drawing(robot.model, posture, marked_joints(report.diagnosis));
   report.recordings = std::move(recordings);
+  report.notes = notes_of_numbers(robot, false);
   report.residual_only = settings.residual_only;
   report.false_alarm = settings.false_alarm;
   report.seed = settings.seed;

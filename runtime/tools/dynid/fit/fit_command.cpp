@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "gen/tool/progress_line.h"
-#include "runtime/effects/effect_signals.h"
 #include "runtime/identification/simulated_motion.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/fit/consistent_fit.h"
 #include "runtime/tools/dynid/fit/file_summaries.h"
 #include "runtime/tools/dynid/fit/fit_with_effects.h"
-#include "runtime/tools/dynid/fit/held_torque.h"
+#include "runtime/tools/dynid/fit/held_uncertainty.h"
+#include "runtime/tools/dynid/fit/number_notes.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/page_output.h"
 #include "runtime/tools/dynid/recordings/loading.h"
@@ -175,14 +175,18 @@ std::vector<FitMethod> methods_of(const ToolOptions& options, const FitData& dat
   return methods;
 }
 
-/// What held numbers cannot go with. Their torque is taken off every sample before the fit.
-void refuse_with_hold(const ToolOptions& options, const EffectTask& task, bool file_by_file,
+/// What held numbers cannot go with.
+void refuse_with_hold(const ToolOptions& options, const HeldNumbers& held, bool file_by_file,
                       bool summaries) {
   if (options.hold.empty()) return;
-  if (file_by_file || summaries) {
+  if (file_by_file && held.deviations.size() > 0) {
     throw std::invalid_argument(
-        "--hold goes with recordings that are given directly to one process, not with .qr files, "
-        "--list or mpirun");
+        "--hold with standard deviations (+-) goes with recordings that are given directly to one "
+        "process, not with --list or mpirun");
+  }
+  if (summaries) {
+    throw std::invalid_argument(
+        "--hold goes with recordings, not with .qr files: those are sums over all parameters");
   }
   if (options.consistent) {
     throw std::invalid_argument(
@@ -195,17 +199,18 @@ void refuse_with_hold(const ToolOptions& options, const EffectTask& task, bool f
         "--hold and --method iv: expected another method, since the instruments are simulated with "
         "all parameters");
   }
-  for (const EffectInstance& effect : task.effects) {
-    const auto& variables = effect.law.variables;
-    if (effect.law.kind != EffectKind::kAlignment &&
-        std::none_of(variables.begin(), variables.end(), depends_on_model)) {
-      continue;
-    }
-    throw std::invalid_argument(fmt::format(
-        "--hold: the file has a row 'effect {}', which reads the torque of the whole model: "
-        "leave the row or --hold out",
-        effect.law.name));
-  }
+}
+
+/// How far the fit can be trusted, and what the recordings do not see.
+void examine(FitReport& report, ProgressLine& progress) {
+  progress.show("trust", 0, 1);
+  const RecordingSummary& summary = report.data.summary;
+  report.trust = measure_trust(summary.equations, report.main().estimate, summary.regressor_noise,
+                               summary.row_time);
+  report.conditioning = examine_conditioning(report);
+  // what a method leaves out on purpose is not what the data do not see
+  const Estimate plain = weighted_least_squares(summary.equations);
+  report.unseen = name_unseen(plain, report.robot.linear, summary.extent);
 }
 
 /// The JSON and the page, before the robot files: an answer is not lost with one of them.
@@ -233,7 +238,6 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   ProgressLine progress("dynid");
   FitReport report;
   report.robot = describe_robot(options.robot, opened_by(options), {.hold = options.hold});
-  refuse_without_parameters(report.robot);
   const LinearModel& model = report.robot.linear;
   LoadedRecordings train, heldout;
   const bool file_by_file = !options.list.empty() || group.size() > 1;
@@ -241,9 +245,13 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   check_what_is_summed_up(options, file_by_file, summaries);
   const EffectTask task = EffectTask::of(report.robot, options);
   const bool with_effects = !task.effects.empty();
-  if (with_effects) refuse_with_effects(options, file_by_file, summaries);
-  refuse_with_hold(options, task, file_by_file, summaries);
-  report.notes = notes_of_numbers(report.robot, task);
+  if (with_effects) {
+    refuse_with_effects(options, file_by_file, summaries);
+  } else {
+    refuse_without_parameters(report.robot);
+  }
+  refuse_with_hold(options, report.robot.held, file_by_file, summaries);
+  report.notes = notes_of_numbers(report.robot, has_open_payload(task.effects));
   if (file_by_file) {
     load_by_file(options, group, progress, report);
   } else if (summaries) {
@@ -252,9 +260,6 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     const ToolOptions reading = task.reading(options);
     train = load_recordings(options.recordings, reading, false, progress);
     heldout = load_recordings(options.heldout, reading, true, progress);
-    for (LoadedRecordings* loaded : {&train, &heldout}) {
-      for (MotionSource& source : loaded->sources) source = without_held(source, report.robot);
-    }
     hold_out_parts(options.heldout_part, train, heldout, options);
     report.recordings = train.lines;
     if (with_effects) {
@@ -283,14 +288,18 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
         fit_methods(model, report.data, fit_options, [&](const std::string& what, double done) {
           progress.show(what, static_cast<std::size_t>(100 * done), 100);
         });
+    add_held_uncertainty(train.sources, options, report);
   }
-  progress.show("trust", 0, 1);
-  report.trust = measure_trust(report.data.summary.equations, report.main().estimate,
-                               report.data.summary.regressor_noise, report.data.summary.row_time);
-  report.conditioning = examine_conditioning(report);
-  // what a method leaves out on purpose is not what the data do not see
-  const Estimate plain = weighted_least_squares(report.data.summary.equations);
-  report.unseen = name_unseen(plain, model, report.data.summary.extent);
+  take_percentages_of_recorded_torque(train.sources, heldout.sources, options, report);
+  if (model.size() > 0) {
+    examine(report, progress);
+    const MethodFit& fit = report.main();
+    const VectorXd deviations = fit.estimate.covariance.size() > 0 ? fit.stddev() : VectorXd();
+    for (std::string& note :
+         notes_of_negatives(model, fit.estimate.beta, deviations, fit.interval)) {
+      report.notes.push_back(std::move(note));
+    }
+  }
   if (options.consistent) {
     progress.show("physical consistency", 0, 1);
     report.consistent = fit_consistently(report);

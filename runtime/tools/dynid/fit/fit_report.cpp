@@ -85,6 +85,10 @@ std::string identified_file(const FitReport& report) {
                            {comment, effects, {}, ParameterMeaning::kBodies});
   }
   comment.push_back(origin(report, method));
+  if (report.robot.held.any()) {
+    comment.push_back(
+        fmt::format("kept as they were: {}", fmt::join(report.robot.held.names, " ")));
+  }
   comment.emplace_back(kBaseParameters);
   add_values(report, fit.estimate.beta, stddev, comment);
   add_effects();

@@ -52,6 +52,7 @@ std::string heading(const FitReport& report) {
 
 std::string parameter_rows(const FitReport& report) {
   const LinearModel& model = report.robot.linear;
+  if (model.size() == 0) return "";
   const MethodFit& fit = report.main();
   const bool known = fit.estimate.covariance.size() != 0;
   std::string text = fmt::format("\n{:<8}{:>12}{:>11}{:>8}  {:<10}{:<6}", "", "value", "stddev",
@@ -268,11 +269,12 @@ std::string method_columns(const FitReport& report) {
 }  // namespace
 
 std::string fit_table(const FitReport& report) {
+  const bool any = report.robot.linear.size() > 0;
   std::string text = heading(report) + parameter_rows(report) +
                      (report.effects ? effect_rows(*report.effects, report.robot) : "") +
-                     joint_rows(report) + conditioning_rows(report) + trust_rows(report) +
-                     consistent_rows(report) + unseen_rows(report) + hierarchy_rows(report) +
-                     method_columns(report);
+                     joint_rows(report) + (any ? conditioning_rows(report) : "") +
+                     (any ? trust_rows(report) : "") + consistent_rows(report) +
+                     unseen_rows(report) + hierarchy_rows(report) + method_columns(report);
   std::string messages;
   for (const MethodFit& fit : report.fits) {
     for (const std::string& message : fit.messages) {

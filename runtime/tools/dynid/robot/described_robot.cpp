@@ -88,6 +88,15 @@ ParameterKind kind_of(Chi kind) {
   }
 }
 
+/// What a base parameter is: a rotor's inertia also where it is alone in ZZR1.
+ParameterKind kind_in(const GroupedParameter& parameter, const Eigen::RowVectorXd& row) {
+  bool rotors = true;
+  for (Index place = 0; place < row.size(); ++place) {
+    rotors = rotors && (row[place] == 0 || static_cast<Chi>(place % kStandard) == Chi::kIA);
+  }
+  return rotors ? ParameterKind::kRotorInertia : kind_of(parameter.column.kind);
+}
+
 /// A base parameter that is one other parameter, as where held numbers or zeros leave IA1 alone in
 /// ZZR1: "IA1", "0.25 * M3"; of more terms its own name.
 std::string sum_of_few(const GroupedParameter& parameter, const Eigen::RowVectorXd& row) {
@@ -185,6 +194,13 @@ MatrixXd blocks_times(const MatrixXd& blocks, Index joints, const MatrixXd& fact
 /// The base regressor as a program that is evaluated over many samples.
 /// @param combination  of the program's parameters from those of the model
 void add_regressor(LinearModel& linear, CodeModel& code, const MatrixXd& combination) {
+  if (combination.rows() == 0) {  // nothing that torque depends on
+    linear.columns.resize(static_cast<std::size_t>(linear.joints()));
+    linear.regressor = [](const MatrixXd& q, const MatrixXd&, const MatrixXd&, MatrixXd& Y) {
+      Y.resize(q.rows(), 0);
+    };
+    return;
+  }
   const std::vector<RobotFunction> functions =
       write_functions({parse_function_name("base_regressor")}, code, {.patience = 0, .work = 0});
   auto program = std::make_shared<const Program>(lower(functions.front().trace));
@@ -277,14 +293,40 @@ void add_linear_model(const RobotModel& model, const DescribeOptions& options,
     parameter.formula =
         formula_of(code.chi[i].comment, grouped, grouping.row(static_cast<Index>(i)));
     parameter.link = grouped.column.link;
-    parameter.kind = kind_of(grouped.column.kind);
+    parameter.kind = kind_in(grouped, grouping.row(static_cast<Index>(i)));
     parameter.value = file_value(grouped, symbolic);
     linear.parameters.push_back(std::move(parameter));
     parameters.push_back(grouped);
   }
   robot.places = choose_places(robot.grouping, parameters);
   add_regressor(linear, code, independent.combination);
-  if (options.gradient) add_regressor_gradient(linear, code, independent.combination);
+  if (options.gradient && linear.size() > 0) {
+    add_regressor_gradient(linear, code, independent.combination);
+  }
+}
+
+/// What held numbers do, by a robot of them alone.
+std::shared_ptr<const HeldParameters> held_parameters(const DescribedRobot& robot) {
+  const std::shared_ptr<const DescribedRobot> alone = robot.held_alone;
+  StandardParameters inertial = robot.held_values;
+  HeldParameters held;
+  held.coulomb = held.viscous = held.rotor = VectorXd::Zero(robot.linear.joints());
+  for (Index i = 0; i < inertial.size(); ++i) {
+    const Chi kind = static_cast<Chi>(i % kStandard);
+    const int joint = robot.model.joint(static_cast<int>(i / kStandard) + 1).coordinate;
+    if (!is_of_actuator(kind)) continue;
+    if (joint >= 0 && kind == Chi::kFS) held.coulomb[joint] = inertial[i];
+    if (joint >= 0 && kind == Chi::kFV) held.viscous[joint] = inertial[i];
+    if (joint >= 0 && kind == Chi::kIA) held.rotor[joint] = inertial[i];
+    inertial[i] = 0;
+  }
+  held.torque = [alone, all = VectorXd(alone->grouping * robot.held_values),
+                 inertial = VectorXd(alone->grouping * inertial)](
+                    const MatrixXd& q, const MatrixXd& dq, const MatrixXd& ddq,
+                    bool inertial_only) {
+    return alone->linear.torque(q, dq, ddq, inertial_only ? inertial : all);
+  };
+  return std::make_shared<const HeldParameters>(std::move(held));
 }
 
 /// Says at each parameter whose columns some held numbers have too: an error of the number is then
@@ -343,11 +385,10 @@ DescribedRobot describe_robot(RobotFile file, OpenParameters open, const Describ
     if (robot.held.places[static_cast<std::size_t>(i)]) robot.held_values[i] = robot.standard[i];
   }
   add_linear_model(with_zeros(robot.model, robot.held, true), options, robot);
-  DescribedRobot held;
-  add_linear_model(with_zeros(written, robot.held, false), {}, held);
-  const VectorXd beta = held.grouping * robot.held_values;
-  robot.held_torque = std::make_shared<const DescribedRobot::HeldTorque>(
-      DescribedRobot::HeldTorque{std::move(held.linear), beta});
+  DescribedRobot alone;
+  add_linear_model(with_zeros(written, robot.held, false), {}, alone);
+  robot.held_alone = std::make_shared<const DescribedRobot>(std::move(alone));
+  robot.linear.held = held_parameters(robot);
   name_aliases(robot);
   return robot;
 }

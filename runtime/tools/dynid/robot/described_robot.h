@@ -36,15 +36,11 @@ struct DescribedRobot {
   /// Where the value of each base parameter goes in a file in which all others are zero: (nb)
   /// places of standard parameters.
   std::vector<Eigen::Index> places;
-  /// Numbers that are kept as they are: `linear` and `grouping` are of all other parameters.
+  /// Numbers that are kept as they are: `grouping` and the parameters of `linear` are of all
+  /// others, and linear.held has their torque.
   HeldNumbers held;
-  StandardParameters held_values;  ///< their numbers, all others 0
-  /// Their torque: a model of them alone, and its parameters. Null without any.
-  struct HeldTorque {
-    LinearModel model;
-    Eigen::VectorXd beta;
-  };
-  std::shared_ptr<const HeldTorque> held_torque;
+  StandardParameters held_values;                    ///< their numbers, all others 0
+  std::shared_ptr<const DescribedRobot> held_alone;  ///< a robot of them alone; null without any
 };
 
 /// What else is wanted of a robot.

@@ -97,6 +97,7 @@ StandardParameters carried_beside_rotors(const DescribedRobot& robot, const Eige
 
 StandardParameters nearest_standard(const DescribedRobot& robot, const Eigen::VectorXd& beta) {
   if (!robot.standard.allFinite()) return carried_beside_rotors(robot, beta);
+  if (beta.size() == 0) return robot.standard;
   Eigen::MatrixXd free = robot.grouping;
   for (const Index place : joined_rotors(robot)) free.col(place).setZero();
   // the grouping has nothing of what is held, which stays the file's
