@@ -376,6 +376,7 @@ void check_sizes(const RobotFile& file, Diagnostics& diagnostics) {
   check_lengths(file, RowKey::kQmin, true, diagnostics);
   check_lengths(file, RowKey::kQmax, true, diagnostics);
   for (int i = 0; i < file.joint_count; ++i) {
+    if (file.parameters == ParameterMeaning::kBase) break;  // no single bodies
     check_radii(LinkNumbers(file, static_cast<std::size_t>(i)), diagnostics);
   }
   constexpr double kStrongest = 30;  // m/s^2: Jupiter has 25
