@@ -26,16 +26,16 @@ struct Call {
   std::string_view name;
   int arguments;
 };
-constexpr std::array<Call, 10> kCalls = {{{"sin", 1},
-                                          {"cos", 1},
-                                          {"exp", 1},
-                                          {"log", 1},
-                                          {"tanh", 1},
-                                          {"sqrt", 1},
-                                          {"abs", 1},
-                                          {"sign", 1},
-                                          {"min", 2},
-                                          {"max", 2}}};
+constexpr std::array<Call, 10> kEffectCalls = {{{"sin", 1},
+                                                {"cos", 1},
+                                                {"exp", 1},
+                                                {"log", 1},
+                                                {"tanh", 1},
+                                                {"sqrt", 1},
+                                                {"abs", 1},
+                                                {"sign", 1},
+                                                {"min", 2},
+                                                {"max", 2}}};
 constexpr int kMostDepth = 100;
 
 struct PlacedToken {
@@ -228,7 +228,7 @@ class Descent {
 
   static Wrong unknown_function(const PlacedToken& token) {
     std::vector<std::string_view> names;
-    for (const Call& call : kCalls) names.push_back(call.name);
+    for (const Call& call : kEffectCalls) names.push_back(call.name);
     const std::string_view near = nearest_word(token.text, names);
     return Wrong{token, fmt::format("unknown function '{}'", printable(token.text)),
                  near.empty() ? "known functions: " + comma_list(names)
@@ -311,9 +311,9 @@ bool is_own_velocity(const EffectExpression& expression) {
 }  // namespace
 
 int effect_call_arguments(const std::string& name) {
-  const auto found = std::find_if(kCalls.begin(), kCalls.end(),
+  const auto found = std::find_if(kEffectCalls.begin(), kEffectCalls.end(),
                                   [&](const Call& call) { return call.name == name; });
-  return found == kCalls.end() ? 0 : found->arguments;
+  return found == kEffectCalls.end() ? 0 : found->arguments;
 }
 
 EffectExpression parse_effect_expression(const std::vector<EffectText>& pieces,

@@ -141,6 +141,12 @@ std::string explain(const RobotModel& model) {
                        "(proximal) ones of the same arm. Parameters are the file's.",
                        0);
   }
+  if (model.parameters == ParameterMeaning::kBase) {
+    text += fill_lines("",
+                       "The numbers of the file are base parameters: sums of many bodies' "
+                       "parameters, each where one of them stands. Alone they are no body's.",
+                       0);
+  }
   text += describe_arm(robot);
   text += describe_places(make_posture(model));
   text += base_text(model, robot, base);

@@ -43,6 +43,7 @@ RobotModel build_model(const RobotFile& file) {
   model.name = file.name;
   model.file_name = file.file_name;
   model.convention = file.convention;
+  model.parameters = file.parameters;
   model.effects = file.effects;
   model.text = file.text;
   for (int i = 0; i < file.joint_count; ++i) {

@@ -44,6 +44,7 @@ struct RobotModel {
   std::string file_name;  ///< as the user gave it
   std::string text;       ///< the whole file, for messages about what its effects mean
   DhConvention convention = DhConvention::kModified;
+  ParameterMeaning parameters = ParameterMeaning::kBodies;
   std::vector<JointModel> joints;   ///< joints[j - 1] is joint j
   std::array<Quantity, 3> gravity;  ///< acceleration of the base, -g, m/s^2, in frame 0
   std::vector<EffectRow> effects;

@@ -15,7 +15,7 @@ namespace dyngen {
 namespace {
 
 /// What is longer when multiplied out is not looked into.
-constexpr std::size_t kMostTerms = 200;
+constexpr std::size_t kMostFoldedTerms = 200;
 
 /// A polynomial in the parameters, in nodes of the network of fold.
 using Polynomial = std::vector<Term>;
@@ -120,7 +120,7 @@ class Folding {
     Polynomial result = {{term.negative, {}}};
     for (const int factor : term.factors) {
       const std::optional<Polynomial>& value = values_[at(factor)];
-      if (!value || result.size() * value->size() > kMostTerms) return {};
+      if (!value || result.size() * value->size() > kMostFoldedTerms) return {};
       Polynomial next;
       for (const Term& a : result) {
         for (const Term& b : *value) next.push_back(product(a, b));
@@ -134,7 +134,7 @@ class Folding {
     Polynomial result;
     for (const Term& term : terms) {
       const std::optional<Polynomial> own = multiplied(term);
-      if (!own || result.size() + own->size() > kMostTerms) return {};
+      if (!own || result.size() + own->size() > kMostFoldedTerms) return {};
       result.insert(result.end(), own->begin(), own->end());
     }
     return normalised(fold_, std::move(result));

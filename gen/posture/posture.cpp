@@ -17,7 +17,7 @@ namespace {
 using GiNaC::ex;
 using Coordinates = std::vector<ex>;  ///< one per joint, exact
 
-constexpr double kDegree = 57.29577951308232;
+constexpr double kDegreeOfPosture = 57.29577951308232;
 
 /// The positive number of one digit next to a length.
 ex one_digit(double value) {
@@ -214,7 +214,7 @@ std::string configuration_text(const Posture& posture) {
     ++moved;
     const bool slides = link.type == JointType::kPrismatic;
     text += fmt::format("{}joint {} at {:.4g} {}", text.empty() ? "" : ", ", i + 1,
-                        slides ? link.q : link.q * kDegree, slides ? "m" : "deg");
+                        slides ? link.q : link.q * kDegreeOfPosture, slides ? "m" : "deg");
   }
   if (moved == 0) return moving == 1 ? "the joint at 0" : "all joints at 0";
   if (moved == moving) return text;

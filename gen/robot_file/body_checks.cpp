@@ -363,6 +363,7 @@ void check_own_axis(const RobotFile& file, std::size_t j, AbsentRows rows,
 }  // namespace
 
 void check_bodies(const RobotFile& file, Diagnostics& diagnostics) {
+  if (file.parameters == ParameterMeaning::kBase) return;  // no single bodies
   for (int i = 0; i < file.joint_count; ++i) {
     BodyCheck(LinkNumbers(file, static_cast<std::size_t>(i)), diagnostics).run();
   }
@@ -375,6 +376,7 @@ void check_sizes(const RobotFile& file, Diagnostics& diagnostics) {
   check_lengths(file, RowKey::kQmin, true, diagnostics);
   check_lengths(file, RowKey::kQmax, true, diagnostics);
   for (int i = 0; i < file.joint_count; ++i) {
+    if (file.parameters == ParameterMeaning::kBase) break;  // no single bodies
     check_radii(LinkNumbers(file, static_cast<std::size_t>(i)), diagnostics);
   }
   constexpr double kStrongest = 30;  // m/s^2: Jupiter has 25
@@ -388,6 +390,7 @@ void check_sizes(const RobotFile& file, Diagnostics& diagnostics) {
 }
 
 void check_masses(const RobotFile& file, AbsentRows absent, Diagnostics& diagnostics) {
+  if (file.parameters == ParameterMeaning::kBase) return;  // no single bodies
   check_carried(file, absent, diagnostics);
   for (int i = 0; i < file.joint_count; ++i) {
     check_own_axis(file, static_cast<std::size_t>(i), absent, diagnostics);

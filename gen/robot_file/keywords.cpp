@@ -19,11 +19,12 @@ constexpr std::array<std::string_view, kRowKeyCount> kRowSpellings = {
     "YZ",    "ZZ",   "mX",   "mY",   "mZ",     "m",   "IA", "Fs", "Fv", "off",
     "qmin",  "qmax", "vmax", "amax", "taumax", "gx",  "gy", "gz"};
 
-constexpr std::array<Keyword, 8> kOtherKeywords = {{
+constexpr std::array<Keyword, 9> kOtherKeywords = {{
     {"name", Statement::kName},
     {"number_link", Statement::kNumberLink},
     {"number'link", Statement::kNumberLink},  // the spelling of Appendix B
     {"dh", Statement::kDh},
+    {"parameters", Statement::kParameters},
     {"let", Statement::kLet},
     {"joints", Statement::kJoints},
     {"effect", Statement::kEffect},

@@ -8,9 +8,6 @@
 
 namespace dyngen {
 
-/// What a keyword begins.
-enum class Statement { kName, kNumberLink, kDh, kLet, kValues, kJoints, kEffect, kStop };
-
 struct Keyword {
   std::string_view spelling;  ///< as the documentation writes it
   Statement statement = Statement::kValues;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -24,6 +25,38 @@ bool check_name(RowWords& words, const Word& word, std::string_view row) {
   words.error(word, fmt::format("'{}' is not a name, in '{}'", printable(word.text), row),
               "a name is letters, digits and '_', and does not begin with a digit");
   return false;
+}
+
+/// A row of one word out of two.
+struct ChoiceRow {
+  std::string_view keyword;
+  std::string_view what;  ///< the word names
+  std::string_view expected;
+};
+
+template <typename Choice>
+std::optional<Choice> read_choice(
+    RowWords& words, const Word& keyword, const ChoiceRow& row,
+    const std::array<std::pair<std::string_view, Choice>, 2>& choices) {
+  if (words.at_line_end() || words.at_keyword()) {
+    words.diagnostics().error(end_of(keyword), 1,
+                              fmt::format("'{}' names no {}", row.keyword, row.what),
+                              std::string(row.expected));
+    return std::nullopt;
+  }
+  const Word& word = words.take();
+  const std::string lower = lower_case(word.text);
+  std::optional<Choice> choice;
+  for (const auto& [name, value] : choices) {
+    if (lower == name) choice = value;
+  }
+  if (!choice) {
+    words.error(word,
+                fmt::format("unknown {} '{}' in '{}'", row.what, printable(word.text), row.keyword),
+                std::string(row.expected));
+  }
+  check_nothing_follows(words, row.keyword);
+  return choice;
 }
 
 }  // namespace
@@ -56,25 +89,17 @@ void check_nothing_follows(RowWords& words, std::string_view row) {
 }
 
 std::optional<DhConvention> read_dh_row(RowWords& words, const Word& keyword) {
-  constexpr std::string_view kExpected = "expected modified (Khalil, Craig) or standard (distal)";
-  if (words.at_line_end() || words.at_keyword()) {
-    words.diagnostics().error(end_of(keyword), 1, "'dh' names no convention",
-                              std::string(kExpected));
-    return std::nullopt;
-  }
-  const Word& word = words.take();
-  const std::string lower = lower_case(word.text);
-  std::optional<DhConvention> convention;
-  if (lower == "standard") {
-    convention = DhConvention::kStandard;
-  } else if (lower == "modified") {
-    convention = DhConvention::kModified;
-  } else {
-    words.error(word, fmt::format("unknown convention '{}' in 'dh'", printable(word.text)),
-                std::string(kExpected));
-  }
-  check_nothing_follows(words, "dh");
-  return convention;
+  return read_choice<DhConvention>(
+      words, keyword,
+      {"dh", "convention", "expected modified (Khalil, Craig) or standard (distal)"},
+      {{{"modified", DhConvention::kModified}, {"standard", DhConvention::kStandard}}});
+}
+
+std::optional<ParameterMeaning> read_parameters_row(RowWords& words, const Word& keyword) {
+  return read_choice<ParameterMeaning>(
+      words, keyword,
+      {"parameters", "meaning", "expected bodies (of each link) or base (identified sums)"},
+      {{{"bodies", ParameterMeaning::kBodies}, {"base", ParameterMeaning::kBase}}});
 }
 
 void read_let_row(RowWords& words, const Word& keyword) {

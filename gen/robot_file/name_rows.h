@@ -21,6 +21,9 @@ void check_nothing_follows(RowWords& words, std::string_view row);
 /// Row `dh`; absent if it names no convention, which is reported.
 std::optional<DhConvention> read_dh_row(RowWords& words, const Word& keyword);
 
+/// Row `parameters`; absent if it names no meaning, which is reported.
+std::optional<ParameterMeaning> read_parameters_row(RowWords& words, const Word& keyword);
+
 /// Row `let`, whose name is declared.
 void read_let_row(RowWords& words, const Word& keyword);
 

@@ -68,6 +68,33 @@ struct Row {
 
 enum class DhConvention { kModified, kStandard };
 
+/// What the numbers of the dynamic rows are.
+enum class ParameterMeaning {
+  kBodies,  ///< of the links and their rotors, each by itself
+  kBase     ///< base parameters: sums of many bodies' parameters, each where one of them stands
+};
+
+/// What a keyword begins.
+enum class Statement {
+  kName,
+  kNumberLink,
+  kDh,
+  kParameters,
+  kLet,
+  kValues,
+  kJoints,
+  kEffect,
+  kStop
+};
+
+/// Where a row stands in the text: from its keyword to the end of its last word.
+struct RowText {
+  Statement statement = Statement::kValues;
+  RowKey key = RowKey::kSigma;  ///< of Statement::kValues
+  std::size_t begin = 0;        ///< bytes
+  std::size_t end = 0;
+};
+
 /// `effect NAME key=value ...`, kept as written for the parts that know effects.
 struct EffectRow {
   struct Setting {
@@ -89,9 +116,11 @@ struct RobotFile {
   std::string name;       ///< the `name` row, else the file's stem
   int joint_count = 0;    ///< number_link, 1..kMaxJoints
   DhConvention convention = DhConvention::kModified;
+  ParameterMeaning parameters = ParameterMeaning::kBodies;
   std::array<Row, kRowKeyCount> rows;
   std::vector<std::string> joint_names;  ///< empty, or joint_count names
   std::vector<EffectRow> effects;
+  std::vector<RowText> texts;  ///< all rows, in the order of the text
   SourcePosition last_word;  ///< of the file: where messages about what is missing stand
   std::vector<Diagnostic> warnings;
 

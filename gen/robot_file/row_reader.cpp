@@ -62,20 +62,34 @@ class RowReader {
       skip_unknown_row();
       return;
     }
-    if (keyword->statement == Statement::kValues) {
-      read_value_row(word, *keyword);
+    read_row(word, *keyword);
+    file_.texts.push_back({keyword->statement, keyword->row, begin_of(word),
+                           begin_of(words_.last_taken()) + words_.last_taken().text.size()});
+  }
+
+  /// Bytes from the start of the text.
+  [[nodiscard]] std::size_t begin_of(const Word& word) const {
+    return static_cast<std::size_t>(word.text.data() - file_.text.data());
+  }
+
+  void read_row(const Word& word, const Keyword& keyword) {
+    if (keyword.statement == Statement::kValues) {
+      read_value_row(word, keyword);
       return;
     }
     const bool may_repeat =
-        keyword->statement == Statement::kLet || keyword->statement == Statement::kEffect;
-    if (!may_repeat) check_first(word, keyword->spelling, keyword->statement);
-    switch (keyword->statement) {
+        keyword.statement == Statement::kLet || keyword.statement == Statement::kEffect;
+    if (!may_repeat) check_first(word, keyword.spelling, keyword.statement);
+    switch (keyword.statement) {
       case Statement::kName:
         return read_name(word);
       case Statement::kNumberLink:
         return read_number_link(word);
       case Statement::kDh:
         file_.convention = read_dh_row(words_, word).value_or(file_.convention);
+        return;
+      case Statement::kParameters:
+        file_.parameters = read_parameters_row(words_, word).value_or(file_.parameters);
         return;
       case Statement::kLet:
         return read_let_row(words_, word);

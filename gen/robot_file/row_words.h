@@ -24,6 +24,7 @@ class RowWords {
   [[nodiscard]] const Word& peek() const { return words_[next_]; }
   /// The word behind the next one if it stands on the same line, or null.
   [[nodiscard]] const Word* after_next() const;
+  [[nodiscard]] const Word& last_taken() const { return words_[next_ - 1]; }
   [[nodiscard]] std::span<const Word> all() const { return words_; }
   [[nodiscard]] std::span<const Word> rest() const { return std::span(words_).subspan(next_); }
   [[nodiscard]] bool at_line_end() const { return !has_next() || peek().begins_line; }

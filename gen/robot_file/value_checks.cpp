@@ -178,9 +178,13 @@ void check_values(const RobotFile& file, Diagnostics& diagnostics) {
   check_limit_angles(file, RowKey::kQmin, diagnostics);
   check_limit_angles(file, RowKey::kQmax, diagnostics);
   check_fixed_joints(file, diagnostics);
-  check_not_negative(file, RowKey::kM, Severity::kError, "a mass is 0 or more", diagnostics);
-  check_not_negative(file, RowKey::kIA, Severity::kError, "a rotor inertia is 0 or more",
-                     diagnostics);
+  if (file.parameters == ParameterMeaning::kBodies) {  // a sum may have any sign
+    check_not_negative(file, RowKey::kM, Severity::kError,
+                       "a mass is 0 or more, unless a row says: parameters base", diagnostics);
+    check_not_negative(file, RowKey::kIA, Severity::kError,
+                       "a rotor inertia is 0 or more, unless a row says: parameters base",
+                       diagnostics);
+  }
   for (const RowKey key : {RowKey::kFs, RowKey::kFv}) {
     check_not_negative(file, key, Severity::kWarning,
                        "friction takes energy out: expected 0 or more", diagnostics);

@@ -31,6 +31,9 @@ EffectRecordings planned_recording(const LinearModel& model, const EffectRobot& 
   run.decimator = design_decimator(1);
   model.regressor(run.motion.q, run.motion.dq, run.motion.ddq, run.rows.Y);
   run.rows.tau = run.motion.tau;
+  if (model.held) {
+    run.rows.tau -= model.held->torque(run.motion.q, run.motion.dq, run.motion.ddq, false);
+  }
   run.rows.counted = MatrixXd::Ones(samples, model.joints());
   leave_out_standstill(run, still_speed);
   EffectRecordings data{model, robot, {}, run.motion.sample_time};

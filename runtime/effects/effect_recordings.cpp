@@ -56,8 +56,7 @@ RowBlock rows_of_run(const LinearModel& model, const MotionSource& recording, co
 }
 
 double value_of(const LinearModel& model, const VectorXd& beta, int joint, ParameterKind kind) {
-  const int place = parameter_of(model, joint, kind);
-  return place < 0 ? 0 : std::max(0.0, beta[place]);
+  return std::max(0.0, parameter_value(model, beta, joint, kind));
 }
 
 /// The speed that 90 % of the samples are below.
@@ -158,6 +157,13 @@ int parameter_of(const LinearModel& model, int joint, ParameterKind kind) {
     if (own) return c;
   }
   return -1;
+}
+
+double parameter_value(const LinearModel& model, const VectorXd& beta, int joint,
+                       ParameterKind kind) {
+  const int place = parameter_of(model, joint, kind);
+  if (place >= 0) return beta[place];
+  return model.held ? model.held->of(kind, joint) : 0;
 }
 
 EffectScales scales_of(const EffectRecordings& data, const VectorXd& beta, int joint) {

@@ -89,6 +89,10 @@ EffectRecordings effect_recordings(LinearModel model, EffectRobot robot,
 /// none.
 int parameter_of(const LinearModel& model, int joint, ParameterKind kind);
 
+/// A joint's kViscous, kCoulomb, kRotorInertia: in beta, or held; 0: the model has none.
+double parameter_value(const LinearModel& model, const Eigen::VectorXd& beta, int joint,
+                       ParameterKind kind);
+
 /// Sizes of a joint in the recordings. @param joint  -1: the largest of all joints
 /// Fc, Fv and Ia are not less than 0.
 EffectScales scales_of(const EffectRecordings& data, const Eigen::VectorXd& beta, int joint);

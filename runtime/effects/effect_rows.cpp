@@ -167,7 +167,12 @@ class RunRows {
     }
     if (late_.delay[j] != 0 && here_.motion.tau.size() > 0) {
       const double samples = late_.delay[j] / here_.motion.sample_time;
-      block.tau.col(j) = decimate(here_.decimator, shifted(here_.motion.tau.col(j), samples));
+      VectorXd tau = shifted(here_.motion.tau.col(j), samples);
+      if (data_.model.held) tau -= signals_.held_torque(run_).col(j);
+      block.tau.col(j) = decimate(here_.decimator, tau);
+    }
+    if (lag != 0 && data_.model.held) {
+      block.tau.col(j) -= lag * decimate(here_.decimator, rate(signals_.held_torque(run_).col(j)));
     }
     block.tau.col(j) -= filtered(joint.torque, lag);
     for (std::size_t i = 0; i < joint.places.size(); ++i) {

@@ -19,8 +19,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kBlock = 1024;   // samples whose regressor is in memory at once
-constexpr double kTravel = 2.5;  // encoder steps that a joint moves back before its sign turns
+constexpr Index kSignalBlock = 1024;  // samples whose regressor is in memory at once
+constexpr double kTravel = 2.5;       // encoder steps that a joint moves back before its sign turns
 
 /// A variable that is a part of the model's torque, or its rate.
 struct TorqueVariable {
@@ -134,8 +134,8 @@ const EffectSignals::RigidTorque& EffectSignals::rigid(std::size_t run) {
   const Index n = model.joints(), size = model.size();
   rigid.torque = rigid.load = MatrixXd::Zero(motion.samples(), n);
   MatrixXd Y;
-  for (Index start = 0; start < motion.samples(); start += kBlock) {
-    const Index rows = std::min(kBlock, motion.samples() - start);
+  for (Index start = 0; start < motion.samples(); start += kSignalBlock) {
+    const Index rows = std::min(kSignalBlock, motion.samples() - start);
     model.regressor(motion.q.middleRows(start, rows), motion.dq.middleRows(start, rows),
                     motion.ddq.middleRows(start, rows), Y);
     for (Index j = 0; j < n; ++j) {
@@ -145,6 +145,10 @@ const EffectSignals::RigidTorque& EffectSignals::rigid(std::size_t run) {
         if (is_inertial(model, c)) rigid.load.col(j).segment(start, rows) += part;
       }
     }
+  }
+  if (model.held) {
+    rigid.torque += model.held->torque(motion.q, motion.dq, motion.ddq, false);
+    rigid.load += model.held->torque(motion.q, motion.dq, motion.ddq, true);
   }
   const VectorXd& rotors = data_.robot.joined_rotors;
   for (Index j = 0; j < rotors.size(); ++j) rigid.load.col(j) -= rotors[j] * motion.ddq.col(j);
@@ -164,8 +168,8 @@ const MatrixXd& EffectSignals::regressor_rows(std::size_t run, int joint) {
   const std::vector<int>& columns = model.columns[static_cast<std::size_t>(joint)];
   rows.resize(motion.samples(), static_cast<Index>(columns.size()));
   MatrixXd Y;
-  for (Index start = 0; start < motion.samples(); start += kBlock) {
-    const Index count = std::min(kBlock, motion.samples() - start);
+  for (Index start = 0; start < motion.samples(); start += kSignalBlock) {
+    const Index count = std::min(kSignalBlock, motion.samples() - start);
     model.regressor(motion.q.middleRows(start, count), motion.dq.middleRows(start, count),
                     motion.ddq.middleRows(start, count), Y);
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -174,6 +178,15 @@ const MatrixXd& EffectSignals::regressor_rows(std::size_t run, int joint) {
     }
   }
   return rows;
+}
+
+const MatrixXd& EffectSignals::held_torque(std::size_t run) {
+  const auto [place, added] = held_torque_.try_emplace(run);
+  if (added) {
+    const Motion& motion = data_.runs[run].motion;
+    place->second = data_.model.held->torque(motion.q, motion.dq, motion.ddq, false);
+  }
+  return place->second;
 }
 
 const MatrixXd& EffectSignals::filtered_rates(std::size_t run, int joint) {
@@ -229,8 +242,7 @@ VectorXd EffectSignals::signal(std::size_t run, const std::string& name,
                           torque->differences);
   }
   if (const auto kind = parameter_variable(name)) {
-    const int place = parameter_of(data_.model, joint, *kind);
-    return VectorXd::Constant(motion.samples(), place < 0 ? 0 : beta_[place]);
+    return VectorXd::Constant(motion.samples(), parameter_value(data_.model, beta_, joint, *kind));
   }
   if (of_rigid_model(name)) {
     const int column = name.starts_with("wrench_") ? joint : target;

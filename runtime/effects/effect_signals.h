@@ -22,10 +22,12 @@ struct ModelDerivative {
 /// parameters of the model.
 ///
 ///     q qd qdd tau_load sign_qd        of the effect's joint; q_other .. tau_load_other of its
-///                                      partner. tau_load = Y beta over the inertial parameters
-///     Fc Fv Ia                         friction and rotor of the joint in beta, 0 if not there
+///                                      partner. tau_load = Y beta over the inertial parameters,
+///                                      held ones included
+///     Fc Fv Ia                         friction and rotor of the joint, in beta or held; 0 if in
+///                                      neither
 ///     t temp                           s from the recording's first sample; as recorded
-///     torque torque_rate torque_acc    Y beta, and its central differences
+///     torque torque_rate torque_acc    of the whole model, and its central differences
 ///     tau_load_rate tau_load_acc
 ///     d_* payload_* contact_* wrench_* of EffectRobot::tangents
 ///
@@ -56,8 +58,10 @@ class EffectSignals {
   ModelDerivative by_model(std::size_t run, const EffectInstance& effect, int target,
                            const Eigen::MatrixXd& by_variable);
 
-  /// Y beta. @return (N x n)
+  /// Y beta, and the torque of held numbers. @return (N x n)
   const Eigen::MatrixXd& torque(std::size_t run);
+  /// The torque of held numbers, of a model that has some. @return (N x n)
+  const Eigen::MatrixXd& held_torque(std::size_t run);
   /// Rows of the regressor at all samples. @return (N x model.columns[joint].size())
   const Eigen::MatrixXd& regressor_rows(std::size_t run, int joint);
   /// Their rates behind the parallel filter. @return (equations x model.columns[joint].size())
@@ -90,6 +94,7 @@ class EffectSignals {
   std::size_t rows_run_ = 0;  // of regressor_rows_: one run, since they are large
   std::map<int, Eigen::MatrixXd> regressor_rows_;
   std::map<std::pair<std::size_t, int>, Eigen::MatrixXd> filtered_rates_;
+  std::map<std::size_t, Eigen::MatrixXd> held_torque_;
 };
 
 /// The sign of a joint's velocity with a dead band of travel: it turns where the velocity does, if

@@ -33,7 +33,8 @@ Eigen::CompleteOrthogonalDecomposition<MatrixXd> orthogonal(const MatrixXd& A, d
 SingularValues decomposed(const MatrixXd& A) {
   check_finite(A);
   if (A.size() == 0) {
-    return {MatrixXd::Zero(A.rows(), 0), VectorXd::Zero(0), MatrixXd::Zero(A.cols(), 0)};
+    return {MatrixXd::Zero(A.rows(), 0), VectorXd::Zero(0),
+            MatrixXd::Identity(A.cols(), A.cols())};
   }
   const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
@@ -51,6 +52,7 @@ MatrixXd triangle_of(const MatrixXd& A) {
 }
 
 MatrixXd triangle_in_place(MatrixXd& A) {
+  if (A.size() == 0) return MatrixXd::Zero(A.cols(), A.cols());
   const Index size = A.cols(), rows = std::min(size, A.rows());
   const Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> qr(A);
   MatrixXd R = MatrixXd::Zero(size, size);

@@ -44,6 +44,7 @@ TorqueFactor empty_factor(const std::vector<std::vector<int>>& columns, int para
 void absorb(JointFactor& joint, MatrixXd& A) {
   const Index size = joint.R.rows(), rows = A.rows();
   joint.rows += static_cast<double>(rows);
+  if (size == 0 || rows == 0) return;
   MatrixXd block = rows > size ? triangle_in_place(A) : A;
   MatrixXd both(size + block.rows(), size);
   both << joint.R, block;

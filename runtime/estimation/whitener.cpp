@@ -12,7 +12,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kSame = 1e-12;  // of the largest entry: a covariance or gain that does not change
+constexpr double kSameGap =
+    1e-12;  // of the largest entry: a covariance or gain that does not change
 
 /// Covariance of the state: the last m samples of the autoregressive part, the slow parts.
 class StateCovariance {
@@ -64,7 +65,7 @@ class StateCovariance {
       next(m + k, m + k) += (1 - poles_[k] * poles_[k]) * slow_variance_[k];
     }
     next.topRightCorner(m, slow) = next.bottomLeftCorner(slow, m).transpose();
-    const bool same = (next - before_predicted_).cwiseAbs().maxCoeff() <= kSame * next(0, 0);
+    const bool same = (next - before_predicted_).cwiseAbs().maxCoeff() <= kSameGap * next(0, 0);
     before_predicted_ = next;
     P_ = std::move(next);
     return same;
@@ -115,7 +116,7 @@ Whitener::Whitener(const JointNoise& noise, const Eigen::Ref<const VectorXd>& co
     step.deviation = std::sqrt(covariance.missed());
     const VectorXd gain = covariance.observe();
     for (Index k = reach_; k < m; ++k) {
-      if (std::abs(gain[k]) > kSame) reach_ = k + 1;
+      if (std::abs(gain[k]) > kSameGap) reach_ = k + 1;
     }
     step.gain = gains_.size();
     gains_.insert(gains_.end(), gain.data(), gain.data() + states);

@@ -21,7 +21,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kBlocks = 10;
+constexpr Index kFolds = 10;
 constexpr Index kMostEquations = 2500;     // of a joint, in a trial: enough for any robot
 constexpr Index kMostFiltered = 400'000;   // samples that are filtered again for each trial
 constexpr double kNoWorse = 0.05;          // of the squares of held-out torque
@@ -74,7 +74,7 @@ class BlockedEquations {
 
   /// Of the same recordings behind a low-pass. @return  a factor for each block
   [[nodiscard]] std::vector<TorqueFactor> factors(const std::vector<MotionSource>& sources) const {
-    std::vector<TorqueFactor> blocks(static_cast<std::size_t>(kBlocks),
+    std::vector<TorqueFactor> blocks(static_cast<std::size_t>(kFolds),
                                      empty_factor(model_.columns, model_.size()));
     Index place = 0;
     std::size_t used = 0;
@@ -118,7 +118,7 @@ class BlockedEquations {
   }
 
   [[nodiscard]] Index block_of(Index place) const {
-    return std::min(kBlocks - 1, place * kBlocks / std::max<Index>(samples_, 1));
+    return std::min(kFolds - 1, place * kFolds / std::max<Index>(samples_, 1));
   }
 
   [[nodiscard]] RowBlock equations(const Motion& motion, const std::vector<Index>& rows,
@@ -143,9 +143,9 @@ class BlockedEquations {
   std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> moves_;  ///< of each sample that counts
 };
 
-/// What each block's torque leaves of a prediction by the others. @return (kBlocks x n) squares
+/// What each block's torque leaves of a prediction by the others. @return (kFolds x n) squares
 MatrixXd predicted_squares(const std::vector<TorqueFactor>& blocks) {
-  MatrixXd squares(kBlocks, static_cast<Index>(blocks.front().joints.size()));
+  MatrixXd squares(kFolds, static_cast<Index>(blocks.front().joints.size()));
   for (std::size_t out = 0; out < blocks.size(); ++out) {
     TorqueFactor others = empty_factor(blocks[out].columns, blocks[out].parameters);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -181,18 +181,18 @@ MeanLogarithm compared(const VectorXd& trial, const VectorXd& other) {
   return {mean, std::sqrt((ratio - mean).square().sum() / (blocks - 1) / blocks)};
 }
 
-/// Whether a trial is worse than the best one, block by block. Both: (kBlocks)
+/// Whether a trial is worse than the best one, block by block. Both: (kFolds)
 bool is_worse(const VectorXd& trial, const VectorXd& best) {
   const MeanLogarithm ratio = compared(trial, best);
   if (ratio.mean <= std::log1p(kNoWorse)) return false;
   return ratio.mean >
-         student_interval(kConfidence, static_cast<double>(kBlocks - 1)) * ratio.deviation;
+         student_interval(kConfidence, static_cast<double>(kFolds - 1)) * ratio.deviation;
 }
 
 struct Trial {
   double hz = 0;
-  MatrixXd squares;  ///< (kBlocks x n)
-  VectorXd sum;      ///< (kBlocks) over joints, each divided by the least of any trial
+  MatrixXd squares;  ///< (kFolds x n)
+  VectorXd sum;      ///< (kFolds) over joints, each divided by the least of any trial
 };
 
 void add_up(std::vector<Trial>& trials) {

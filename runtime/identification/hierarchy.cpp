@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSeen = 1e-9;  // of the strongest direction
+constexpr double kSeenPart = 1e-9;  // of the strongest direction
 
 bool is_own(ParameterKind kind) {
   return kind == ParameterKind::kViscous || kind == ParameterKind::kCoulomb ||
@@ -93,9 +93,9 @@ HierarchyFit fit_own_friction(const LinearModel& model, const RobotSummaries& al
   }
   const MatrixXd R = sum.leftCols(shared);
   const VectorXd singular = singular_values(R);
-  fit.rank = static_cast<int>((singular.array() > kSeen * singular[0]).count());
-  fit.shared_beta = least_norm_solution(R, sum.col(shared), kSeen);
-  const MatrixXd inverse = pseudo_inverse(R, kSeen);
+  fit.rank = static_cast<int>((singular.array() > kSeenPart * singular[0]).count());
+  fit.shared_beta = least_norm_solution(R, sum.col(shared), kSeenPart);
+  const MatrixXd inverse = pseudo_inverse(R, kSeenPart);
   const MatrixXd information = inverse * inverse.transpose();
   const MatrixXd covariance = information * middle * information;
   fit.shared_stddev = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();

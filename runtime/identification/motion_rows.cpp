@@ -63,7 +63,13 @@ class RowBuffer {
     for (Index i = 0; i < active; ++i) {
       rows.col(i).tail(count) = Y_.col(active_[static_cast<std::size_t>(i)]);
     }
-    rows.middleCols(active, joints()).bottomRows(count) = motion.tau.middleRows(start, count);
+    auto tau = rows.middleCols(active, joints()).bottomRows(count);
+    tau = motion.tau.middleRows(start, count);
+    if (model_.held) {
+      tau -=
+          model_.held->torque(motion.q.middleRows(start, count), motion.dq.middleRows(start, count),
+                              motion.ddq.middleRows(start, count), false);
+    }
     rows.rightCols(joints()).bottomRows(count) = motion.dq.middleRows(start, count);
     kept_ = std::move(rows);
   }

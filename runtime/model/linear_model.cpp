@@ -3,6 +3,19 @@
 
 namespace dyngen::runtime {
 
+double HeldParameters::of(ParameterKind kind, int joint) const {
+  switch (kind) {
+    case ParameterKind::kCoulomb:
+      return coulomb[joint];
+    case ParameterKind::kViscous:
+      return viscous[joint];
+    case ParameterKind::kRotorInertia:
+      return rotor[joint];
+    default:
+      return 0;
+  }
+}
+
 Eigen::MatrixXd LinearModel::torque(const Eigen::MatrixXd& q, const Eigen::MatrixXd& dq,
                                     const Eigen::MatrixXd& ddq, const Eigen::VectorXd& beta) const {
   constexpr Eigen::Index kBlock = 1024;
@@ -16,6 +29,7 @@ Eigen::MatrixXd LinearModel::torque(const Eigen::MatrixXd& q, const Eigen::Matri
       tau.col(j).segment(start, count) = Y.middleCols(j * size(), size()) * beta;
     }
   }
+  if (held) tau += held->torque(q, dq, ddq, false);
   return tau;
 }
 

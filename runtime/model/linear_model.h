@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,21 @@ struct JointMotion {
   Eigen::MatrixXd q, dq, ddq;
 };
 
-/// A robot as estimation sees it: tau = Y(q, dq, ddq) beta, with a minimal beta.
+/// Parameters that keep their numbers: they move the robot and are in no beta.
+struct HeldParameters {
+  /// Their torque, (N x n); that of the inertial ones alone if asked for. May be called from
+  /// several threads.
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd& q, const Eigen::MatrixXd& dq,
+                                const Eigen::MatrixXd& ddq, bool inertial_only)>
+      torque;
+  /// (n) held numbers of each joint, 0 where none is: Coulomb and viscous friction, rotor inertia
+  Eigen::VectorXd coulomb, viscous, rotor;
+
+  [[nodiscard]] double of(ParameterKind kind, int joint) const;
+};
+
+/// A robot as estimation sees it: tau = Y(q, dq, ddq) beta, with a minimal beta. Where numbers are
+/// held their torque comes to it.
 struct LinearModel {
   std::string name;
   std::vector<std::string> joint_names;
@@ -50,10 +65,12 @@ struct LinearModel {
   std::function<JointMotion(const JointMotion& motion, const Eigen::MatrixXd& A)>
       regressor_gradient;
 
+  std::shared_ptr<const HeldParameters> held;  ///< null: none
+
   [[nodiscard]] int joints() const { return static_cast<int>(joint_names.size()); }
   [[nodiscard]] int size() const { return static_cast<int>(parameters.size()); }
 
-  /// tau = Y beta of many samples. @return (N x n)
+  /// tau = Y beta of many samples, and the torque of held numbers. @return (N x n)
   [[nodiscard]] Eigen::MatrixXd torque(const Eigen::MatrixXd& q, const Eigen::MatrixXd& dq,
                                        const Eigen::MatrixXd& ddq,
                                        const Eigen::VectorXd& beta) const;

@@ -28,7 +28,7 @@ constexpr double kGravityBetter = 0.5;
 constexpr double kCertainlyNegative = 5;  // standard deviations
 constexpr double kLagMatters = 0.01;      // from here on lags are tried
 constexpr double kLagBetter = 0.5;
-constexpr double kMostLag = 0.05;          // s
+constexpr double kLagTried = 0.05;         // s
 constexpr double kManyTurns = 25;          // rad: four turns
 constexpr double kStandardGravity = 9.81;  // m/s^2
 /// kg/m^3: what arms weigh, over the cube of their reach (UR5 30, KR300 70), and how far beyond
@@ -317,7 +317,7 @@ double farthest_span(const LinearModel& model, const std::vector<MotionSource>& 
 
 void add_model_remarks(const JudgedRobot& robot, const std::vector<MotionSource>& sources,
                        std::vector<Remark>& remarks) {
-  TrialSamples samples(sources, kMostLag);
+  TrialSamples samples(sources, kLagTried);
   if (samples.empty()) samples = TrialSamples(sources, 0);  // runs too short for lags
   if (samples.empty()) return;
   ModelJudge(robot, samples, remarks).run(farthest_span(*robot.model, sources));

@@ -15,8 +15,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kAsGood = 1.1;  // of what is left of torque: the turned sign fits as well
-constexpr double kCertain = 5;   // standard deviations below zero
+constexpr double kFitsAsWell = 1.1;  // of what is left of torque: the turned sign fits as well
+constexpr double kCertain = 5;       // standard deviations below zero
 
 /// Whether friction of a joint drives it: both of its parameters are negative, and one certainly
 /// is.
@@ -51,7 +51,7 @@ void add_sign_remarks(const LinearModel& model, const TrialSamples& samples, con
   if (suspects.empty()) return;
   const TrialFit other = samples.fit(model, turned);
   for (const Index j : suspects) {
-    const bool mends = other.left[j] <= kAsGood * plain.left[j] && other.inertia[j] > 0 &&
+    const bool mends = other.left[j] <= kFitsAsWell * plain.left[j] && other.inertia[j] > 0 &&
                        other.power[j] > plain.power[j];
     if (!mends) continue;
     remarks.push_back(

@@ -17,13 +17,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSlowStep = 0.5;       // s: nobody samples a motion so rarely
-constexpr double kQuickStep = 20e-6;    // s: nor so often
-constexpr double kCounts = 50;          // range of integers that are no angles
-constexpr double kBeyondTorque = 30;    // times taumax: a unit, not a peak
-constexpr double kBeyondLimits = 0.05;  // of the range between limits: calibration, not a mistake
-constexpr double kSlope = 0.05;         // of velocities beside differences of positions
-constexpr double kGoesWith = 0.5;       // correlation below which velocities say nothing
+constexpr double kSlowStep = 0.5;        // s: nobody samples a motion so rarely
+constexpr double kQuickStep = 20e-6;     // s: nor so often
+constexpr double kCounts = 50;           // range of integers that are no angles
+constexpr double kBeyondTorque = 30;     // times taumax: a unit, not a peak
+constexpr double kBeyondLimits = 0.05;   // of the range between limits: calibration, not a mistake
+constexpr double kVelocityScale = 0.05;  // of velocities beside differences of positions
+constexpr double kGoesWith = 0.5;        // correlation below which velocities say nothing
 
 class Remarks {
  public:
@@ -172,7 +172,7 @@ void judge_velocities(const Recording& recording, double sample_time, Remarks& r
                               j + 1, here.correlation));
       continue;
     }
-    if (std::abs(best.slope - 1) > kSlope) {
+    if (std::abs(best.slope - 1) > kVelocityScale) {
       remarks.add("velocity", false, j + 1,
                   fmt::format("qd{0} is {1:.4g} times what q{0} and time say: unit, sign, gear or "
                               "sampling rate?",
@@ -192,7 +192,7 @@ void judge_velocities(const Recording& recording, double sample_time, Remarks& r
 /// For how many samples a position is held: the length that most stretches of equal values have; 1
 /// where they have none.
 Index held_samples(const VectorXd& q) {
-  constexpr double kMost = 0.7;  // of the stretches, without those that are longer: the joint rests
+  constexpr double kRegular = 0.7;  // of the stretches, without those that are longer: the joint rests
   constexpr Index kLongest = 64;
   std::vector<Index> stretches(kLongest + 1, 0);
   Index length = 1, all = 0;
@@ -208,7 +208,7 @@ Index held_samples(const VectorXd& q) {
     length = 1;
   }
   const auto most = std::max_element(stretches.begin(), stretches.end());
-  const bool regular = all > 64 && static_cast<double>(*most) > kMost * static_cast<double>(all);
+  const bool regular = all > 64 && static_cast<double>(*most) > kRegular * static_cast<double>(all);
   return regular ? most - stretches.begin() : 1;
 }
 

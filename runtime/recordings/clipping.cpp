@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kFewest = 5, kInSuccession = 3, kTimesAsMany = 5;
+constexpr Index kFewestClipped = 5, kInSuccession = 3, kTimesAsMany = 5;
 constexpr int kNeighbours = 5;
 
 Index longest_succession(const Eigen::Ref<const Eigen::VectorXd>& signal, double value) {
@@ -40,7 +40,7 @@ Index most_frequent_neighbour(const std::vector<double>& sorted, Index at_extrem
 bool piles_up(const Eigen::Ref<const Eigen::VectorXd>& signal, const std::vector<double>& sorted,
               Index at_extreme) {
   const double extreme = sorted.front();
-  return extreme != 0 && at_extreme >= kFewest && at_extreme < signal.size() &&
+  return extreme != 0 && at_extreme >= kFewestClipped && at_extreme < signal.size() &&
          at_extreme >= kTimesAsMany * most_frequent_neighbour(sorted, at_extreme) &&
          longest_succession(signal, extreme) >= kInSuccession;
 }

@@ -28,19 +28,19 @@ struct Part {
   bool per_joint;
 };
 
-constexpr std::array<Part, 6> kParts = {{{"q", &Recording::q, true},
-                                         {"tau", &Recording::tau, true},
-                                         {"qd", &Recording::dq, true},
-                                         {"qdd", &Recording::ddq, true},
-                                         {"tausim", &Recording::tau_sim, true},
-                                         {"temp", &Recording::temperature, false}}};
+constexpr std::array<Part, 6> kWrittenParts = {{{"q", &Recording::q, true},
+                                                {"tau", &Recording::tau, true},
+                                                {"qd", &Recording::dq, true},
+                                                {"qdd", &Recording::ddq, true},
+                                                {"tausim", &Recording::tau_sim, true},
+                                                {"temp", &Recording::temperature, false}}};
 
 void check(const Recording& recording, const WriteOptions& options) {
   const auto fail = [](const std::string& message) {
     throw std::invalid_argument("write_recording(): " + message);
   };
   if (recording.q.cols() < 1) fail("the recording has no joints");
-  for (const Part& part : kParts) {
+  for (const Part& part : kWrittenParts) {
     const Eigen::MatrixXd& matrix = recording.*part.matrix;
     const bool required =
         part.matrix == &Recording::q || (part.matrix == &Recording::tau && options.torque_required);
@@ -104,7 +104,7 @@ void append_number(std::string& text, double value) {
 void write_rows(const Recording& recording, OutputFile& file) {
   const bool segments = recording.run_starts.size() > 1;
   std::string text = "time";
-  for (const Part& part : kParts) {
+  for (const Part& part : kWrittenParts) {
     for (Index j = 0; j < (recording.*part.matrix).cols(); ++j) {
       text += fmt::format(",{}{}", part.name, j + 1);
     }
@@ -114,7 +114,7 @@ void write_rows(const Recording& recording, OutputFile& file) {
   std::size_t run = 0;
   for (Index k = 0; k < recording.samples(); ++k) {
     append_number(text, recording.time(k));
-    for (const Part& part : kParts) {
+    for (const Part& part : kWrittenParts) {
       const Eigen::MatrixXd& matrix = recording.*part.matrix;
       for (Index j = 0; j < matrix.cols(); ++j) {
         text += ',';

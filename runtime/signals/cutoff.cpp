@@ -18,7 +18,8 @@ namespace dyngen::runtime {
 namespace {
 
 constexpr double kMargin = 2;
-constexpr double kMissed = 0.01;   // of the power of the velocity, above a gap in its spectrum
+constexpr double kVelocityMissed =
+    0.01;                          // of the power of the velocity, above a gap in its spectrum
 constexpr double kNoNoise = 1e-9;  // of the range: no encoder is that good
 
 /// Samples a segment: lines of about a quarter of a hertz, and at least some segments to average.
@@ -158,7 +159,7 @@ JointCutoff joint_cutoff(const std::vector<Eigen::MatrixXd>& runs, Eigen::Index 
   // Motion may go on above a gap. Vibration is left alone: it accelerates, but moves nothing.
   const std::size_t further = least_error(density, noise);
   if (velocity_power(density, line, further) >
-      kMissed * velocity_power(density, 0, density.size() - 1)) {
+      kVelocityMissed * velocity_power(density, 0, density.size() - 1)) {
     line = further;
   }
   result.hz = static_cast<double>(line) / (static_cast<double>(segment) * sample_time);

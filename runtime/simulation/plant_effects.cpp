@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::array<std::string_view, 14> kKnown = {
+constexpr std::array<std::string_view, 14> kKnownVariables = {
     "q",  "qd", "qdd", "tau_load", "sign_qd", "q_other", "qd_other", "qdd_other", "tau_load_other",
     "Fc", "Fv", "Ia",  "t",        "temp"};
 
@@ -42,7 +42,7 @@ void check(const EffectInstance& instance, Index joints) {
 bool acts_on_plant(const EffectLaw& law) {
   if (law.acts_on_all || law.alignment != AlignmentOperator::kNone) return false;
   return std::all_of(law.variables.begin(), law.variables.end(), [](const std::string& name) {
-    return std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end();
+    return std::find(kKnownVariables.begin(), kKnownVariables.end(), name) != kKnownVariables.end();
   });
 }
 

@@ -23,6 +23,14 @@ TEST_P(ExplainText, IsAsCommitted) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
 }
 
+TEST(ExplainedParameters, AreSaidToBeBaseParameters) {
+  const std::string file = "number_link 1\nal pi/2\nmX 1\nZZ 1\ngz 9.81\n";
+  EXPECT_EQ(explain(parse_model(file + "stop\n")).find("are base parameters"), std::string::npos);
+  EXPECT_NE(explain(parse_model(file + "parameters base\nstop\n"))
+                .find("The numbers of the file are base parameters"),
+            std::string::npos);
+}
+
 TEST(ArmDrawing, IsAsCommitted) {
   expect_golden("drawn/rp.svg", arm_drawing(read_model("tests/robots/rp.robot")));
 }

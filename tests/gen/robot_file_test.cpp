@@ -71,6 +71,26 @@ TEST(RobotFile, ReadsTheDocumentedExample) {
   EXPECT_TRUE(file.warnings.empty());
 }
 
+TEST(RobotFile, BaseParametersMayHaveAnySign) {
+  const std::string rows = "number_link 2\nm 1 -2\nIA 0 -0.1\nFs -1 0\ngz 9.81\n";
+  EXPECT_NE(errors_of(rows + "stop\n").find("negative value -0.1 in 'IA'"), std::string::npos);
+  EXPECT_NE(errors_of(rows + "parameters bodies\nstop\n"), "");
+  const RobotFile file = parse(rows + "Parameters BASE\nstop\n");
+  EXPECT_EQ(file.parameters, ParameterMeaning::kBase);
+  ASSERT_EQ(file.warnings.size(), 1U);  // friction is no sum
+  EXPECT_EQ(file.warnings[0].position.line, 4);
+  EXPECT_EQ(parse("number_link 1\ngz 9.81\nstop\n").parameters, ParameterMeaning::kBodies);
+}
+
+TEST(RobotFile, KnowsWhereItsRowsStand) {
+  const std::string text = "number_link 2 m 1, 2 # kg\nd 0\n 0.4 gz 9.81\nstop\n";
+  const RobotFile file = parse(text);
+  std::vector<std::string> rows;
+  for (const RowText& row : file.texts) rows.push_back(text.substr(row.begin, row.end - row.begin));
+  EXPECT_EQ(rows,
+            (std::vector<std::string>{"number_link 2", "m 1, 2", "d 0\n 0.4", "gz 9.81", "stop"}));
+}
+
 TEST(RobotFile, ReadsTheFormOfAppendixB) {
   const RobotFile file = read_golden("thesis_appendix_b.robot");
   EXPECT_EQ(file.name, "thesis_appendix_b");

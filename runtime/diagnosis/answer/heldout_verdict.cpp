@@ -16,11 +16,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFarAbove = 1.3;  // rms over what is expected: less is how motions differ
-constexpr double kChance = 1e-3;   // of a joint's ratio, if nothing is left out
-constexpr double kCertainly = 3;   // standard deviations of that ratio among blocks
-constexpr double kOpen = 0.1;      // predicted: with more, parameters are open where it matters
-constexpr Index kBlocks = 10;
+constexpr double kFarAbove = 1.3;        // rms over what is expected: less is how motions differ
+constexpr double kHeldoutChance = 1e-3;  // of a joint's ratio, if nothing is left out
+constexpr double kCertainly = 3;         // standard deviations of that ratio among blocks
+constexpr double kOpen = 0.1;  // predicted: with more, parameters are open where it matters
+constexpr Index kHeldoutBlocks = 10;
 
 std::string unit_of(const std::vector<bool>& revolute, Index joint) {
   return revolute[static_cast<std::size_t>(joint)] ? "N m" : "N";
@@ -31,7 +31,7 @@ bool far_above(double rms, double floor, double predicted, double fitted, double
   if (!(floor > 0) || !std::isfinite(rms)) return false;
   const double ratio = rms * rms / (floor * floor * (1 + std::max(predicted, 0.0)));
   if (ratio <= kFarAbove * kFarAbove) return false;
-  return variance_ratio_tail(ratio, std::max(heldout, 1.0), std::max(fitted, 1.0)) < kChance;
+  return variance_ratio_tail(ratio, std::max(heldout, 1.0), std::max(fitted, 1.0)) < kHeldoutChance;
 }
 
 }  // namespace
@@ -50,17 +50,17 @@ VectorXd worsening(const EffectRecordings& heldout, const RunResiduals& before,
       }
     }
     const auto samples = static_cast<Index>(first.size());
-    if (samples < 4 * kBlocks) continue;
+    if (samples < 4 * kHeldoutBlocks) continue;
     const Eigen::Map<const VectorXd> without(first.data(), samples), with(second.data(), samples);
-    VectorXd ratio(kBlocks);
-    for (Index b = 0; b < kBlocks; ++b) {
-      const Index begin = b * samples / kBlocks, end = (b + 1) * samples / kBlocks;
+    VectorXd ratio(kHeldoutBlocks);
+    for (Index b = 0; b < kHeldoutBlocks; ++b) {
+      const Index begin = b * samples / kHeldoutBlocks, end = (b + 1) * samples / kHeldoutBlocks;
       ratio[b] = std::log(std::max(with.segment(begin, end - begin).sum(), 1e-300) /
                           std::max(without.segment(begin, end - begin).sum(), 1e-300));
     }
     const double mean = ratio.mean();
     const double deviation =
-        std::sqrt((ratio.array() - mean).square().sum() / (kBlocks - 1) / kBlocks);
+        std::sqrt((ratio.array() - mean).square().sum() / (kHeldoutBlocks - 1) / kHeldoutBlocks);
     if (mean > 0) result[j] = mean / std::max(deviation, 1e-12);
   }
   return result;

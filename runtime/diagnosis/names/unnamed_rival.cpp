@@ -14,8 +14,8 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr std::size_t kTried = 4;  // of each kind
-constexpr double kSame = 0.01;     // of a curve's squares: what the winner cannot imitate
+constexpr std::size_t kTried = 4;   // of each kind
+constexpr double kSameForm = 0.01;  // of a curve's squares: what the winner cannot imitate
 
 /// The first few places of those with the largest squares, net.
 std::vector<std::size_t> largest(std::vector<std::pair<double, std::size_t>> nets) {
@@ -87,7 +87,8 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
       JointColumns curve = hypothesis_columns(data, signals, system, hypothesis, trial.effect);
       for (Eigen::MatrixXd& part : curve.parts) part = part * trial.score.coefficients;
       const Imitation by_winner = imitation(system, curve, own);
-      if (by_winner.left < kSame * by_winner.whole) continue;  // the same curve, which has a name
+      if (by_winner.left < kSameForm * by_winner.whole)
+        continue;  // the same curve, which has a name
       consider(net_of(hypothesis, trial, result.noise),
                fmt::format("the form of {}, no name here since {}", short_name(trial.effect),
                            trial.objection));

@@ -154,6 +154,7 @@ int run_atlas(const ToolOptions& options) {
   AtlasReport report;
   const EffectCatalogue catalogue = effect_catalogue(options.effects);
   report.robot = describe_robot(options.robot, OpenParameters::kAbsentRows);
+  refuse_without_parameters(report.robot);
   Motions motions = options.atlas.trajectory.empty() ? of_recordings(options, progress, report)
                                                      : of_trajectory(options, report);
   const AtlasNoise noise = noise_of(options, motions, report);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <exception>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <utility>
 
+#include "gen/diagnostic/diagnostic.h"
 #include "gen/tool/output_files.h"
 #include "runtime/diagnosis/views/division.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_document.h"
@@ -18,11 +20,13 @@
 #include "runtime/tools/dynid/effects/effect_hypotheses.h"
 #include "runtime/tools/dynid/effects/effect_laws.h"
 #include "runtime/tools/dynid/effects/robot_tangents.h"
+#include "runtime/tools/dynid/fit/number_notes.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/arm_drawing.h"
 #include "runtime/tools/dynid/page/page_output.h"
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
+#include "runtime/tools/dynid/robot/identified_file.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -123,12 +127,18 @@ ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& r
   });
 }
 
-/// The statements that dyngen writes for each finding, of the improved file.
+/// The statements that dyngen writes for each finding, of the improved file; none if that cannot be
+/// read, which write_outputs() says.
 void add_code(DiagnosisReport& report, const DescribedRobot& robot,
               const std::shared_ptr<const EffectCatalogue>& catalogue) {
   const auto& effects = report.diagnosis.fit.point.effects;
   if (effects.empty()) return;
-  const RobotFile file = parse_robot_file(improved_text(report, robot), robot.file.file_name);
+  RobotFile file;
+  try {
+    file = parse_robot_file(improved_text(report, robot), robot.file.file_name);
+  } catch (const ModelError&) {
+    return;
+  }
   std::size_t row = robot.file.effects.size();
   for (std::size_t i = 0; i < effects.size(); ++i) {
     if (effects[i].recording >= 0) continue;  // an event: no row
@@ -136,19 +146,57 @@ void add_code(DiagnosisReport& report, const DescribedRobot& robot,
   }
 }
 
+/// What held numbers cannot go with.
+void refuse_with_hold(const ToolOptions& options, const HeldNumbers& held) {
+  if (!held.any()) return;
+  if (options.diagnose.diagnosis.residual_only) {
+    throw std::invalid_argument(
+        "--hold and --residual-only: expected one of them, since the model's own parameters are "
+        "not "
+        "fitted to what another simulator leaves");
+  }
+  if (held.deviations.size() > 0) {
+    throw std::invalid_argument(
+        "--hold: standard deviations (+-) are for 'dynid fit'; a diagnosis takes held numbers for "
+        "exact");
+  }
+}
+
+/// The JSON and the page, then the robot file: an answer is not lost with it.
 void write_outputs(const ToolOptions& options, const DescribedRobot& robot, DiagnosisReport& report,
                    ProgressLine& progress) {
-  const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
-  std::vector<OutputFile> files;
-  if (!options.json.empty()) files.push_back({options.json, diagnosis_json(report)});
-  if (!options.output.empty() && answered) {
-    files.push_back({options.output, improved_text(report, robot)});
+  std::vector<OutputFile> answer;
+  if (!options.json.empty()) {
+    answer.push_back({options.json, diagnosis_json(report)});
+    report.written.push_back(options.json);
   }
-  for (const OutputFile& file : files) report.written.push_back(file.path);
   const std::vector<std::string> made = write_with_page(
-      options.page, [&] { return diagnosis_document(report); }, progress, std::move(files));
+      options.page, [&] { return diagnosis_document(report); }, progress, std::move(answer));
   report.written.insert(report.written.begin(), made.begin(), made.end());
+  const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
+  if (options.output.empty() || !answered) return;
+  write_robot_files({{options.output, improved_text(report, robot)}});
+  report.written.push_back(options.output);
 }
+
+/// What went wrong beside the answer, to be said when that stands.
+class LateError {
+ public:
+  template <typename Work>
+  void during(const Work& work) {
+    try {
+      work();
+    } catch (...) {
+      if (!first_) first_ = std::current_exception();
+    }
+  }
+  void rethrow() const {
+    if (first_) std::rethrow_exception(first_);
+  }
+
+ private:
+  std::exception_ptr first_;
+};
 
 }  // namespace
 
@@ -160,7 +208,10 @@ int run_diagnose(const ToolOptions& options) {
   check_simulation(options);
   const auto shared = std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects));
   const EffectCatalogue& catalogue = *shared;
-  const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAbsentRows);
+  const DescribedRobot robot =
+      describe_robot(options.robot, OpenParameters::kAbsentRows, {.hold = options.hold});
+  refuse_without_parameters(robot);
+  refuse_with_hold(options, robot.held);
   const KnownEffects known = known_effects(options.robot, catalogue);
   const ToolOptions how = reading(options);
   std::vector<DiagnosedRecording> recordings;
@@ -215,6 +266,7 @@ int run_diagnose(const ToolOptions& options) {
   report.views = std::move(views);
   report.arm = arm_drawing(robot.model, posture, marked_joints(report.diagnosis));
   report.recordings = std::move(recordings);
+  report.notes = notes_of_numbers(robot, false);
   report.residual_only = settings.residual_only;
   report.false_alarm = settings.false_alarm;
   report.seed = settings.seed;
@@ -223,14 +275,18 @@ int run_diagnose(const ToolOptions& options) {
   report.json_path = options.json;
   report.version = DYNGEN_VERSION;
   const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
+  LateError late;
   if (answered && !options.diagnose.loop.controller.empty()) {
-    report.forward = simulated(options, report, robot, catalogue, std::move(proof), progress);
+    late.during([&] {
+      report.forward = simulated(options, report, robot, catalogue, std::move(proof), progress);
+    });
   }
   if (answered) add_code(report, robot, shared);
   progress.clear();
-  write_outputs(options, robot, report, progress);
+  late.during([&] { write_outputs(options, robot, report, progress); });
   progress.clear();
-  std::cout << diagnosis_text(report, style_of_output());
+  std::cout << diagnosis_text(report, style_of_output()) << std::flush;
+  late.rethrow();
   if (answered) return kDone;
   std::cerr << "dynid: " << report.diagnosis.sentence << "\n";
   return kCannotAnswer;

@@ -269,6 +269,9 @@ void add_condition(const DiagnosisReport& report, std::vector<ReportSection>& se
   for (const ConditionLine& line : report.diagnosis.condition) {
     section.parts.push_back({"", "", line.recording, {ReportList{line.sentences}}});
   }
+  if (!report.notes.empty()) {
+    section.parts.push_back({"", "", report.robot_path, {ReportList{report.notes}}});
+  }
   if (!section.parts.empty()) sections.push_back(std::move(section));
 }
 

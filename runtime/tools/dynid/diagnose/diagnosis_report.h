@@ -43,6 +43,7 @@ struct DiagnosisReport {
   std::string trajectory;                      ///< file of the next experiment; empty: none
   std::string robot_path, json_path;           ///< files of this diagnosis; empty: none
   std::vector<DiagnosedRecording> recordings;
+  std::vector<std::string> notes;  ///< of the robot file's numbers
   bool residual_only = false;
   double false_alarm = 0;
   std::uint64_t seed = 0;

@@ -202,6 +202,7 @@ std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style
   }
   text += heldout_table(report, style) + forward_table(report);
   if (!diagnosis.noise.how.empty()) text += "noise: " + diagnosis.noise.how + "\n";
+  for (const std::string& note : report.notes) text += note + "\n";
   text += list_text("unexplained:", unexplained_lines(report));
   text += list_text("cannot be decided:", undecidable_lines(diagnosis));
   if (!diagnosis.next.purpose.empty()) {

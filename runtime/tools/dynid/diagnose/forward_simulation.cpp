@@ -161,8 +161,7 @@ class ForwardSimulation {
 
   ForwardComparison compare(const DiagnosisReport& report, const DescribedRobot& robot) {
     const VectorXd beta = parameters_alone(report.diagnosis);
-    const std::string alone =
-        identified_text(robot, nearest_standard(robot, beta), {{}, {}, {}, true});
+    const std::string alone = identified_text(robot, nearest_standard(robot, beta), {});
     const Candidate before{"the model alone", parse_robot_file(alone, robot.file.file_name)};
     const Candidate after{"the model with the findings",
                           parse_robot_file(improved_text(report, robot), robot.file.file_name)};

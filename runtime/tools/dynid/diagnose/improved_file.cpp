@@ -38,7 +38,7 @@ std::string improved_text(const DiagnosisReport& report, const DescribedRobot& r
   std::vector<std::string> rows;
   for (const EffectInstance& effect : point.effects) {
     if (effect.recording >= 0) continue;  // an event of that recording is none of the robot
-    rows.push_back(effect_row(effect, robot.model, true));
+    rows.push_back(effect_row(effect, robot.model));
   }
   std::vector<std::string> comment = findings_comment(report, robot);
   if (report.residual_only) {
@@ -47,7 +47,7 @@ std::string improved_text(const DiagnosisReport& report, const DescribedRobot& r
     lines.insert(lines.end(), rows.begin(), rows.end());
     return text_with_rows(robot.file, lines);
   }
-  return identified_text(robot, nearest_standard(robot, point.beta), {comment, {}, rows, true});
+  return identified_text(robot, nearest_standard(robot, point.beta), {comment, {}, rows});
 }
 
 }  // namespace dyngen::runtime

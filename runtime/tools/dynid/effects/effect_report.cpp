@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "gen/effect_file/units.h"
 
 namespace dyngen::runtime {
@@ -85,7 +87,7 @@ std::string effect_rows(const EffectReport& report, const DescribedRobot& robot)
   return text;
 }
 
-std::string effect_row(const EffectInstance& effect, const RobotModel& model, bool exact) {
+std::string effect_row(const EffectInstance& effect, const RobotModel& model) {
   std::string row = "effect " + effect.law.name;
   if (const int joint = file_joint(effect, model); joint > 0)
     row += fmt::format(" joint={}", joint);
@@ -93,7 +95,7 @@ std::string effect_row(const EffectInstance& effect, const RobotModel& model, bo
   for (std::size_t p = 0; p < effect.law.parameters.size(); ++p) {
     const double value = effect.parameters[static_cast<Index>(p)];
     row += fmt::format(" {}={}", effect.law.parameters[p].name,
-                       exact ? fmt::format("{}", value) : fmt::format("{:.12g}", value));
+                       std::isfinite(value) ? fmt::format("{}", value) : "*");
   }
   return row;
 }
@@ -101,7 +103,7 @@ std::string effect_row(const EffectInstance& effect, const RobotModel& model, bo
 std::vector<std::string> effect_file_rows(const EffectReport& report, const DescribedRobot& robot) {
   std::vector<std::string> rows;
   for (const EffectInstance& effect : report.fit.point.effects) {
-    rows.push_back(effect_row(effect, robot.model, false));
+    rows.push_back(effect_row(effect, robot.model));
   }
   return rows;
 }

@@ -33,8 +33,7 @@ int file_joint(const EffectInstance& effect, const RobotModel& model);
 std::string place_of(const EffectInstance& effect, const RobotModel& model);
 
 /// "effect stribeck joint=2 Fs=2.1 vs=0.05 delta=2": the row of a robot file.
-/// @param exact  numbers that read back as they are; else of 12 digits
-std::string effect_row(const EffectInstance& effect, const RobotModel& model, bool exact);
+std::string effect_row(const EffectInstance& effect, const RobotModel& model);
 
 /// "held", "at its bound", "not seen": why a parameter has no deviation; empty: it has.
 std::string state_of(const EffectParameterFit& parameter);

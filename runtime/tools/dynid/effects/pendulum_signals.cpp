@@ -13,9 +13,10 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kSampleTime = 0.0005, kDuration = 10;
-constexpr double kMass = 10, kLength = 0.5, kGravity = 9.81, kRotor = 0.5;
+constexpr double kMass = 10, kPendulumLength = 0.5, kGravity = 9.81, kRotor = 0.5;
 constexpr double kCoulomb = 4, kViscous = 3;
-constexpr double kInertia = kMass * kLength * kLength, kMoment = kMass * kLength;
+constexpr double kInertia = kMass * kPendulumLength * kPendulumLength,
+                 kMoment = kMass * kPendulumLength;
 
 /// Two harmonics, so that reversals differ.
 struct Swing {
@@ -115,13 +116,13 @@ VectorXd pendulum_signal(const std::string& name) {
   if (stem == "d_alpha") return kMoment * kGravity * 0.1 * q.sin();
   if (stem == "d_d" || stem == "d_r") return kMass * kGravity * q.sin();
   if (stem == "payload_ZZ") return motion.qdd;
-  if (stem == "payload_MX") return 2 * kLength * motion.qdd.array() + kGravity * q.sin();
+  if (stem == "payload_MX") return 2 * kPendulumLength * motion.qdd.array() + kGravity * q.sin();
   if (stem == "payload_MY") return kGravity * q.cos();
   if (stem == "payload_M") {  // its frame is at the tip
-    return kLength * (kLength * motion.qdd.array() + kGravity * q.sin());
+    return kPendulumLength * (kPendulumLength * motion.qdd.array() + kGravity * q.sin());
   }
-  if (stem == "contact_fx") return -kLength * q.sin();
-  if (stem == "contact_fy") return kLength * q.cos();
+  if (stem == "contact_fx") return -kPendulumLength * q.sin();
+  if (stem == "contact_fy") return kPendulumLength * q.cos();
   if (stem == "contact_nz") return VectorXd::Ones(t.size());
   if (stem == "wrench_fx") {
     return -kMoment * motion.qd.array().square() - kMass * kGravity * q.cos();

@@ -28,6 +28,7 @@ std::string text_of(const RobotSummaries& all, const std::string& path) {
 int run_accumulate(const ToolOptions& options) {
   ProgressLine progress("dynid");
   const DescribedRobot robot = describe_robot(options.robot, OpenParameters::kAbsentRows);
+  refuse_without_parameters(robot);
   RobotSummaries all = empty_summaries(robot.linear);
   RecordingSummary sum = empty_summary(robot.linear.columns, robot.linear.size());
   // one recording in memory at a time

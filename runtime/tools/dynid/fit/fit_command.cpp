@@ -14,10 +14,13 @@
 #include "runtime/tools/dynid/fit/consistent_fit.h"
 #include "runtime/tools/dynid/fit/file_summaries.h"
 #include "runtime/tools/dynid/fit/fit_with_effects.h"
+#include "runtime/tools/dynid/fit/held_uncertainty.h"
+#include "runtime/tools/dynid/fit/number_notes.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/page_output.h"
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
+#include "runtime/tools/dynid/robot/identified_file.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -207,21 +210,62 @@ std::vector<FitMethod> methods_of(const ToolOptions& options, const FitData& dat
   return methods;
 }
 
+/// What held numbers cannot go with.
+void refuse_with_hold(const ToolOptions& options, const HeldNumbers& held, bool file_by_file,
+                      bool summaries) {
+  if (options.hold.empty()) return;
+  if (file_by_file && held.deviations.size() > 0) {
+    throw std::invalid_argument(
+        "--hold with standard deviations (+-) goes with recordings that are given directly to one "
+        "process, not with --list or mpirun");
+  }
+  if (summaries) {
+    throw std::invalid_argument(
+        "--hold goes with recordings, not with .qr files: those are sums over all parameters");
+  }
+  if (options.consistent) {
+    throw std::invalid_argument(
+        "--hold and --consistent: expected one of them. Bodies that can exist are near the file's "
+        "numbers, and change with each other");
+  }
+  const auto& methods = options.fit.methods;
+  if (std::find(methods.begin(), methods.end(), FitMethod::kIv) != methods.end()) {
+    throw std::invalid_argument(
+        "--hold and --method iv: expected another method, since the instruments are simulated with "
+        "all parameters");
+  }
+}
+
+/// How far the fit can be trusted, and what the recordings do not see.
+void examine(FitReport& report, ProgressLine& progress) {
+  progress.show("trust", 0, 1);
+  const RecordingSummary& summary = report.data.summary;
+  report.trust = measure_trust(summary.equations, report.main().estimate, summary.regressor_noise,
+                               summary.row_time);
+  warn_of_hidden_directions(report);
+  report.conditioning = examine_conditioning(report);
+  // what a method leaves out on purpose is not what the data do not see
+  const Estimate plain = weighted_least_squares(summary.equations);
+  report.unseen = name_unseen(plain, report.robot.linear, summary.extent);
+}
+
+/// The JSON and the page, before the robot files: an answer is not lost with one of them.
 /// @return  paths of the page and its figures
 std::vector<std::string> write_outputs(const ToolOptions& options, const FitReport& report,
                                        ProgressLine& progress) {
-  std::vector<OutputFile> files;
-  if (!options.output.empty()) {
-    files.push_back({options.output, identified_file(report)});
-    for (std::size_t i = 0; report.hierarchy && i < report.hierarchy->robots.size(); ++i) {
-      files.push_back({path_of_robot(options.output, report.hierarchy->robots[i].name),
-                       identified_file(report, i)});
-    }
-  }
-  if (!options.json.empty()) files.push_back({options.json, fit_json(report)});
-  return write_with_page(
+  std::vector<OutputFile> answer;
+  if (!options.json.empty()) answer.push_back({options.json, fit_json(report)});
+  std::vector<std::string> made = write_with_page(
       options.page, [&] { return fit_document(report, options.page.command); }, progress,
-      std::move(files));
+      std::move(answer));
+  if (options.output.empty()) return made;
+  std::vector<OutputFile> robots = {{options.output, identified_file(report)}};
+  for (std::size_t i = 0; report.hierarchy && i < report.hierarchy->robots.size(); ++i) {
+    robots.push_back({path_of_robot(options.output, report.hierarchy->robots[i].name),
+                      identified_file(report, i)});
+  }
+  write_robot_files(robots);
+  return made;
 }
 
 }  // namespace
@@ -229,7 +273,7 @@ std::vector<std::string> write_outputs(const ToolOptions& options, const FitRepo
 int run_fit(const ToolOptions& options, ProcessGroup& group) {
   ProgressLine progress("dynid");
   FitReport report;
-  report.robot = describe_robot(options.robot, opened_by(options));
+  report.robot = describe_robot(options.robot, opened_by(options), {.hold = options.hold});
   const LinearModel& model = report.robot.linear;
   LoadedRecordings train, heldout;
   const bool file_by_file = !options.list.empty() || group.size() > 1;
@@ -237,7 +281,13 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   check_what_is_summed_up(options, file_by_file, summaries);
   const EffectTask task = EffectTask::of(report.robot, options);
   const bool with_effects = !task.effects.empty();
-  if (with_effects) refuse_with_effects(options, file_by_file, summaries);
+  if (with_effects) {
+    refuse_with_effects(options, file_by_file, summaries);
+  } else {
+    refuse_without_parameters(report.robot);
+  }
+  refuse_with_hold(options, report.robot.held, file_by_file, summaries);
+  report.notes = notes_of_numbers(report.robot, has_open_payload(task.effects));
   if (file_by_file) {
     load_by_file(options, group, progress, report);
   } else if (summaries) {
@@ -247,8 +297,10 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     train = load_recordings(options.recordings, reading, false, progress);
     heldout = load_recordings(options.heldout, reading, true, progress);
     hold_out_parts(options.heldout_part, train, heldout, options);
-    settle_cutoff(with_effects ? nullptr : &model, train, heldout, reading, progress);
-    report.notes = judge_recordings(report.robot, train.sources, options, progress);
+    settle_cutoff(with_effects || model.held ? nullptr : &model, train, heldout, reading, progress);
+    for (std::string& remark : judge_recordings(report.robot, train.sources, options, progress)) {
+      report.notes.push_back(std::move(remark));
+    }
     if (with_effects) {
       fit_with_effects(task, options, train.sources, heldout.sources, progress, report);
     } else {
@@ -285,23 +337,27 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
         fit_methods(model, report.data, fit_options, [&](const std::string& what, double done) {
           progress.show(what, static_cast<std::size_t>(100 * done), 100);
         });
+    add_held_uncertainty(train.sources, options, report);
   }
-  progress.show("trust", 0, 1);
-  report.trust = measure_trust(report.data.summary.equations, report.main().estimate,
-                               report.data.summary.regressor_noise, report.data.summary.row_time);
-  warn_of_hidden_directions(report);
-  report.conditioning = examine_conditioning(report);
-  // what a method leaves out on purpose is not what the data do not see
-  const Estimate plain = weighted_least_squares(report.data.summary.equations);
-  report.unseen = name_unseen(plain, model, report.data.summary.extent);
+  take_percentages_of_recorded_torque(train.sources, heldout.sources, options, report);
+  if (model.size() > 0) {
+    examine(report, progress);
+    const MethodFit& fit = report.main();
+    const VectorXd deviations = fit.estimate.covariance.size() > 0 ? fit.stddev() : VectorXd();
+    for (std::string& note :
+         notes_of_negatives(model, fit.estimate.beta, deviations, fit.interval)) {
+      report.notes.push_back(std::move(note));
+    }
+  }
   if (options.consistent) {
     progress.show("physical consistency", 0, 1);
     report.consistent = fit_consistently(report);
   }
   warn_of_held_out(report);
+  progress.clear();
+  std::cout << fit_table(report) << std::flush;
   const std::vector<std::string> made = write_outputs(options, report, progress);
   progress.clear();
-  std::cout << fit_table(report);
   tell_written(made);
   if (nothing_heldout) {
     std::cerr

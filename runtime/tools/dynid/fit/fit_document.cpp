@@ -51,11 +51,12 @@ std::string sentence_of(const FitReport& report) {
   const bool heldout = fit.heldout_percent.size() != 0;
   const VectorXd percent = known_of(heldout ? fit.heldout_percent : fit.percent);
   const int weak = count_of(report, Seen::kWeak), unseen = count_of(report, Seen::kNo);
-  std::string text =
-      fmt::format("{} base parameters fitted by {}; of the torque {}, {} to {} % is left, by joint",
-                  report.robot.linear.size(), method_name(fit),
-                  heldout ? "of recordings that were not fitted" : "that was fitted",
-                  percent_words(percent.minCoeff()), percent_words(percent.maxCoeff()));
+  const int size = report.robot.linear.size();
+  std::string text = fmt::format(
+      "{} fitted by {}; of the torque {}, {} to {} % is left, by joint",
+      size > 0 ? fmt::format("{} base parameters", size) : "effects beside held numbers",
+      method_name(fit), heldout ? "of recordings that were not fitted" : "that was fitted",
+      percent_words(percent.minCoeff()), percent_words(percent.maxCoeff()));
   if (unseen > 0) text += fmt::format("; the data do not determine {}", unseen);
   if (weak > 0) {
     text += fmt::format("{} {} cannot be told from zero", unseen > 0 ? " and" : ";", weak);
@@ -360,7 +361,7 @@ ReportDocument fit_document(const FitReport& report, const std::string& command)
   add_consistent(report, document.sections);
   add_hierarchy(report, document.sections);
   add_methods(report, document.sections);
-  add_conditioning(report, document.sections);
+  if (report.robot.linear.size() > 0) add_conditioning(report, document.sections);
   add_recordings(report, document.sections);
   document.sections.push_back(origin_section(command, document.origin));
   return document;

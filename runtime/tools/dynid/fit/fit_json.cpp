@@ -66,6 +66,20 @@ Json parameters(const FitReport& report) {
   return array;
 }
 
+Json held(const DescribedRobot& robot) {
+  Json array = Json::array();
+  std::size_t name = 0;
+  for (std::size_t i = 0; i < robot.held.places.size(); ++i) {
+    if (!robot.held.places[i]) continue;
+    const auto place = static_cast<Index>(i);
+    const bool exact = robot.held.deviations.size() == 0;
+    array.push_back({{"name", robot.held.names[name++]},
+                     {"value", number(robot.held_values[place])},
+                     {"std", exact ? 0.0 : robot.held.deviations[place]}});
+  }
+  return array;
+}
+
 Json joints(const FitReport& report) {
   Json array = Json::array();
   const MethodFit& fit = report.main();
@@ -188,6 +202,7 @@ std::string fit_json(const FitReport& report) {
                {"unseen", unseen(report)},
                {"methods", methods(report)},
                {"notes", report.notes}};
+  if (report.robot.held.any()) json["held"] = held(report.robot);
   if (report.consistent) {
     json["consistent"] = {{"converged", report.consistent->converged},
                           {"cost_free", report.consistent->cost_free},

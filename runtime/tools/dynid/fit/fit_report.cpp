@@ -93,14 +93,21 @@ std::string identified_file(const FitReport& report) {
         "full parameters of bodies that can exist; only these base parameters were measured");
     add_values(report, report.consistent->beta, stddev, comment);
     add_effects();
-    return identified_text(report.robot, report.consistent->standard, {comment, effects});
+    return identified_text(report.robot, report.consistent->standard,
+                           {comment, effects, {}, ParameterMeaning::kBodies});
   }
   comment.push_back(origin(report, method));
+  if (report.robot.held.any()) {
+    comment.push_back(
+        fmt::format("kept as they were: {}", fmt::join(report.robot.held.names, " ")));
+  }
   comment.emplace_back(kBaseParameters);
   add_values(report, fit.estimate.beta, stddev, comment);
   add_effects();
-  return identified_text(report.robot, carried(report.robot, fit.estimate.beta),
-                         {comment, effects});
+  const StandardParameters standard = report.effects
+                                          ? carried_beside_rotors(report.robot, fit.estimate.beta)
+                                          : carried(report.robot, fit.estimate.beta);
+  return identified_text(report.robot, standard, {comment, effects});
 }
 
 std::string identified_file(const FitReport& report, std::size_t robot) {

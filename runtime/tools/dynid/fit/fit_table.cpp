@@ -28,15 +28,17 @@ std::string percents_text(const VectorXd& values) {
   return fmt::format("{}", fmt::join(texts, " "));
 }
 
-/// Long sums are whole in the robot file and the JSON.
-std::string shortened(const std::string& formula) {
+/// Long sums are whole in the robot file and the JSON. What is said behind a sum stays.
+std::string shortened(const std::string& whole) {
   constexpr std::size_t kMost = 44;
-  if (formula.size() <= kMost) return formula;
+  const std::size_t behind = std::min(whole.find("; "), whole.size());
+  const std::string formula = whole.substr(0, behind), remark = whole.substr(behind);
+  if (formula.size() <= kMost) return whole;
   const std::size_t plus = formula.rfind(" + ", kMost), minus = formula.rfind(" - ", kMost);
   const std::size_t cut = plus == std::string::npos    ? minus
                           : minus == std::string::npos ? plus
                                                        : std::max(plus, minus);
-  return formula.substr(0, cut == std::string::npos ? kMost : cut) + " ...";
+  return formula.substr(0, cut == std::string::npos ? kMost : cut) + " ..." + remark;
 }
 
 std::string heading(const FitReport& report) {
@@ -61,6 +63,7 @@ std::string heading(const FitReport& report) {
 
 std::string parameter_rows(const FitReport& report) {
   const LinearModel& model = report.robot.linear;
+  if (model.size() == 0) return "";
   const MethodFit& fit = report.main();
   const bool known = fit.estimate.covariance.size() != 0;
   std::string text = fmt::format("\n{:<8}{:>11}{:>10}{:>7}  {:<10}{:<5}", "", "value", "stddev",
@@ -300,11 +303,12 @@ std::string method_columns(const FitReport& report) {
 }  // namespace
 
 std::string fit_table(const FitReport& report) {
+  const bool any = report.robot.linear.size() > 0;
   std::string text = heading(report) + parameter_rows(report) +
                      (report.effects ? effect_rows(*report.effects, report.robot) : "") +
-                     joint_rows(report) + conditioning_rows(report) + trust_rows(report) +
-                     consistent_rows(report) + unseen_rows(report) + hierarchy_rows(report) +
-                     method_columns(report);
+                     joint_rows(report) + (any ? conditioning_rows(report) : "") +
+                     (any ? trust_rows(report) : "") + consistent_rows(report) +
+                     unseen_rows(report) + hierarchy_rows(report) + method_columns(report);
   std::string messages;
   for (const MethodFit& fit : report.fits) {
     for (const std::string& message : fit.messages) {

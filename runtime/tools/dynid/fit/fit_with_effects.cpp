@@ -14,6 +14,7 @@
 #include "runtime/effects/effect_start.h"
 #include "runtime/tools/dynid/effects/effect_laws.h"
 #include "runtime/tools/dynid/effects/robot_tangents.h"
+#include "runtime/tools/dynid/fit/held_uncertainty.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -114,6 +115,7 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
       fit_effects(data, task.effects, settings, [&](const std::string& what, double done) {
         progress.show(what, static_cast<std::size_t>(100 * done), 100);
       });
+  add_held_uncertainty(report.robot, data, effects.fit);
   effects.units = effect_units(task.effects, task.catalogue, model);
   const EffectPoint& point = effects.fit.point;
 

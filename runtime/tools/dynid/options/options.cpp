@@ -15,6 +15,7 @@
 #include "gen/tool/usage_hint.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/options/parts.h"
+#include "runtime/tools/dynid/robot/held_numbers.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -92,9 +93,18 @@ void add_effects(CLI::App& command, ToolOptions& options) {
       ->allow_extra_args(false);
 }
 
+void add_hold(CLI::App& command, ToolOptions& options) {
+  command
+      .add_option("--hold", options.hold,
+                  fmt::format("numbers of the robot file that are kept, not estimated: {}; may be "
+                              "given again",
+                              kHoldForms))
+      ->allow_extra_args(false);
+}
+
 void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* fit = tool.add_subcommand("fit", "identify a robot's parameters from recordings");
-  fit->add_option("robot", options.robot, "robot file; its rows that are absent or * are estimated")
+  fit->add_option("robot", options.robot, "robot file: its numbers are where the fit begins")
       ->required();
   add_recordings(*fit, options, "recordings, or .qr files of 'dynid accumulate'");
   fit->add_option("--holdout", options.heldout,
@@ -106,6 +116,7 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
                   fmt::format("{}, or all: side by side", fmt::join(fit_method_names(), ", ")))
       ->allow_extra_args(false)
       ->default_str("wls");
+  add_hold(*fit, options);
   fit->add_flag("--consistent", options.consistent,
                 "full parameters of bodies that can exist, near the file's values");
   fit->add_option("-o,--output", options.output, "the identified robot file");
@@ -159,12 +170,13 @@ void add_atlas(CLI::App& tool, ToolOptions& options, Words& words) {
 void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* diagnose = tool.add_subcommand(
       "diagnose", "where model and recordings differ, which physics was left out, and the proof");
-  diagnose->add_option("robot", options.robot, "robot file; rows that are absent or * are fitted")
+  diagnose->add_option("robot", options.robot, "robot file: its numbers are where the fit begins")
       ->required();
   diagnose->add_option("recordings", options.recordings, "recordings");
   diagnose->add_option("--holdout", options.heldout,
                        "recordings that only prove the answer; may be given again. Else a fifth of "
                        "every recording: the last in which all joints move");
+  add_hold(*diagnose, options);
   add_effects(*diagnose, options);
   diagnose->add_option("-o,--output", options.output, "the robot file with what was found");
   diagnose->add_option("--json", options.json, "all results for programs");

@@ -48,6 +48,7 @@ struct ToolOptions {
   std::string robot_name;            ///< of accumulate: whose recordings these are
   std::vector<std::string> effects;  ///< folders of effect files besides the program's own
   PageOptions page;                  ///< of fit, excite, atlas and diagnose
+  std::vector<std::string> hold;     ///< numbers of the file that are not estimated; empty: none
   bool as_recorded = false;          ///< recordings that cannot be meant are fitted all the same
   bool own_friction = false;         ///< robots share inertia, each has its own friction and offset
   bool consistent = false;

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <system_error>
 
 #include "runtime/report/document_json.h"
@@ -36,18 +37,17 @@ std::vector<std::string> write_with_page(const PageOptions& options,
                                          const std::function<ReportDocument()>& document,
                                          ProgressLine& progress, std::vector<OutputFile> files) {
   std::vector<std::string> made;
-  if (!options.report.empty() || !options.figures.empty()) {
-    const ReportDocument page = document();
-    if (!options.report.empty()) {
-      files.push_back({options.report, report_page(page)});
-      made.push_back(options.report);
-    }
-    if (!options.figures.empty()) {
-      write_figures(options.figures, page, progress);
-      made.push_back(options.figures);
-    }
+  std::optional<ReportDocument> page;
+  if (!options.report.empty() || !options.figures.empty()) page = document();
+  if (!options.report.empty()) {
+    files.push_back({options.report, report_page(*page)});
+    made.push_back(options.report);
   }
   write_files(files);
+  if (!options.figures.empty()) {  // last: a picture that cannot be drawn costs no answer
+    write_figures(options.figures, *page, progress);
+    made.push_back(options.figures);
+  }
   progress.clear();
   return made;
 }

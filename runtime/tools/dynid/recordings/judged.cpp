@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "gen/symbols/exact.h"
 #include "runtime/tools/dynid/robot/row_values.h"
@@ -64,9 +65,13 @@ std::vector<std::string> judge_recordings(const DescribedRobot& robot,
                                           const std::vector<MotionSource>& sources,
                                           const ToolOptions& options, ProgressLine& progress) {
   progress.show("judging recordings", 0, 1);
+  // numbers that are held may be what is wrong: the recordings are judged beside a fit of all
+  std::optional<DescribedRobot> open;
+  if (robot.linear.held) open.emplace(describe_robot(robot.file, OpenParameters::kAbsentRows));
+  const JudgedRobot judged = judged_robot(open ? *open : robot);
   std::vector<std::string> words;
   std::string refused, sentence;
-  for (Remark& remark : judge(judged_robot(robot), sources)) {
+  for (Remark& remark : judge(judged, sources)) {
     if (options.as_recorded) remark.refused = false;
     if (remark.refused) {
       refused += remark.words() + "\n";

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <set>
@@ -16,12 +17,14 @@
 #include "gen/generator/generator.h"
 #include "gen/program/program.h"
 #include "gen/symbols/exact.h"
+#include "runtime/tools/dynid/robot/base_grouping.h"
 
 namespace dyngen::runtime {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 constexpr int kStandard = static_cast<int>(kChiCount);
 
@@ -85,53 +88,29 @@ ParameterKind kind_of(Chi kind) {
   }
 }
 
-/// Place of a symbol of the file among the standard parameters.
-Index place_of(const FileSymbol& symbol, int links) {
-  for (int link = 1; link <= links; ++link) {
-    for (std::size_t k = 0; k < kChiCount; ++k) {
-      if (symbol.name == chi_name(static_cast<Chi>(k), link)) {
-        return static_cast<Index>(k) + kStandard * (link - 1);
-      }
-    }
+/// What a base parameter is: a rotor's inertia also where it is alone in ZZR1.
+ParameterKind kind_in(const GroupedParameter& parameter, const Eigen::RowVectorXd& row) {
+  bool rotors = true;
+  for (Index place = 0; place < row.size(); ++place) {
+    rotors = rotors && (row[place] == 0 || static_cast<Chi>(place % kStandard) == Chi::kIA);
   }
-  throw std::logic_error("describe_robot(): '" + symbol.name + "' is no standard parameter");
+  return rotors ? ParameterKind::kRotorInertia : kind_of(parameter.column.kind);
 }
 
-MatrixXd grouping_matrix(const SymbolicRobot& robot,
-                         const std::vector<GroupedParameter>& parameters) {
-  MatrixXd K =
-      MatrixXd::Zero(static_cast<Index>(parameters.size()), Index{kStandard} * robot.size());
-  for (const FileSymbol& symbol : robot.parameters) {
-    const Index place = place_of(symbol, robot.size());
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      const GiNaC::ex coefficient = parameters[i].value.coeff(symbol.symbol, 1);
-      if (!coefficient.is_zero()) K(static_cast<Index>(i), place) = to_double(coefficient);
-    }
-  }
-  return K;
-}
-
-/// Columns of the grouping that carry the base parameters: a parameter's own place where it is one,
-/// else chosen so that the system is well conditioned.
-std::vector<Index> choose_places(const MatrixXd& grouping,
-                                 const std::vector<GroupedParameter>& parameters) {
-  std::vector<Index> places;
-  MatrixXd own(grouping.rows(), grouping.rows());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const Column& column = parameters[i].column;
-    places.push_back(static_cast<Index>(index(column.kind)) + Index{kStandard} * (column.link - 1));
-    own.col(static_cast<Index>(i)) = grouping.col(places.back());
-  }
-  if (own.isIdentity(1e-12)) return places;
-  Eigen::ColPivHouseholderQR<MatrixXd> pivoted(grouping);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    places[i] = pivoted.colsPermutation().indices()(static_cast<Index>(i));
-  }
-  return places;
+/// A base parameter that is one other parameter, as where held numbers or zeros leave IA1 alone in
+/// ZZR1: "IA1", "0.25 * M3"; of more terms its own name.
+std::string sum_of_few(const GroupedParameter& parameter, const Eigen::RowVectorXd& row) {
+  if ((row.array() != 0).count() != 1) return parameter.name();
+  Index place = 0;
+  row.cwiseAbs().maxCoeff(&place);
+  const std::string name =
+      chi_name(static_cast<Chi>(place % kStandard), static_cast<int>(place / kStandard) + 1);
+  return row[place] == 1 ? name : fmt::format("{:.6g} * {}", row[place], name);
 }
 
 /// "ZZ2 + IA2 + ...", or what the parameter is where nothing is grouped into it.
-std::string formula_of(const std::string& comment, const GroupedParameter& parameter) {
+std::string formula_of(const std::string& comment, const GroupedParameter& parameter,
+                       const Eigen::RowVectorXd& row) {
   if (comment.starts_with("= ")) return comment.substr(2);
   const int link = parameter.column.link;
   switch (parameter.column.kind) {
@@ -144,7 +123,7 @@ std::string formula_of(const std::string& comment, const GroupedParameter& param
     case Chi::kOFF:
       return fmt::format("torque offset of joint {}", link);
     default:
-      return parameter.name();
+      return sum_of_few(parameter, row);
   }
 }
 
@@ -188,15 +167,48 @@ void check_motion(const MatrixXd& matrix, const char* name, Index rows, Index co
                                           matrix.rows(), matrix.cols(), rows, columns));
 }
 
+/// Columns of the parameters that are left.
+std::vector<std::vector<int>> combined(const std::vector<std::vector<int>>& columns,
+                                       const MatrixXd& combination) {
+  std::vector<std::vector<int>> result(columns.size());
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    for (Index c = 0; c < combination.cols(); ++c) {
+      const bool seen = std::any_of(columns[j].begin(), columns[j].end(),
+                                    [&](int column) { return combination(column, c) != 0; });
+      if (seen) result[j].push_back(static_cast<int>(c));
+    }
+  }
+  return result;
+}
+
+/// Every joint's block of a matrix (N x n * from) times another one (from x to).
+MatrixXd blocks_times(const MatrixXd& blocks, Index joints, const MatrixXd& factor) {
+  MatrixXd result(blocks.rows(), joints * factor.cols());
+  for (Index j = 0; j < joints; ++j) {
+    result.middleCols(j * factor.cols(), factor.cols()) =
+        blocks.middleCols(j * factor.rows(), factor.rows()) * factor;
+  }
+  return result;
+}
+
 /// The base regressor as a program that is evaluated over many samples.
-void add_regressor(LinearModel& linear, CodeModel& code) {
+/// @param combination  of the program's parameters from those of the model
+void add_regressor(LinearModel& linear, CodeModel& code, const MatrixXd& combination) {
+  if (combination.rows() == 0) {  // nothing that torque depends on
+    linear.columns.resize(static_cast<std::size_t>(linear.joints()));
+    linear.regressor = [](const MatrixXd& q, const MatrixXd&, const MatrixXd&, MatrixXd& Y) {
+      Y.resize(q.rows(), 0);
+    };
+    return;
+  }
   const std::vector<RobotFunction> functions =
       write_functions({parse_function_name("base_regressor")}, code, {.patience = 0, .work = 0});
   auto program = std::make_shared<const Program>(lower(functions.front().trace));
-  linear.columns = visible_columns(*program, linear.joints(), linear.size());
-  const Index joints = linear.joints(), size = linear.size();
-  linear.regressor = [program, joints, size](const MatrixXd& q, const MatrixXd& dq,
-                                             const MatrixXd& ddq, MatrixXd& Y) {
+  const Index joints = linear.joints(), size = combination.rows();
+  linear.columns =
+      combined(visible_columns(*program, linear.joints(), static_cast<int>(size)), combination);
+  linear.regressor = [program, joints, size, combination](const MatrixXd& q, const MatrixXd& dq,
+                                                          const MatrixXd& ddq, MatrixXd& Y) {
     check_motion(q, "q", q.rows(), joints);
     check_motion(dq, "dq", q.rows(), joints);
     check_motion(ddq, "ddq", q.rows(), joints);
@@ -207,22 +219,26 @@ void add_regressor(LinearModel& linear, CodeModel& code) {
     evaluate(*program, static_cast<std::size_t>(q.rows()),
              {{"q", values(q)}, {"dq", values(dq)}, {"ddq", values(ddq)}},
              {{"Y", std::span<double>(Y.data(), static_cast<std::size_t>(Y.size()))}});
+    if (combination.cols() != size) Y = blocks_times(Y, joints, combination);
   };
 }
 
 /// Its gradient, on request: it costs more to write than the regressor.
-void add_regressor_gradient(LinearModel& linear, CodeModel& code) {
+void add_regressor_gradient(LinearModel& linear, CodeModel& code, const MatrixXd& combination) {
   const RobotFunction function =
       write_plain_function(parse_function_name("base_regressor_gradient"), code);
   auto program = std::make_shared<const Program>(lower(function.trace));
-  const Index joints = linear.joints(), size = linear.size();
-  linear.regressor_gradient = [program, joints, size](const JointMotion& motion,
-                                                      const MatrixXd& A) {
+  const Index joints = linear.joints(), size = combination.cols();
+  linear.regressor_gradient = [program, joints, size, combination](const JointMotion& motion,
+                                                                   const MatrixXd& weights) {
     const Index samples = motion.q.rows();
     check_motion(motion.q, "q", samples, joints);
     check_motion(motion.dq, "dq", samples, joints);
     check_motion(motion.ddq, "ddq", samples, joints);
-    check_motion(A, "A", samples, joints * size);
+    check_motion(weights, "A", samples, joints * size);
+    const MatrixXd A = combination.rows() == size
+                           ? weights
+                           : blocks_times(weights, joints, combination.transpose());
     JointMotion gradient;
     for (MatrixXd* part : {&gradient.q, &gradient.dq, &gradient.ddq}) part->resize(samples, joints);
     const auto values = [](const MatrixXd& matrix) {
@@ -243,6 +259,108 @@ void add_regressor_gradient(LinearModel& linear, CodeModel& code) {
   };
 }
 
+/// The model with zeros for what is held, or for everything else.
+RobotModel with_zeros(RobotModel model, const HeldNumbers& held, bool of_held) {
+  for (std::size_t i = 0; i < held.places.size(); ++i) {
+    if (held.places[i] != of_held) continue;
+    Quantity& quantity = model.joints[i / kChiCount].chi[i % kChiCount];
+    quantity.unknown = false;
+    quantity.value = 0;
+  }
+  return model;
+}
+
+/// The linear model of what a robot has besides zeros, its grouping and places.
+void add_linear_model(const RobotModel& model, const DescribeOptions& options,
+                      DescribedRobot& robot) {
+  const SymbolicRobot symbolic = make_symbolic(model);
+  const Regrouping base = regroup(symbolic);
+  CodeModel code = make_code_model(
+      base, base.parameters, {.parameters = ParameterMode::kRuntime, .weights = options.gradient});
+  LinearModel& linear = robot.linear;
+  linear.name = model.name;
+  linear.joint_names = code.coordinate_names;
+  linear.revolute = code.coordinate_revolute;
+  const MatrixXd grouping = grouping_matrix(symbolic, base.parameters);
+  const IndependentParameters independent = independent_parameters(grouping);
+  robot.grouping = grouping(independent.kept, Eigen::all);
+  std::vector<GroupedParameter> parameters;
+  for (const std::size_t i : independent.kept) {
+    const GroupedParameter& grouped = base.parameters[i];
+    LinearParameter parameter;
+    parameter.name = grouped.name();
+    parameter.unit = code.chi[i].unit;
+    parameter.formula =
+        formula_of(code.chi[i].comment, grouped, grouping.row(static_cast<Index>(i)));
+    parameter.link = grouped.column.link;
+    parameter.kind = kind_in(grouped, grouping.row(static_cast<Index>(i)));
+    parameter.value = file_value(grouped, symbolic);
+    linear.parameters.push_back(std::move(parameter));
+    parameters.push_back(grouped);
+  }
+  robot.places = choose_places(robot.grouping, parameters);
+  add_regressor(linear, code, independent.combination);
+  if (options.gradient && linear.size() > 0) {
+    add_regressor_gradient(linear, code, independent.combination);
+  }
+}
+
+/// What held numbers do, by a robot of them alone.
+std::shared_ptr<const HeldParameters> held_parameters(const DescribedRobot& robot) {
+  const std::shared_ptr<const DescribedRobot> alone = robot.held_alone;
+  StandardParameters inertial = robot.held_values;
+  HeldParameters held;
+  held.coulomb = held.viscous = held.rotor = VectorXd::Zero(robot.linear.joints());
+  for (Index i = 0; i < inertial.size(); ++i) {
+    const Chi kind = static_cast<Chi>(i % kStandard);
+    const int joint = robot.model.joint(static_cast<int>(i / kStandard) + 1).coordinate;
+    if (!is_of_actuator(kind)) continue;
+    if (joint >= 0 && kind == Chi::kFS) held.coulomb[joint] = inertial[i];
+    if (joint >= 0 && kind == Chi::kFV) held.viscous[joint] = inertial[i];
+    if (joint >= 0 && kind == Chi::kIA) held.rotor[joint] = inertial[i];
+    inertial[i] = 0;
+  }
+  held.torque = [alone, all = VectorXd(alone->grouping * robot.held_values),
+                 inertial = VectorXd(alone->grouping * inertial)](
+                    const MatrixXd& q, const MatrixXd& dq, const MatrixXd& ddq,
+                    bool inertial_only) {
+    return alone->linear.torque(q, dq, ddq, inertial_only ? inertial : all);
+  };
+  return std::make_shared<const HeldParameters>(std::move(held));
+}
+
+/// Says at each parameter whose columns some held numbers have too: an error of the number is then
+/// an error of the parameter.
+void name_aliases(DescribedRobot& robot) {
+  constexpr double kAlias = 1e-9;  // of a column's norm
+  const SymbolicRobot symbolic = make_symbolic(robot.model);
+  const MatrixXd all = grouping_matrix(symbolic, regroup(symbolic).parameters);
+  std::vector<Index> open;
+  for (Index c = 0; c < all.cols(); ++c) {
+    if (!robot.held.places[static_cast<std::size_t>(c)]) open.push_back(c);
+  }
+  const MatrixXd columns = all(Eigen::all, open);
+  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(columns);
+  std::vector<std::string> beside(static_cast<std::size_t>(robot.grouping.rows()));
+  std::size_t name = 0;
+  for (std::size_t i = 0; i < robot.held.places.size(); ++i) {
+    if (!robot.held.places[i]) continue;
+    const std::string& own = robot.held.names[name++];
+    const VectorXd column = all.col(static_cast<Index>(i));
+    const VectorXd x = solver.solve(column);
+    if (column.isZero(0) || (columns * x - column).norm() > kAlias * column.norm()) continue;
+    const VectorXd moved = robot.grouping(Eigen::all, open) * x;
+    for (Index b = 0; b < moved.size(); ++b) {
+      if (std::abs(moved[b]) > kAlias * (1 + moved.norm())) {
+        beside[static_cast<std::size_t>(b)] += " " + own;
+      }
+    }
+  }
+  for (std::size_t b = 0; b < beside.size(); ++b) {
+    if (!beside[b].empty()) robot.linear.parameters[b].formula += "; beside held" + beside[b];
+  }
+}
+
 }  // namespace
 
 DescribedRobot describe_robot(const std::string& path, OpenParameters open,
@@ -254,33 +372,35 @@ DescribedRobot describe_robot(RobotFile file, OpenParameters open, const Describ
   DescribedRobot robot;
   robot.file = std::move(file);
   refuse_unknown_geometry(robot.file);
-  robot.model = opened(build_model(robot.file), open);
+  const RobotModel written = build_model(robot.file);
+  robot.model = opened(written, open);
   robot.standard = standard_values(robot.model);
-
-  const SymbolicRobot symbolic = make_symbolic(robot.model);
-  const Regrouping base = regroup(symbolic);
-  CodeModel code = make_code_model(
-      base, base.parameters, {.parameters = ParameterMode::kRuntime, .weights = options.gradient});
-  LinearModel& linear = robot.linear;
-  linear.name = robot.model.name;
-  linear.joint_names = code.coordinate_names;
-  linear.revolute = code.coordinate_revolute;
-  robot.grouping = grouping_matrix(symbolic, base.parameters);
-  for (std::size_t i = 0; i < base.parameters.size(); ++i) {
-    const GroupedParameter& grouped = base.parameters[i];
-    LinearParameter parameter;
-    parameter.name = grouped.name();
-    parameter.unit = code.chi[i].unit;
-    parameter.formula = formula_of(code.chi[i].comment, grouped);
-    parameter.link = grouped.column.link;
-    parameter.kind = kind_of(grouped.column.kind);
-    parameter.value = file_value(grouped, symbolic);
-    linear.parameters.push_back(std::move(parameter));
+  robot.held = held_numbers(written, options.hold);
+  robot.held_values = StandardParameters::Zero(robot.standard.size());
+  if (!robot.held.any()) {
+    add_linear_model(robot.model, options, robot);
+    return robot;
   }
-  robot.places = choose_places(robot.grouping, base.parameters);
-  add_regressor(linear, code);
-  if (options.gradient) add_regressor_gradient(linear, code);
+  for (Index i = 0; i < robot.standard.size(); ++i) {
+    if (robot.held.places[static_cast<std::size_t>(i)]) robot.held_values[i] = robot.standard[i];
+  }
+  add_linear_model(with_zeros(robot.model, robot.held, true), options, robot);
+  DescribedRobot alone;
+  add_linear_model(with_zeros(written, robot.held, false), {}, alone);
+  robot.held_alone = std::make_shared<const DescribedRobot>(std::move(alone));
+  robot.linear.held = held_parameters(robot);
+  name_aliases(robot);
   return robot;
+}
+
+void refuse_without_parameters(const DescribedRobot& robot) {
+  if (robot.linear.size() > 0) return;
+  throw ModelError(fmt::format(
+      "{}: error: no dynamic parameter is left to estimate: {}\n", robot.file.file_name,
+      robot.held.any() ? "all others are zero, or are seen in no torque. Hold fewer numbers: "
+                         "--hold links=1,2 leaves IA, Fs, Fv and off open"
+                       : "all are zero, or are seen in no torque. Write '*' for those that are "
+                         "unknown"));
 }
 
 }  // namespace dyngen::runtime

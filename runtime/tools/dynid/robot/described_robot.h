@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "gen/model/robot_model.h"
 #include "gen/robot_file/robot_file.h"
 #include "runtime/model/linear_model.h"
+#include "runtime/tools/dynid/robot/held_numbers.h"
 
 namespace dyngen::runtime {
 
@@ -34,11 +36,17 @@ struct DescribedRobot {
   /// Where the value of each base parameter goes in a file in which all others are zero: (nb)
   /// places of standard parameters.
   std::vector<Eigen::Index> places;
+  /// Numbers that are kept as they are: `grouping` and the parameters of `linear` are of all
+  /// others, and linear.held has their torque.
+  HeldNumbers held;
+  StandardParameters held_values;                    ///< their numbers, all others 0
+  std::shared_ptr<const DescribedRobot> held_alone;  ///< a robot of them alone; null without any
 };
 
 /// What else is wanted of a robot.
 struct DescribeOptions {
-  bool gradient = false;  ///< LinearModel::regressor_gradient: some tenths of a second
+  bool gradient = false;            ///< LinearModel::regressor_gradient: some tenths of a second
+  std::vector<std::string> hold{};  ///< which numbers are held: words of held_numbers()
 };
 
 /// Reads a robot file and writes its base regressor as a program.
@@ -48,5 +56,8 @@ DescribedRobot describe_robot(const std::string& path, OpenParameters open,
 /// The same of a file that was read.
 DescribedRobot describe_robot(RobotFile file, OpenParameters open,
                               const DescribeOptions& options = {});
+
+/// @throws ModelError  if the robot has no parameter that an estimate could find
+void refuse_without_parameters(const DescribedRobot& robot);
 
 }  // namespace dyngen::runtime

@@ -5,12 +5,13 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
 #include <array>
-#include <cctype>
-#include <map>
-#include <sstream>
+#include <stdexcept>
 
+#include "gen/diagnostic/diagnostic.h"
 #include "runtime/effects/effect_recordings.h"
+#include "runtime/tools/dynid/robot/robot_text.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -37,14 +38,12 @@ constexpr std::array<ParameterRow, kChiCount> kRows = {{{RowKey::kM, Chi::kM},
                                                         {RowKey::kFv, Chi::kFV},
                                                         {RowKey::kOff, Chi::kOFF}}};
 
-std::string row_text(const ParameterRow& row, const StandardParameters& standard, int links,
-                     bool exact) {
+std::string row_text(const ParameterRow& row, const StandardParameters& standard, int links) {
   std::string text = fmt::format("{:<10}", row_keyword(row.key));
   for (int link = 1; link <= links; ++link) {
     const double value =
         standard[static_cast<Index>(index(row.kind)) + static_cast<Index>(kChiCount) * (link - 1)];
-    const std::string number = exact ? fmt::format("{}", value) : fmt::format("{:.12g}", value);
-    text += fmt::format(" {:>16}", value == 0 ? "0" : number);
+    text += fmt::format(" {:>16}", value == 0 ? "0" : fmt::format("{}", value));
   }
   return text;
 }
@@ -59,13 +58,9 @@ bool is_zero(const ParameterRow& row, const StandardParameters& standard, int li
   return true;
 }
 
-/// The keyword of a line, in small letters.
-std::string keyword_of(const std::string& line) {
-  std::istringstream words(line);
-  std::string first;
-  words >> first;
-  for (char& c : first) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return first;
+bool is_dynamic(RowKey key) {
+  return std::any_of(kRows.begin(), kRows.end(),
+                     [&](const ParameterRow& row) { return row.key == key; });
 }
 
 }  // namespace
@@ -77,7 +72,7 @@ StandardParameters carried(const DescribedRobot& robot, const Eigen::VectorXd& b
   for (std::size_t i = 0; i < robot.places.size(); ++i) {
     standard[robot.places[i]] = values[static_cast<Index>(i)];
   }
-  return standard;
+  return standard + robot.held_values;
 }
 
 std::vector<Index> joined_rotors(const DescribedRobot& robot) {
@@ -86,20 +81,26 @@ std::vector<Index> joined_rotors(const DescribedRobot& robot) {
     const JointModel& joint = robot.model.joint(j);
     if (joint.coordinate < 0 || joint.chi[index(Chi::kIA)].unknown) continue;
     if (parameter_of(robot.linear, joint.coordinate, ParameterKind::kRotorInertia) >= 0) continue;
-    places.push_back(static_cast<Index>(index(Chi::kIA)) + static_cast<Index>(kChiCount) * (j - 1));
+    const Index place =
+        static_cast<Index>(index(Chi::kIA)) + static_cast<Index>(kChiCount) * (j - 1);
+    const bool held = robot.held.any() && robot.held.places[static_cast<std::size_t>(place)];
+    if (!held) places.push_back(place);
   }
   return places;
 }
 
+StandardParameters carried_beside_rotors(const DescribedRobot& robot, const Eigen::VectorXd& beta) {
+  StandardParameters standard = StandardParameters::Zero(robot.grouping.cols());
+  for (const Index place : joined_rotors(robot)) standard[place] = robot.standard[place];
+  return standard + carried(robot, beta - robot.grouping * standard);
+}
+
 StandardParameters nearest_standard(const DescribedRobot& robot, const Eigen::VectorXd& beta) {
-  const std::vector<Index> rotors = joined_rotors(robot);
-  if (!robot.standard.allFinite()) {
-    StandardParameters standard = StandardParameters::Zero(robot.grouping.cols());
-    for (const Index place : rotors) standard[place] = robot.standard[place];
-    return standard + carried(robot, beta - robot.grouping * standard);
-  }
+  if (!robot.standard.allFinite()) return carried_beside_rotors(robot, beta);
+  if (beta.size() == 0) return robot.standard;
   Eigen::MatrixXd free = robot.grouping;
-  for (const Index place : rotors) free.col(place).setZero();
+  for (const Index place : joined_rotors(robot)) free.col(place).setZero();
+  // the grouping has nothing of what is held, which stays the file's
   const Eigen::VectorXd rest = beta - robot.grouping * robot.standard;
   return robot.standard + Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(free).solve(rest);
 }
@@ -107,61 +108,41 @@ StandardParameters nearest_standard(const DescribedRobot& robot, const Eigen::Ve
 std::string identified_text(const DescribedRobot& robot, const StandardParameters& standard,
                             const IdentifiedRows& rows) {
   const int links = robot.model.size();
-  std::map<int, bool> old_rows;  // lines of the original that are left out
-  int last = 0;
-  for (const ParameterRow& row : kRows) {
-    const Row& original = robot.file.row(row.key);
-    if (!original.present) continue;
-    old_rows[original.keyword.line] = true;
-    last = std::max(last, original.keyword.line);
+  RobotTextChange change;
+  change.removed = [](const RowText& row) {
+    return row.statement == Statement::kParameters ||
+           (row.statement == Statement::kValues && is_dynamic(row.key));
+  };
+  change.effects = rows.effects;
+  for (const std::string& line : rows.comment) {
+    change.added.push_back(line.empty() ? "#" : "# " + line);
   }
-  std::map<int, std::string> new_rows;  // lines of effects
-  for (std::size_t i = 0; i < rows.effects.size(); ++i) {
-    new_rows[robot.file.effects[i].position.line] = rows.effects[i];
-  }
-  std::string parameters;
-  for (const std::string& line : rows.comment)
-    parameters += line.empty() ? "#\n" : "# " + line + "\n";
+  if (rows.meaning == ParameterMeaning::kBase) change.added.emplace_back("parameters base");
   for (const ParameterRow& row : kRows) {
     if (robot.file.row(row.key).present || !is_zero(row, standard, links)) {
-      parameters += row_text(row, standard, links, rows.exact) + "\n";
+      change.added.push_back(row_text(row, standard, links));
     }
   }
-  for (const std::string& row : rows.added) parameters += row + "\n";
-  std::istringstream original(robot.file.text);
-  std::string text;
-  bool written = false;
-  int number = 0;
-  for (std::string line; std::getline(original, line);) {
-    ++number;
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (!written && (keyword_of(line) == "stop" || (last != 0 && number > last))) {
-      text += parameters;
-      written = true;
-    }
-    if (old_rows.contains(number)) continue;
-    const auto effect = new_rows.find(number);
-    text += (effect != new_rows.end() ? effect->second : line) + "\n";
-  }
-  if (!written) text += parameters;
-  return text;
+  change.added.insert(change.added.end(), rows.added.begin(), rows.added.end());
+  return changed_text(robot.file, change);
 }
 
 std::string text_with_rows(const RobotFile& file, const std::vector<std::string>& rows) {
-  std::string added;
-  for (const std::string& row : rows) added += row + "\n";
-  std::istringstream original(file.text);
-  std::string text;
-  bool written = false;
-  for (std::string line; std::getline(original, line);) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (!written && keyword_of(line) == "stop") {
-      text += added;
-      written = true;
+  RobotTextChange change;
+  change.added = rows;
+  return changed_text(file, change);
+}
+
+void write_robot_files(const std::vector<OutputFile>& files) {
+  for (const OutputFile& file : files) {
+    try {
+      build_model(parse_robot_file(file.content, file.path));
+    } catch (const ModelError& error) {
+      throw std::logic_error(
+          fmt::format("the robot file that was to be written cannot be read:\n{}", error.what()));
     }
-    text += line + "\n";
   }
-  return written ? text : text + added;
+  write_files(files);
 }
 
 }  // namespace dyngen::runtime
