@@ -278,7 +278,10 @@ Cutoff median_cutoff(const std::vector<MotionSource>& sources) {
 
 Cutoff common_cutoff(const LinearModel& model, const std::vector<MotionSource>& sources) {
   const Cutoff first = median_cutoff(sources);
-  if (first.hz == 0) return {};
+  const bool fit = std::all_of(sources.begin(), sources.end(), [&](const MotionSource& source) {
+    return source.joints() == model.joints();
+  });
+  if (first.hz == 0 || !fit) return first;
   std::vector<const MotionSource*> filtered = few_samples(open_sources(sources));
   const double sample_time = filtered.front()->sample_time;
   double longest = 0;

@@ -215,5 +215,6 @@ refuse(2 "a misspelt option" ARGUMENTS ${robot} --functons id -o out/x.c
   SAYS "unknown option '--functons'; did you mean '--functions'?")
 refuse(2 "one dash" ARGUMENTS ${robot} -count SAYS "did you mean '--count'?")
 file(COPY ${robot} DESTINATION ${WORK}/linked)
-file(CREATE_LINK ${WORK}/linked/puma560.robot ${WORK}/linked/puma.c)
-refuse(2 "a hard link to the robot file" ARGUMENTS linked/puma560.robot -o linked/puma.c SAYS "same file")
+get_filename_component(name ${robot} NAME)
+file(CREATE_LINK ${WORK}/linked/${name} ${WORK}/linked/code.c)
+refuse(2 "a hard link to the robot file" ARGUMENTS linked/${name} -o linked/code.c SAYS "same file")

@@ -51,11 +51,11 @@ std::string RoundTrip::record(const std::string& name, const DescribedRobot& rob
 
 std::string RoundTrip::go_round(const std::string& robot, const std::string& recording,
                                 const std::string& options) const {
-  const Outcome fit = dynid("fit " + robot + " " + recording + " " + options + " -o " +
-                            path("id.robot") + " --json " + path("fit.json"));
+  const Outcome fit = dynid("fit " + robot + " " + recording + " --as-recorded " + options +
+                            " -o " + path("id.robot") + " --json " + path("fit.json"));
   if (fit.exit_code != 0 && fit.exit_code != 3) return "fit: " + fit.out;
-  const Outcome check =
-      dynid("check " + path("id.robot") + " " + recording + " --json " + path("check.json"));
+  const Outcome check = dynid("check " + path("id.robot") + " " + recording +
+                              " --as-recorded --json " + path("check.json"));
   if (check.exit_code != 0) return "check: " + check.out;
   const Json residual = json("fit.json")["residual"];
   const Json checked = json("check.json")["recordings"][0]["rms"];

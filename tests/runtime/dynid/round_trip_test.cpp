@@ -86,8 +86,9 @@ class RoundTripOfRandomRobots : public RoundTrip, public testing::WithParamInter
     const std::string recording = record(
         "run.csv", robot, test::bodily_beta(robot, seed),
         {.seconds = 8, .sample_time = 0.01, .period = 4, .torque_noise = 0.05, .seed = seed});
-    const Outcome run = dynid("diagnose " + written("arm.robot", text) + " " + recording +
-                              " --json " + path("d.json") + " -o " + path("d.robot"));
+    const Outcome run =
+        dynid("diagnose " + written("arm.robot", text) + " " + recording + " --as-recorded" +
+              " --json " + path("d.json") + " -o " + path("d.robot"));
     ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 3) << run.out;
     if (run.exit_code == 3) return;  // motion that is too poor: no file is written
     ++through_;
@@ -99,7 +100,7 @@ class RoundTripOfRandomRobots : public RoundTrip, public testing::WithParamInter
     }
     ASSERT_LT(test::judged_difference(content(path("d.robot")), robot.linear, beta), 1e-9)
         << content(path("d.robot"));
-    const Outcome check = dynid("check " + path("d.robot") + " " + recording);
+    const Outcome check = dynid("check " + path("d.robot") + " " + recording + " --as-recorded");
     ASSERT_EQ(check.exit_code, 0) << check.out;
   }
 

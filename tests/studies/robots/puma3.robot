@@ -10,6 +10,7 @@ name        puma560_3dof
 number_link 3
 dh          modified
 joints      waist shoulder elbow
+parameters  base
 let         L 0.4318   # length of the upper arm [m]
 
 sigma      0     0  0  # 0 revolute, 1 prismatic
