@@ -17,7 +17,8 @@ using cln::cl_R;
 using GiNaC::ex;
 
 constexpr int kMostDegree = 4;
-constexpr std::size_t kMostTerms = 130;  // of one interpolation: as many points are drawn
+constexpr std::size_t kMostInterpolatedTerms =
+    130;  // of one interpolation: as many points are drawn
 constexpr std::size_t kFreshPoints = 3;
 
 bool same(const cl_R& a, const cl_R& b) {
@@ -125,7 +126,7 @@ class Interpolation {
   std::optional<ex> find(std::size_t component) {
     const std::size_t unknowns = relevant_[component].size();
     for (int degree = 0; degree <= kMostDegree; ++degree) {
-      if (monomial_count(unknowns, degree) > kMostTerms) break;
+      if (monomial_count(unknowns, degree) > kMostInterpolatedTerms) break;
       if (const auto found = fit(component, degree)) return found;
       if (unknowns == 0) return std::nullopt;
     }

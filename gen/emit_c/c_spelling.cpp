@@ -11,7 +11,7 @@
 namespace dyngen {
 namespace {
 
-constexpr std::size_t kColumns = 100;
+constexpr std::size_t kCodeColumns = 100;
 
 }  // namespace
 
@@ -111,9 +111,9 @@ std::string wrap_statement(const std::string& statement) {
   std::string result;
   std::string line = statement;
   const std::string indent = "      ";
-  while (line.size() > kColumns) {
+  while (line.size() > kCodeColumns) {
     std::size_t cut = std::string::npos;
-    for (std::size_t i = indent.size() + 1; i + 2 < line.size() && i < kColumns; ++i) {
+    for (std::size_t i = indent.size() + 1; i + 2 < line.size() && i < kCodeColumns; ++i) {
       const bool sum =
           line[i] == ' ' && (line[i + 1] == '+' || line[i + 1] == '-') && line[i + 2] == ' ';
       if (sum) cut = i;
@@ -126,12 +126,12 @@ std::string wrap_statement(const std::string& statement) {
 }
 
 std::string wrap_arguments(const std::string& declaration) {
-  if (declaration.size() <= kColumns) return declaration;
+  if (declaration.size() <= kCodeColumns) return declaration;
   const std::string indent(declaration.find('(') + 1, ' ');
   std::string result;
   std::string line = declaration;
-  while (line.size() > kColumns) {
-    const std::size_t cut = line.rfind(", ", kColumns - 1);
+  while (line.size() > kCodeColumns) {
+    const std::size_t cut = line.rfind(", ", kCodeColumns - 1);
     if (cut == std::string::npos || cut < indent.size()) break;
     result += line.substr(0, cut + 1) + "\n";
     line = indent + line.substr(cut + 2);
@@ -142,8 +142,8 @@ std::string wrap_arguments(const std::string& declaration) {
 std::string wrap_list(const std::string& first, const std::string& list) {
   std::string result;
   std::string line = first + list;
-  while (line.size() > kColumns) {
-    const std::size_t cut = line.rfind(", ", kColumns - 1);
+  while (line.size() > kCodeColumns) {
+    const std::size_t cut = line.rfind(", ", kCodeColumns - 1);
     if (cut == std::string::npos || cut < 6) break;
     result += line.substr(0, cut + 1) + "\n";
     line = "      " + line.substr(cut + 2);
@@ -159,7 +159,7 @@ std::string wrap_comment(const std::string& text, const std::string& first,
   std::string word;
   bool empty = true;
   while (words >> word) {
-    if (!empty && line.size() + 1 + word.size() > kColumns) {
+    if (!empty && line.size() + 1 + word.size() > kCodeColumns) {
       result += line + "\n";
       line = next;
       empty = true;

@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kRounding = 1e-12;  // of the cost: two that differ by less are alike
+constexpr double kSearchRounding = 1e-12;  // of the cost: two that differ by less are alike
 
 /// Solution over some of the unknowns, the others held.
 ConstrainedSolution solve_over(const std::vector<int>& chosen, const std::vector<int>& held,
@@ -157,7 +157,7 @@ SearchState EffectSearch::run(EffectPoint start, const SearchOptions& options) c
       SearchState next = with_linear_solved(
           within_bounds(scales_, with_values(state.point, unknowns_, x + step), unknowns_));
       const double gain = state.cost - next.cost;
-      if (gain > -kRounding * state.cost) {
+      if (gain > -kSearchRounding * state.cost) {
         better = true;
         damping = std::max(1e-9, damping / 6);
         state.converged = gain <= options.tolerance * state.cost;

@@ -33,7 +33,7 @@ constexpr std::array<double, 19> kShares = {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 2.5e-3
                                             0.4,  0.5,  0.6,  0.75, 0.9};
 constexpr double kBriefMemory = 2;  // samples: between none and the shortest
 constexpr double kLittle = 0.03;    // of a deviation
-constexpr int kSteps = 200;         // of variances, one by one
+constexpr int kPoleSteps = 200;     // of variances, one by one
 constexpr Index kGrain = 32;        // samples: lengths are multiples, for the transform's sake
 
 double memory_of(const SlowNoise& part) { return part.pole > 0 ? -1 / std::log(part.pole) : 0; }
@@ -144,7 +144,7 @@ JointNoise refined(const JointDifferences& joint, JointNoise noise) {
     }
   }
   VectorXd factors = VectorXd::Ones(parts);  // of the variances
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kPoleSteps; ++step) {
     const VectorXd expected = process + densities * factors;
     const VectorXd up = densities.transpose() * power.cwiseQuotient(expected.cwiseAbs2());
     const VectorXd down = densities.transpose() * expected.cwiseInverse();

@@ -44,7 +44,7 @@ namespace {
 
 constexpr int kRounds = 3;  // of the search for the noise before the fit
 constexpr int kDraws = 8;   // of simulated noise in each
-constexpr unsigned kSeed = 20261121;
+constexpr unsigned kNoiseSeed = 20261121;
 
 using OfJoints = std::vector<LagProducts>;
 
@@ -138,7 +138,7 @@ std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
   const FittedPart fit(data, joints);
   std::vector<VectorXd> left;  // autocovariances
   for (const LagProducts& joint : observed) left.push_back(joint.covariance());
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kNoiseSeed);
   for (int round = 0; round < kRounds; ++round) {
     std::vector<VectorXd> taken(joints.size(), VectorXd::Zero(kNoiseLags + 1));
     for (int draw = 0; draw < kDraws; ++draw) {

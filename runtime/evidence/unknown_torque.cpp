@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 constexpr double kFaintest = 1e-6;  // of a column's length, in one equation
 constexpr double kSeen = 1e-6;      // of a column's squares: what equations hardly show stays
 constexpr double kDense = 0.2;      // of all values: with more than that columns are not sparse
-constexpr Index kTogether = 32;     // columns of a basis from one equation on
+constexpr Index kActTogether = 32;  // columns of a basis from one equation on
 
 /// Half of the time between equations, in samples: faster torque they do not show.
 Index apart_in(const EffectRun& run) {
@@ -99,8 +99,8 @@ UnknownTorque::UnknownTorque(const EffectRun& run, int joint, const Whitener& wh
     products.diagonal().array() += kSeen;
     const Eigen::LLT<MatrixXd> triangle(products);
     triangle.matrixU().solveInPlace<Eigen::OnTheRight>(columns);
-    for (Index c = 0; c < count; c += kTogether) {
-      const auto together = columns.middleCols(c, std::min(kTogether, count - c));
+    for (Index c = 0; c < count; c += kActTogether) {
+      const auto together = columns.middleCols(c, std::min(kActTogether, count - c));
       basis_.emplace_back(together.bottomRows(together.rows() - first_that_is_not_zero(together)));
     }
     return;

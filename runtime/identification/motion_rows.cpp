@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr Index kBlock = 1024;  // samples whose regressor is in memory at once
+constexpr Index kBlockSamples = 1024;  // samples whose regressor is in memory at once
 
 /// Highest frequency that is left in the equations.
 double band_of(const MotionSource& source, Index decimation) {
@@ -44,8 +44,8 @@ class RowBuffer {
       kept_.resize(0, 0);
       started_ = false;
     }
-    for (Index start = 0; start < piece.motion.samples(); start += kBlock) {
-      append(piece.motion, start, std::min(kBlock, piece.motion.samples() - start));
+    for (Index start = 0; start < piece.motion.samples(); start += kBlockSamples) {
+      append(piece.motion, start, std::min(kBlockSamples, piece.motion.samples() - start));
       emit(visit);
     }
   }

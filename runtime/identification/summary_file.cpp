@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 constexpr std::string_view kWord = "dyngenqr";
 constexpr std::uint32_t kVersion = 2;
-constexpr std::uint64_t kMost = 1'000'000;  // of anything: a count above it is damage
+constexpr std::uint64_t kMostEntries = 1'000'000;  // of anything: a count above it is damage
 
 /// CRC-32 of IEEE 802.3.
 std::uint32_t checksum(std::string_view bytes) {
@@ -89,7 +89,8 @@ class Reader {
   }
   std::size_t count() {
     const std::uint64_t value = number(4);
-    if (value > kMost) fail(fmt::format("a count of {}, expected at most {}", value, kMost));
+    if (value > kMostEntries)
+      fail(fmt::format("a count of {}, expected at most {}", value, kMostEntries));
     return static_cast<std::size_t>(value);
   }
   double real() {

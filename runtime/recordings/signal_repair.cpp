@@ -237,7 +237,7 @@ void SignalRepair::judge_jumps() {
     splits_.push_back(row);
   }
   for (const auto& jumps : alone) {
-    for (std::size_t i = 0; i < jumps.size(); ++i) {
+    for (std::size_t i = 0; i < jumps.size(); i += 2) {  // a jump, and the one back
       constexpr double kBack = 0.2, kMostOff = 0.2;
       const auto& [row, one] = jumps[i];
       const Index end = i + 1 < jumps.size() ? jumps[i + 1].first : row;
@@ -259,7 +259,6 @@ void SignalRepair::judge_jumps() {
                        "begins after them",
                        one.joint + 1, one.jump.size, end - row, left_out(end - row)));
       mark(row, end - row);
-      ++i;
     }
   }
 }

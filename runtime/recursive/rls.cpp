@@ -16,7 +16,7 @@ namespace {
 /// Of a diagonal entry of Rt against its column: below it, rounding is all that is left.
 constexpr double kRank = 1e-12;
 /// Entries of Rt below it are 0: forgetting shall not lead to denormal numbers, which are slow.
-constexpr double kTiny = 1e-145;
+constexpr double kTinyGain = 1e-145;
 
 [[noreturn]] void fail(const std::string& what) {
   throw std::invalid_argument("RlsOptions: " + what);
@@ -108,7 +108,7 @@ void Rls::load(const double* Y, const double* tau) noexcept {
   if (sqrt_forgetting_ < 1) {
     for (Eigen::Index i = 0; i < nb; ++i) {
       const auto faded = sqrt_forgetting_ * Rt_.row(i).tail(nb - i).array();
-      next_Rt_.row(i).tail(nb - i) = (faded.abs() > kTiny).select(faded, 0.0);
+      next_Rt_.row(i).tail(nb - i) = (faded.abs() > kTinyGain).select(faded, 0.0);
     }
     next_z_ = sqrt_forgetting_ * z_;
   } else {
@@ -133,7 +133,7 @@ void Rls::reflect() noexcept {
   const Eigen::Index rows = X_.rows(), nb = beta_.size();
   for (Eigen::Index i = 0; i < nb; ++i) {
     const double below = X_.col(i).squaredNorm();
-    if (!(below > kTiny * kTiny)) continue;  // this joint does not feel this parameter
+    if (!(below > kTinyGain * kTinyGain)) continue;  // this joint does not feel this parameter
     const double r = next_Rt_(i, i);
     const double mu = std::sqrt(r * r + below);
     const double v = -below / (r + mu);  // r - mu without cancellation

@@ -8,11 +8,11 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kLeastExplained = 0.7;  // part of a joint's structure that a name must explain
-constexpr double kOutdone = 9;           // squares, net, by which what has no name is better
-constexpr double kOutdonePart = 0.1;     // and of the effect's
-constexpr double kEventNet = 10;         // squares, net, of an event
-constexpr double kShortest = 3;          // equations that an event lasts
+constexpr double kLeastExplained = 0.7;   // part of a joint's structure that a name must explain
+constexpr double kOutdone = 9;            // squares, net, by which what has no name is better
+constexpr double kOutdonePart = 0.1;      // and of the effect's
+constexpr double kEventNet = 10;          // squares, net, of an event
+constexpr double kShortestCondition = 3;  // equations that an event lasts
 
 }  // namespace
 
@@ -58,7 +58,7 @@ bool EffectConditions::is_no_event(const EvidenceSystem& system, const NamedResu
   if (hypothesis.shapes.size() > 1) {  // it begins, and ends
     const Eigen::VectorXd& p = named.best.effect.parameters;
     const double duration = p[hypothesis.shapes[1]] - p[hypothesis.shapes[0]];
-    if (duration < kShortest * data_.row_time) return true;
+    if (duration < kShortestCondition * data_.row_time) return true;
   }
   return is_jolt(system, system.whitened(effect_columns(data_, signals_, named.best.effect, {0})));
 }

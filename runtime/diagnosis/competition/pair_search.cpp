@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t kMembers = 24;  // effects that are tried in pairs: 276 of them
-constexpr std::size_t kPairs = 3;     // that are tried before a round gives up
+constexpr std::size_t kMembers = 24;    // effects that are tried in pairs: 276 of them
+constexpr std::size_t kTriedPairs = 3;  // that are tried before a round gives up
 
 /// An effect that may be one of a pair, and where its columns are among those of all.
 struct Member {
@@ -104,7 +104,7 @@ bool PairSearch::next(const EvidenceSystem& system, const Screening& screening) 
   std::size_t tried = 0;
   for (const EffectPair& pair :
        strongest_pairs(data_, signals_, system, hypotheses_, screening, result_)) {
-    if (tried++ == kPairs) break;
+    if (tried++ == kTriedPairs) break;
     if (promising(pair, system, screening) && find(pair, screening)) return true;
   }
   return false;

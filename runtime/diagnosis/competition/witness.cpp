@@ -9,8 +9,8 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kChance = 1e-3;  // that what is there is contradicted
-constexpr double kPart = 0.25;    // of its squares: half of its size
+constexpr double kWitnessChance = 1e-3;  // that what is there is contradicted
+constexpr double kPart = 0.25;           // of its squares: half of its size
 
 bool is_linear(const Hypothesis& hypothesis) {
   return !hypothesis.windowed &&
@@ -23,7 +23,7 @@ bool is_linear(const Hypothesis& hypothesis) {
 /// Whether columns have more to explain than noise, and more than a part of what was said.
 bool wants_other(const Products& products, double said) {
   const Score wanted = score_of(products, false);
-  return std::exp(-surprise_of(wanted.squares, wanted.degrees)) <= kChance &&
+  return std::exp(-surprise_of(wanted.squares, wanted.degrees)) <= kWitnessChance &&
          wanted.squares > kPart * said;
 }
 

@@ -15,10 +15,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kOrders = 1000;     // values of a scan that is one over orders
-constexpr int kScanned = 40;      // values of any other, at most
-constexpr double kShown = 1e-12;  // of an effect's squares: less is rounding
-constexpr double kWide = 8;       // times the typical shape, both ways, where there are no bounds
+constexpr int kOrders = 1000;         // values of a scan that is one over orders
+constexpr int kScanned = 40;          // values of any other, at most
+constexpr double kShownPart = 1e-12;  // of an effect's squares: less is rounding
+constexpr double kWide = 8;  // times the typical shape, both ways, where there are no bounds
 
 /// Linear parameters at which the effect has no torque: torque = C (p - nothing).
 /// @param plain  torque, then C
@@ -63,7 +63,7 @@ TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score s
   // what moves nothing here has no size that counts
   const VectorXd shown = products.whole.diagonal().cwiseProduct(result.typical.cwiseAbs2());
   for (Index i = 0; i < k; ++i) {
-    if (!(shown[i] > kShown * shown.sum())) result.typical[i] = 0;
+    if (!(shown[i] > kShownPart * shown.sum())) result.typical[i] = 0;
   }
   // of friction that the machine does not have no size is typical: one that would just be seen
   if (k > 0 && result.typical.isZero() && products.left(0, 0) > 0) {

@@ -10,16 +10,16 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr int kParts = 5;
-constexpr double kMoves = 0.01;  // of a joint's largest speed
-constexpr double kEnough = 0.5;  // of the time for which joints move in the whole recording
+constexpr int kDivisionParts = 5;
+constexpr double kMoves = 0.01;        // of a joint's largest speed
+constexpr double kEnoughMotion = 0.5;  // of the time for which joints move in the whole recording
 
 /// How often each joint moves in every part of a recording. @return (joints x parts) samples
 Eigen::ArrayXXd moving(const MotionSource& source) {
-  Eigen::ArrayXXd counts = Eigen::ArrayXXd::Zero(source.joints(), kParts);
-  for (int part = 0; part < kParts; ++part) {
-    const double from = static_cast<double>(part) / kParts;
-    part_of(source, from, from + 1.0 / kParts).pieces([&](const StreamPiece& piece) {
+  Eigen::ArrayXXd counts = Eigen::ArrayXXd::Zero(source.joints(), kDivisionParts);
+  for (int part = 0; part < kDivisionParts; ++part) {
+    const double from = static_cast<double>(part) / kDivisionParts;
+    part_of(source, from, from + 1.0 / kDivisionParts).pieces([&](const StreamPiece& piece) {
       for (Index j = 0; j < counts.rows(); ++j) {
         const auto moves = piece.motion.dq.col(j).array().abs() > kMoves * source.fastest[j];
         counts(j, part) += static_cast<double>(moves.count());
@@ -31,11 +31,11 @@ Eigen::ArrayXXd moving(const MotionSource& source) {
 
 int held_part(const MotionSource& source) {
   const Eigen::ArrayXXd counts = moving(source);
-  const ArrayXd mean = counts.rowwise().sum() / kParts;
-  for (int part = kParts - 1; part >= 0; --part) {
-    if ((counts.col(part) >= kEnough * mean).all()) return part;
+  const ArrayXd mean = counts.rowwise().sum() / kDivisionParts;
+  for (int part = kDivisionParts - 1; part >= 0; --part) {
+    if ((counts.col(part) >= kEnoughMotion * mean).all()) return part;
   }
-  return kParts - 1;
+  return kDivisionParts - 1;
 }
 
 }  // namespace
@@ -49,9 +49,10 @@ Division divided(const std::vector<MotionSource>& recordings) {
       division.origins.push_back(place);
     };
     const int part = held_part(source);
-    const double from = static_cast<double>(part) / kParts, to = from + 1.0 / kParts;
+    const double from = static_cast<double>(part) / kDivisionParts,
+                 to = from + 1.0 / kDivisionParts;
     if (part > 0) fit(0, from);
-    if (part < kParts - 1) fit(to, 1);
+    if (part < kDivisionParts - 1) fit(to, 1);
     division.heldout.push_back(part_of(source, from, to));
   }
   return division;

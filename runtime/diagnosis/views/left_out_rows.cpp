@@ -12,9 +12,9 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kLongest = 0.1;   // s below the speed at a reversal
-constexpr double kMustStay = 0.1;  // of a joint's equations that have to stay
-constexpr double kFaint = 0.02;    // of the parallel filter's largest tap: less is not felt
+constexpr double kLongestRest = 0.1;  // s below the speed at a reversal
+constexpr double kMustStay = 0.1;     // of a joint's equations that have to stay
+constexpr double kFaint = 0.02;       // of the parallel filter's largest tap: less is not felt
 
 void leave_out(RowBlock& rows, Index row, Index joint, Index size) {
   rows.counted(row, joint) = 0;
@@ -28,7 +28,7 @@ void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed) {
   const Motion& motion = run.motion;
   const Index factor = run.decimator.factor, first = first_sample(run.decimator);
   const Index reach = run.decimator.taps.size() / 2;  // of the filter around an equation
-  const auto least = static_cast<Index>(std::ceil(kLongest / motion.sample_time));
+  const auto least = static_cast<Index>(std::ceil(kLongestRest / motion.sample_time));
   const Index size = run.rows.Y.cols() / motion.joints();
   for (Index j = 0; j < motion.joints(); ++j) {
     for (Index start = 0; start < motion.samples();) {

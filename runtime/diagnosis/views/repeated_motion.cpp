@@ -14,9 +14,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kWhole = 0.1;     // samples by which the last period may be off
-constexpr int kFewestRepeats = 3;  // periods: the mean of one other is as noisy as the own
-constexpr int kRefits = 4;         // of the model's own parameters
+constexpr double kWholeMotion = 0.1;  // samples by which the last period may be off
+constexpr int kFewestRepeats = 3;     // periods: the mean of one other is as noisy as the own
+constexpr int kRefits = 4;            // of the model's own parameters
 
 /// The mean over all rows of the same phase but the own.
 MatrixXd of_the_others(const MatrixXd& rows, Index period) {
@@ -40,7 +40,7 @@ Index period_of(const Motion& run) {
   const Periods periods = find_periods(positions);
   const double off =
       std::abs(periods.period / run.sample_time - static_cast<double>(periods.samples));
-  return periods.count < kFewestRepeats || off * periods.count > kWhole ? 0 : periods.samples;
+  return periods.count < kFewestRepeats || off * periods.count > kWholeMotion ? 0 : periods.samples;
 }
 
 Motion repeated(Motion run) {

@@ -20,7 +20,8 @@ using Eigen::VectorXd;
 constexpr double kBand = 0.9;  // of the cut-off: what is faster is damped in the joint state
 constexpr double kPass =
     0.5;  // of the parallel filter: a short one, that standstill cuts less from
-constexpr double kSlow = 0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
+constexpr double kSlowBand =
+    0.5;                       // of the band: the cut-off is twice as fast as motion is seen to be
 constexpr double kJolts = 80;  // Hz, of jolts: a joint state of at least this cut-off has them
 constexpr double kHighest = 1.0 / 3;  // of the sampling frequency: a cut-off
 constexpr int kSteep = 8;             // order of that low-pass
@@ -31,8 +32,8 @@ constexpr int kAverages = 4;          // of the parallel filter beside rests, wh
 constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
 
 RowOptions slower(RowOptions rows) {
-  rows.band *= kSlow;
-  rows.row_time /= kSlow;
+  rows.band *= kSlowBand;
+  rows.row_time /= kSlowBand;
   return rows;
 }
 
