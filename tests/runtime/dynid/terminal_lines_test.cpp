@@ -2,6 +2,7 @@
 // What dyngen and dynid print fits a terminal of 80 columns.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -79,7 +80,7 @@ std::vector<std::string> long_lines(const std::string& text) {
 class TerminalLines : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = fs::path(testing::TempDir()) / "terminal_lines";
+    folder_ = fs::path(testing::TempDir()) / ("terminal_lines_" + std::to_string(getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     const DescribedRobot robot = describe_robot(kRobot, OpenParameters::kAbsentRows);

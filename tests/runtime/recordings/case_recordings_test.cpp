@@ -136,7 +136,10 @@ TEST(CaseRecordings, WithoutAHeaderTheAnswerSaysWhatToDo) {
 class TextFile {
  public:
   explicit TextFile(const std::string& text)
-      : path_((std::filesystem::path(testing::TempDir()) / "dyngen_case.csv").string()) {
+      : path_((std::filesystem::path(testing::TempDir()) /
+               (std::string("dyngen_case_") +
+                testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv"))
+                  .string()) {
     std::ofstream(path_, std::ios::binary) << text;
   }
   ~TextFile() { std::filesystem::remove(path_); }
