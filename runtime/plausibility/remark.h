@@ -11,7 +11,7 @@ namespace dyngen::runtime {
 struct Remark {
   /// In one word: "degrees", "counts", "time_unit", "torque_unit", "torque_sign", "position_sign",
   /// "swapped", "same_column", "range", "torque_range", "motor_side", "gravity", "lag", "velocity",
-  /// "torque_dead", "residual".
+  /// "torque_dead", "clipped", "negative", "position_unit", "residual".
   std::string kind;
   bool refused = false;   ///< nothing that is fitted to it would mean anything
   int joint = 0;          ///< from 1; 0: no single one

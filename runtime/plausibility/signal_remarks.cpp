@@ -192,7 +192,8 @@ void judge_velocities(const Recording& recording, double sample_time, Remarks& r
 /// For how many samples a position is held: the length that most stretches of equal values have; 1
 /// where they have none.
 Index held_samples(const VectorXd& q) {
-  constexpr double kRegular = 0.7;  // of the stretches, without those that are longer: the joint rests
+  constexpr double kRegular =
+      0.7;  // of the stretches, without those that are longer: the joint rests
   constexpr Index kLongest = 64;
   std::vector<Index> stretches(kLongest + 1, 0);
   Index length = 1, all = 0;
@@ -223,6 +224,19 @@ void judge_held_positions(const Recording& recording, double sample_time, Remark
   }
 }
 
+void judge_clipped_torque(const MotionSource& source, Remarks& remarks) {
+  const std::vector<bool>& clipped = source.condition.torque_clipped;
+  for (std::size_t j = 0; j < clipped.size(); ++j) {
+    if (!clipped[j]) continue;
+    remarks.add(
+        "clipped", false, static_cast<Index>(j) + 1,
+        fmt::format("tau{} stands at its limit for a part of the time: what the motion took "
+                    "there is not known, and parameters come out too small; leave that "
+                    "motion out",
+                    j + 1));
+  }
+}
+
 void judge_dead_torque(const MotionSource& source, const Recording& recording, Remarks& remarks) {
   const std::vector<bool>& dead = source.condition.torque_dead;
   for (std::size_t j = 0; j < dead.size(); ++j) {
@@ -246,6 +260,7 @@ void add_signal_remarks(const JudgedRobot& robot, const MotionSource& source,
   if (recording.tau.size() != 0) {
     judge_torques(robot, recording, own);
     judge_dead_torque(source, recording, own);
+    judge_clipped_torque(source, own);
   }
   judge_velocities(recording, source.sample_time, own);
   judge_held_positions(recording, source.sample_time, own);
