@@ -53,7 +53,8 @@ class ModelJudge {
         model_(*robot.model),
         samples_(samples),
         remarks_(remarks),
-        plain_(samples.fit(model_, Reading::plain(model_.joints()))) {}
+        plain_(samples.fit(model_, Reading::plain(model_.joints()))),
+        deviations_(deviations_of(plain_)) {}
 
   void run(double farthest) {
     if (plain_.equations.samples() <= 2.0 * model_.size()) return;
@@ -194,20 +195,13 @@ class ModelJudge {
       const LinearParameter& parameter = model_.parameters[static_cast<std::size_t>(c)];
       if (parameter.kind != ParameterKind::kInertial || parameter.unit != "kg m") continue;
       const double value = std::abs(plain_.estimate.beta[c]);
-      if (value < most || value < 10 * deviation(c)) continue;
+      if (value < most || value < 10 * deviations_[c]) continue;
       refuse("torque_unit", parameter.link,
              fmt::format("{} comes out as {:.3g} kg m on an arm of {:.2g} m: is torque in N mm, or "
                          "in the motor's counts? give N m at the joint",
                          parameter.name, value, robot_.reach));
       return;
     }
-  }
-
-  [[nodiscard]] double deviation(int parameter) const {
-    // of the plain fit, as if each joint's residual were white
-    const StackedRows rows = stacked(plain_.equations, plain_.estimate.joint_weights);
-    const double norm = rows.W.col(parameter).norm();
-    return norm > 0 ? 1 / norm : INFINITY;
   }
 
   /// A parameter that is no sum of others, negative where no body and no bearing has it so.
@@ -220,7 +214,8 @@ class ModelJudge {
                                 ? name.starts_with("XX") || name.starts_with("YY") ||
                                       name.starts_with("ZZ") || parameter.unit == "kg"
                                 : parameter.kind != ParameterKind::kOffset;
-      if (own && positive && plain_.estimate.beta[c] < -kCertainlyNegative * deviation(c)) return c;
+      if (own && positive && plain_.estimate.beta[c] < -kCertainlyNegative * deviations_[c])
+        return c;
     }
     return std::nullopt;
   }
@@ -297,6 +292,7 @@ class ModelJudge {
   const TrialSamples& samples_;
   std::vector<Remark>& remarks_;
   TrialFit plain_;
+  VectorXd deviations_;  ///< (nb) of its parameters
 };
 
 /// Largest span of a revolute joint's positions, rad.

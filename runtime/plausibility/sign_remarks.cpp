@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/estimation/covariance.h"
 #include "runtime/plausibility/readings.h"
 
 namespace dyngen::runtime {
@@ -21,18 +20,13 @@ constexpr double kCertain = 5;       // standard deviations below zero
 /// Whether friction of a joint drives it: both of its parameters are negative, and one certainly
 /// is.
 bool friction_drives(const LinearModel& model, const TrialFit& fit, Index joint) {
-  const Estimate& estimate = fit.estimate;
-  const VectorXd deviation = white_covariance(fit.equations, estimate.beta, estimate.joint_weights,
-                                              estimate.scale, estimate.unseen)
-                                 .diagonal()
-                                 .cwiseMax(0)
-                                 .cwiseSqrt();
+  const VectorXd deviation = deviations_of(fit);
   bool certain = false;
   for (const int c : model.columns[static_cast<std::size_t>(joint)]) {
     const LinearParameter& parameter = model.parameters[static_cast<std::size_t>(c)];
     const bool friction =
         parameter.kind == ParameterKind::kViscous || parameter.kind == ParameterKind::kCoulomb;
-    if (friction) certain = certain || estimate.beta[c] < -kCertain * deviation[c];
+    if (friction) certain = certain || fit.estimate.beta[c] < -kCertain * deviation[c];
   }
   return certain && fit.power[joint] < 0;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/estimation/covariance.h"
 #include "runtime/estimation/rows.h"
 #include "runtime/identification/motion_rows.h"
 
@@ -119,6 +120,15 @@ TrialFit TrialSamples::fit(const LinearModel& model, const Reading& reading) con
     }
   }
   return fit;
+}
+
+VectorXd deviations_of(const TrialFit& fit) {
+  const Estimate& estimate = fit.estimate;
+  return white_covariance(fit.equations, estimate.beta, estimate.joint_weights, estimate.scale,
+                          estimate.unseen)
+      .diagonal()
+      .cwiseMax(0)
+      .cwiseSqrt();
 }
 
 }  // namespace dyngen::runtime

@@ -32,6 +32,10 @@ struct TrialFit {
   Eigen::VectorXd power;    ///< (n) mean power that friction takes, W
 };
 
+/// (nb) Standard deviations of its parameters, as if what is left were white; 0 of what is not
+/// seen.
+Eigen::VectorXd deviations_of(const TrialFit& fit);
+
 /// Some samples of recordings, which can be read in other ways.
 class TrialSamples {
  public:
