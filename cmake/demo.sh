@@ -13,9 +13,9 @@ mkdir -p "$(dirname "$build")"
 begin=$(date +%s)
 
 cat <<'WORDS'
-dyngen in two parts, on two cores in about six minutes the first time, in seconds the second:
+dyngen in two parts, on two cores in six to seven minutes the first time, in seconds the second:
   1. a robot file becomes C code: the Puma 560, its operation counts, torques and speed (a minute and a half)
-  2. dynid finds friction that a model does not have, in recordings full of noise (three to four minutes)
+  2. dynid finds friction that a model does not have, in recordings full of noise (four to five minutes)
 WORDS
 
 # took WHAT SINCE: the seconds that a step took.
@@ -55,7 +55,7 @@ show "$build/runtime/puma560_demo"
 took "part 1" "$part"
 
 echo
-echo "Part 2. Building dynid (three to four minutes the first time) ..."
+echo "Part 2. Building dynid (four to five minutes the first time) ..."
 part=$(date +%s)
 quietly cmake --build "$build" --parallel "$(nproc)" --target dynid
 took "building dynid" "$part"
