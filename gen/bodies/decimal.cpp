@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -16,9 +17,16 @@ std::string decimal(Real value) {
   if (value == 0) return "0";
   constexpr Real kRelative = 1e-14L, kAbsolute = 1e-15L;
   constexpr int kMostDigits = 21;
+  // "30", not "3e+01"
+  constexpr int kLowest = -5, kHighest = 15;  // decimal exponents that are spelt without one
+  const int exponent = std::isfinite(value)
+                           ? static_cast<int>(std::floor(std::log10(std::fabs(value))))
+                           : kHighest + 1;
+  const bool plain = exponent >= kLowest && exponent <= kHighest;
   std::string text;
   for (int digits = 1; digits <= kMostDigits; ++digits) {
-    text = fmt::format("{:.{}g}", value, digits);
+    text = plain ? fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent))
+                 : fmt::format("{:.{}g}", value, digits);
     const std::optional<Real> back = read_decimal(text);
     if (back && std::fabs(*back - value) <= kRelative * std::fabs(value) + kAbsolute) break;
   }

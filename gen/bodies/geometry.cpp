@@ -104,9 +104,11 @@ Matrix3 turn_about(const Vector3& axis, Real angle) {
     for (std::size_t k = 0; k < 3; ++k) {
       result[i][k] = (1 - c) * axis[i] * axis[k] + (i == k ? c : 0);
     }
-    const std::size_t j = (i + 1) % 3, l = (i + 2) % 3;
-    result[l][j] += s * axis[i];
-    result[j][l] -= s * axis[i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    result[k][j] += s * axis[i];
+    result[j][k] -= s * axis[i];
   }
   return result;
 }

@@ -46,7 +46,8 @@ CadNumber cad_sum(const CadNumber& a, const CadNumber& b) {
 
 class CadResolver {
  public:
-  CadResolver(RobotFile& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+  CadResolver(RobotFile& file, Diagnostics& diagnostics)
+      : file_(file), written_(file.rows), diagnostics_(diagnostics) {}
 
   void run() {
     const auto links = static_cast<std::size_t>(file_.joint_count);
@@ -100,7 +101,7 @@ class CadResolver {
 
   /// What the row says of a link; null if it is absent.
   const FieldValue* field(RowKey key, std::size_t link) {
-    Row& own = row(key);
+    const Row& own = written_[static_cast<std::size_t>(key)];
     return own.present ? &own.values[link] : nullptr;
   }
   /// Null if it is absent or '-'.
@@ -334,6 +335,7 @@ class CadResolver {
   }
 
   RobotFile& file_;
+  const std::array<Row, kRowKeyCount> written_;  // as the file has them
   Diagnostics& diagnostics_;
 };
 

@@ -68,7 +68,7 @@ void refuse_links_of_table(const RobotSource& source, const std::string& text, R
   if (root == "sdf" || root == "world" || root == "model") {
     throw_message(source, text, position,
                   fmt::format("this is SDF (root <{}>), which is not read", name),
-                  "URDF and MJCF are: convert it, for instance by sdformat_urdf or sdf2urdf");
+                  "URDF and MJCF are: convert it to URDF, for instance by sdf2urdf of pysdf");
   }
   throw_message(
       source, text, position,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gen/robot_output/robot_tree.h"
 
+#include <cln/cln.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -46,7 +47,14 @@ class RobotTreeMaker {
     if (diagnostics_.has_errors()) throw ModelError(diagnostics_.render());
   }
 
-  static Real number(const GiNaC::ex& value) { return to_double(value); }
+  /// To the digits of Real: the double next to the number, and what is left.
+  static Real number(const GiNaC::ex& value) {
+    const double next = to_double(value);
+    if (next == 0) return 0;
+    const PrecisionScope digits;
+    const GiNaC::ex rest = value - GiNaC::numeric(cln::cl_N(cln::rational(cln::cl_DF(next))));
+    return static_cast<Real>(next) + static_cast<Real>(to_double(rest));
+  }
 
   [[nodiscard]] const FieldValue* field(RowKey key, int j) const {
     const Row& row = file_.row(key);

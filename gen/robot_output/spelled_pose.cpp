@@ -40,7 +40,8 @@ std::array<Real, 4> quaternion_of(const Matrix3& R) {
     q[1 + k] = R[k][i] + R[i][k];
   }
   const Real length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  for (Real& value : q) value = (q[0] < 0 ? -value : value) / length;
+  const Real factor = (q[0] < 0 ? -1 : 1) / length;
+  for (Real& value : q) value *= factor;
   return q;
 }
 

@@ -154,7 +154,7 @@ TEST(Mjcf, ASpringIsAnEffect) {
   ASSERT_EQ(file.effects.size(), 1U);
   EXPECT_EQ(file.effects[0].name, "linear_spring");
   EXPECT_EQ(file.effects[0].position.line, 1);
-  EXPECT_NE(file.text.find("effect linear_spring joint=1 k=4 c=-6.28318530717959"),
+  EXPECT_NE(file.text.find("effect linear_spring joint=1 k=4 c=-6.2831853071796"),
             std::string::npos)
       << file.text;
 }
