@@ -11,7 +11,7 @@ namespace {
 
 class MjcfMaker {
  public:
-  explicit MjcfMaker(unsigned seed) : random_(seed + 1000) {}
+  MjcfMaker(unsigned seed, bool one_solid) : random_(seed + 1000), one_solid_(one_solid) {}
 
   std::string make() {
     degrees_ = pick(2) == 0;
@@ -120,19 +120,19 @@ class MjcfMaker {
     for (int i = 0; i < joints; ++i) text += indent + "  " + joint() + "\n";
     const bool by_geoms = geoms_alone_ || pick(2) == 0;
     if (!by_geoms) text += indent + "  " + inertial() + "\n";
-    const int geoms = by_geoms ? 1 + pick(3) : pick(2);
+    const int geoms = by_geoms ? (one_solid_ ? 1 : 1 + pick(3)) : pick(2);
     for (int i = 0; i < geoms; ++i) text += indent + "  " + geom() + "\n";
     while (left_ > 0 && pick(3) != 0) text += body(depth + 1);
     return text + indent + "</body>\n";
   }
 
   std::mt19937 random_;
-  bool degrees_ = true, geoms_alone_ = false;
+  bool one_solid_, degrees_ = true, geoms_alone_ = false;
   int left_ = 0, bodies_ = 0, joints_ = 0;
 };
 
 }  // namespace
 
-std::string made_mjcf(unsigned seed) { return MjcfMaker(seed).make(); }
+std::string made_mjcf(unsigned seed, bool one_solid) { return MjcfMaker(seed, one_solid).make(); }
 
 }  // namespace dyngen::test

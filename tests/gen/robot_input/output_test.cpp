@@ -98,6 +98,16 @@ TEST(Written, EveryRobotComesBackWithItsTorques) {
       }
     }
     file.effects.clear();
+    // URDF knows one strength of gravity
+    GiNaC::ex square = 0;
+    for (const RowKey key : {RowKey::kGx, RowKey::kGy, RowKey::kGz}) {
+      for (const FieldValue& value : file.row(key).values) square += value.value * value.value;
+    }
+    for (const RowKey key : {RowKey::kGx, RowKey::kGy, RowKey::kGz}) {
+      for (FieldValue& value : file.rows[static_cast<std::size_t>(key)].values) {
+        value.value *= GiNaC::numeric(981, 100) / GiNaC::sqrt(square);
+      }
+    }
     // first moments need masses
     const RobotModel probe = build_model(file);
     bool massless = false;
