@@ -91,10 +91,11 @@ void read_value(RowWords& words, const Word& word, std::string_view row, bool un
     list.damaged = true;
   } else if (word.text == "*") {
     if (unknown_allowed) return;
-    words.error(word, fmt::format("'*' (unknown) cannot stand in '{}'", row),
-                of_limits
-                    ? "write - for a joint without a limit"
-                    : "it can stand in m mX mY mZ XX XY XZ YY YZ ZZ IA Fs Fv off d r gx gy gz");
+    words.error(
+        word, fmt::format("'*' (unknown) cannot stand in '{}'", row),
+        of_limits
+            ? "write - for a joint without a limit"
+            : "it can stand in m mX mY mZ XX XY XZ YY YZ ZZ cX .. IZZ IA Fs Fv off d r gx gy gz");
   } else if (word.text == "-" && (of_limits || two_forms)) {
     return;  // no limit, or the link has the other form
   } else {
