@@ -161,9 +161,9 @@ class TextWriter {
       return all[static_cast<std::size_t>(&own - robot_.rows.data())];
     };
     // what rounding has left of zero
-    constexpr Real kRounding = 1e-15L;
+    constexpr Real kRoundingOfNumbers = 1e-15L;
     const auto clean = [this](Real value, Real size) {
-      return number(std::fabs(value) <= kRounding * size ? 0 : value);
+      return number(std::fabs(value) <= kRoundingOfNumbers * size ? 0 : value);
     };
     const auto moment_size = [&](const DhRow& own) {
       const Matrix3& J = of(own).inertia;
@@ -183,13 +183,13 @@ class TextWriter {
       RowKey key;
       std::size_t i, k;
     };
-    constexpr std::array<Moment, 6> kMoments = {{{RowKey::kXX, 0, 0},
-                                                 {RowKey::kXY, 0, 1},
-                                                 {RowKey::kXZ, 0, 2},
-                                                 {RowKey::kYY, 1, 1},
-                                                 {RowKey::kYZ, 1, 2},
-                                                 {RowKey::kZZ, 2, 2}}};
-    for (const Moment& own : kMoments) {
+    constexpr std::array<Moment, 6> kMomentRows = {{{RowKey::kXX, 0, 0},
+                                                    {RowKey::kXY, 0, 1},
+                                                    {RowKey::kXZ, 0, 2},
+                                                    {RowKey::kYY, 1, 1},
+                                                    {RowKey::kYZ, 1, 2},
+                                                    {RowKey::kZZ, 2, 2}}};
+    for (const Moment& own : kMomentRows) {
       row(own.key,
           [&](const DhRow& dh) { return clean(of(dh).inertia[own.i][own.k], moment_size(dh)); });
     }

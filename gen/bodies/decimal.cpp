@@ -15,7 +15,7 @@ namespace dyngen {
 
 std::string decimal(Real value) {
   if (value == 0) return "0";
-  constexpr Real kRelative = 1e-14L, kAbsolute = 1e-15L;
+  constexpr Real kRelativeError = 1e-14L, kAbsoluteError = 1e-15L;
   constexpr int kMostDigits = 21;
   // "30", not "3e+01"
   constexpr int kLowest = -5, kHighest = 15;  // decimal exponents that are spelt without one
@@ -28,7 +28,8 @@ std::string decimal(Real value) {
     text = plain ? fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent))
                  : fmt::format("{:.{}g}", value, digits);
     const std::optional<Real> back = read_decimal(text);
-    if (back && std::fabs(*back - value) <= kRelative * std::fabs(value) + kAbsolute) break;
+    if (back && std::fabs(*back - value) <= kRelativeError * std::fabs(value) + kAbsoluteError)
+      break;
   }
   // a number below the absolute tolerance is spelt "0" or by its first digit
   return read_decimal(text).value_or(0) == 0 ? "0" : text;

@@ -88,7 +88,7 @@ AxisReach reach_of(const AxisLine& line) {
 
 /// How many numbers are not zero, beside what they count for.
 int count_numbers(const FrameInertia& inertia) {
-  constexpr Real kNothing = 1e-15L;  // of the largest
+  constexpr Real kNothingBeside = 1e-15L;  // of the largest
   const Real mass = std::fabs(inertia.mass);
   Real size = 0, arm = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -98,8 +98,9 @@ int count_numbers(const FrameInertia& inertia) {
   int count = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t k = (i + 1) % 3;
-    count += std::fabs(inertia.first_moment[i]) > std::max(kNothing * arm, kSameLength * mass);
-    count += std::fabs(inertia.inertia[i][k]) > kNothing * size;
+    count +=
+        std::fabs(inertia.first_moment[i]) > std::max(kNothingBeside * arm, kSameLength * mass);
+    count += std::fabs(inertia.inertia[i][k]) > kNothingBeside * size;
   }
   return count;
 }

@@ -58,10 +58,10 @@ Pose inverse(const Pose& a) {
 }
 
 SineCosine sine_cosine(Real angle) {
-  constexpr Real kRightAngle = kRealPi / 2;
+  constexpr Real kQuarterTurn = kRealPi / 2;
   constexpr Real kExact = 1e-18L;  // rad: what a long double right angle is off
-  const Real quarters = std::round(angle / kRightAngle);
-  if (std::fabs(angle - quarters * kRightAngle) <=
+  const Real quarters = std::round(angle / kQuarterTurn);
+  if (std::fabs(angle - quarters * kQuarterTurn) <=
       kExact * std::max(Real(1), std::fabs(quarters))) {
     const int quadrant = static_cast<int>(std::fmod(quarters, Real(4)));
     switch ((quadrant + 4) % 4) {

@@ -21,9 +21,9 @@ std::string number_list(std::array<double, N> values) {
   double size = 0;
   for (const double value : values) size = std::max(size, std::fabs(value));
   std::string text;
-  constexpr double kRounding = 1e-15;
+  constexpr double kRoundedNumber = 1e-15;
   for (const double value : values) {
-    text += fmt::format(" {:.6g}", std::fabs(value) <= kRounding * size ? 0.0 : value);
+    text += fmt::format(" {:.6g}", std::fabs(value) <= kRoundedNumber * size ? 0.0 : value);
   }
   return text;
 }

@@ -81,8 +81,8 @@ Matrix3 turn_of(const XmlAttribute& attribute, const MjcfAngles& angles, XmlValu
 }  // namespace
 
 Real mjcf_angle(Real written, const MjcfAngles& angles) {
-  constexpr Real kDegree = kRealPi / 180;
-  return rounded_angle(angles.degrees ? written * kDegree : written, angles.tolerance);
+  constexpr Real kRadiansPerDegree = kRealPi / 180;
+  return rounded_angle(angles.degrees ? written * kRadiansPerDegree : written, angles.tolerance);
 }
 
 std::optional<Vector3> mjcf_vector(const MjcfAttributes& attributes, std::string_view name,

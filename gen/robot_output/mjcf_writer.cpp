@@ -17,8 +17,9 @@ namespace {
 std::string spelled_quaternion(const Matrix3& turn) {
   std::string text;
   for (const Real value : quaternion_of(turn)) {
-    constexpr Real kRounding = 1e-17L;
-    text += (text.empty() ? "" : " ") + exact_decimal(std::fabs(value) < kRounding ? 0 : value);
+    constexpr Real kRoundedComponent = 1e-17L;
+    text +=
+        (text.empty() ? "" : " ") + exact_decimal(std::fabs(value) < kRoundedComponent ? 0 : value);
   }
   return text;
 }

@@ -46,12 +46,12 @@ std::array<Real, 4> quaternion_of(const Matrix3& R) {
 }
 
 std::string spelled_vector(const Vector3& v) {
-  constexpr Real kRounding = 1e-16L;
+  constexpr Real kRoundedPart = 1e-16L;
   const Real size = norm(v);
   std::string text;
   for (const Real value : v.at) {
-    text +=
-        (text.empty() ? "" : " ") + exact_decimal(std::fabs(value) <= kRounding * size ? 0 : value);
+    text += (text.empty() ? "" : " ") +
+            exact_decimal(std::fabs(value) <= kRoundedPart * size ? 0 : value);
   }
   return text;
 }

@@ -143,7 +143,7 @@ class UrdfReader {
 
   /// Angles within the tolerance are multiples of pi/12; nearly right ones are warned of.
   Vector3 angles(const XmlElement& element, const std::string& whose) {
-    constexpr Real kNearRightAngle = 1e-3L;  // rad: rounded by hand, rather than calibrated
+    constexpr Real kNearlyRight = 1e-3L;  // rad: rounded by hand, rather than calibrated
     Vector3 rpy = vector(element, "rpy", {});
     const XmlAttribute* attribute = element.attribute("rpy");
     for (std::size_t k = 0; k < 3; ++k) {
@@ -152,7 +152,7 @@ class UrdfReader {
       rpy[k] = rounded_angle(written, tolerance);
       const Real right = std::round(written / (kRealPi / 2)) * (kRealPi / 2);
       const bool nearly = right != 0 && rpy[k] == written && written != right &&
-                          std::fabs(written - right) < kNearRightAngle;
+                          std::fabs(written - right) < kNearlyRight;
       if (!nearly || attribute == nullptr) continue;
       values_.warning(*attribute,
                       fmt::format("rpy of {}: {} is nearly, but not exactly, {}", whose,

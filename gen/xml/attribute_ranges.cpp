@@ -4,11 +4,11 @@
 namespace dyngen {
 
 std::vector<AttributeRange> attribute_ranges(std::string_view tag, std::size_t offset) {
-  constexpr std::string_view kBlanks = " \t\r\n";
+  constexpr std::string_view kBlanksInTag = " \t\r\n";
   std::vector<AttributeRange> ranges;
   std::size_t at = tag.find_first_of(" \t\r\n/>");  // behind the element's name
   while (at < tag.size()) {
-    const std::size_t name = tag.find_first_not_of(kBlanks, at);
+    const std::size_t name = tag.find_first_not_of(kBlanksInTag, at);
     if (name == tag.npos || tag[name] == '/' || tag[name] == '>') break;
     const std::size_t name_end = tag.find_first_of(" \t\r\n=", name);
     const std::size_t quote = tag.find_first_of("\"'", name);

@@ -36,7 +36,8 @@ std::optional<long double> read_decimal(std::string_view text) {
   long double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  if (std::fabs(value) > std::numeric_limits<double>::max()) return std::nullopt;
+  if (std::fabs(value) > static_cast<long double>(std::numeric_limits<double>::max()))
+    return std::nullopt;
   return value;
 }
 

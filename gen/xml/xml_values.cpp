@@ -35,12 +35,12 @@ const XmlAttribute* XmlValues::required(const XmlElement& element, std::string_v
 
 std::optional<std::vector<long double>> XmlValues::numbers(const XmlAttribute& attribute,
                                                            std::size_t least, std::size_t most) {
-  constexpr std::string_view kBlanks = " \t\r\n";
+  constexpr std::string_view kBlanksInValue = " \t\r\n";
   const std::string_view text = attribute.value;
   std::vector<long double> values;
-  std::size_t at = text.find_first_not_of(kBlanks);
+  std::size_t at = text.find_first_not_of(kBlanksInValue);
   while (at != text.npos) {
-    const std::size_t end = text.find_first_of(kBlanks, at);
+    const std::size_t end = text.find_first_of(kBlanksInValue, at);
     const std::string_view word = text.substr(at, end == text.npos ? end : end - at);
     const std::optional<long double> value = read_decimal(word);
     if (!value) {
@@ -62,7 +62,7 @@ std::optional<std::vector<long double>> XmlValues::numbers(const XmlAttribute& a
       return std::nullopt;
     }
     values.push_back(std::fabs(*value) < kSmallest ? 0 : *value);
-    at = end == text.npos ? end : text.find_first_not_of(kBlanks, end);
+    at = end == text.npos ? end : text.find_first_not_of(kBlanksInValue, end);
   }
   if (values.size() < least || values.size() > most) {
     error(attribute,
