@@ -20,7 +20,7 @@ void warn_of_body(std::vector<Diagnostic>& warnings, const TextPlace& place, std
       {Severity::kWarning, place.position, place.length, std::move(message), std::move(hint)});
 }
 
-void judge_body(const Body& body, std::vector<Diagnostic>& warnings) {
+void judge_body(const TreeBody& body, std::vector<Diagnostic>& warnings) {
   const std::string name = printable(body.name);
   const Real size =
       std::fabs(body.inertia[0][0]) + std::fabs(body.inertia[1][1]) + std::fabs(body.inertia[2][2]);
@@ -37,7 +37,7 @@ void judge_body(const Body& body, std::vector<Diagnostic>& warnings) {
                  "expected a mass, in kg");
   }
   if (size == 0) return;
-  const Vector3 p = principal_moments(body.inertia);
+  const RealVector p = principal_moments(body.inertia);
   const bool exists = p[0] >= -kRoundedMoment * size &&
                       p[2] <= (p[0] + p[1]) * (1 + kRoundedMoment) + kRoundedMoment * p[0];
   if (exists) return;
@@ -54,7 +54,7 @@ void judge_joints(const BodyTree& tree, std::vector<Diagnostic>& warnings) {
   // whether a body or one that hangs on it has mass or inertia, or a joint behind it a rotor
   std::vector<char> heavy(tree.bodies.size(), 0);
   for (std::size_t i = 0; i < tree.bodies.size(); ++i) {
-    const Body& body = tree.bodies[i];
+    const TreeBody& body = tree.bodies[i];
     heavy[i] = body.mass != 0 ||
                norm(body.inertia[0]) + norm(body.inertia[1]) + norm(body.inertia[2]) != 0;
   }
@@ -73,7 +73,7 @@ void judge_joints(const BodyTree& tree, std::vector<Diagnostic>& warnings) {
     if (heavy[static_cast<std::size_t>(joint.child)] != 0 || joint.armature.value_or(0) != 0) {
       continue;
     }
-    const Body& child = tree.bodies[static_cast<std::size_t>(joint.child)];
+    const TreeBody& child = tree.bodies[static_cast<std::size_t>(joint.child)];
     warn_of_body(
         warnings, joint.place,
         fmt::format("joint '{}' carries neither mass nor inertia: '{}' and what hangs on it have "
@@ -86,7 +86,7 @@ void judge_joints(const BodyTree& tree, std::vector<Diagnostic>& warnings) {
 }  // namespace
 
 void judge_bodies(const BodyTree& tree, std::vector<Diagnostic>& warnings) {
-  for (const Body& body : tree.bodies) judge_body(body, warnings);
+  for (const TreeBody& body : tree.bodies) judge_body(body, warnings);
   judge_joints(tree, warnings);
 }
 

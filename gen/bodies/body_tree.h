@@ -17,11 +17,11 @@ struct TextPlace {
 };
 
 /// A rigid body and its frame, which hangs on the frame of its joint. kg, m.
-struct Body {
+struct TreeBody {
   std::string name;
   Real mass = 0;
-  Vector3 centre{};   ///< of mass, in the body's frame
-  Matrix3 inertia{};  ///< about the centre of mass, in the axes of the body's frame
+  RealVector centre{};   ///< of mass, in the body's frame
+  RealMatrix inertia{};  ///< about the centre of mass, in the axes of the body's frame
   bool has_inertial = false;
   TextPlace place{};           ///< of the body
   TextPlace inertial_place{};  ///< of its mass and inertia, or of the body
@@ -36,9 +36,9 @@ struct TreeJoint {
   TreeJointType type = TreeJointType::kFixed;
   int parent = -1;  ///< place in BodyTree::bodies
   int child = -1;
-  Pose pose{};                           ///< of the child's frame in the parent's, at q = 0
-  Vector3 axis{};                        ///< a unit vector in the child's frame
-  Vector3 point{};                       ///< of the axis, in the child's frame
+  RigidPose pose{};                      ///< of the child's frame in the parent's, at q = 0
+  RealVector axis{};                     ///< a unit vector in the child's frame
+  RealVector point{};                    ///< of the axis, in the child's frame
   std::optional<Real> lower, upper;      ///< rad or m
   std::optional<Real> velocity, effort;  ///< largest magnitudes, > 0
   std::optional<Real> damping, friction, armature;  ///< N m s/rad, N m, kg m^2 (N s/m, N, kg)
@@ -56,11 +56,11 @@ struct TreeJoint {
 struct BodyTree {
   std::string format;  ///< "URDF", "MJCF"
   std::string name;    ///< as written; empty: none
-  std::vector<Body> bodies;
-  std::vector<TreeJoint> joints;  ///< one less than bodies; in the order of the text
-  Vector3 base_acceleration{};    ///< -g in the root's frame, m/s^2
-  TextPlace place{};              ///< of the whole
-  TextPlace gravity_place{};      ///< of gravity, or of the whole
+  std::vector<TreeBody> bodies;
+  std::vector<TreeJoint> joints;   ///< one less than bodies; in the order of the text
+  RealVector base_acceleration{};  ///< -g in the root's frame, m/s^2
+  TextPlace place{};               ///< of the whole
+  TextPlace gravity_place{};       ///< of gravity, or of the whole
   std::vector<Diagnostic> warnings;
 
   /// The body that no joint carries.

@@ -166,7 +166,7 @@ class TextWriter {
       return number(std::fabs(value) <= kRoundingOfNumbers * size ? 0 : value);
     };
     const auto moment_size = [&](const DhRow& own) {
-      const Matrix3& J = of(own).inertia;
+      const RealMatrix& J = of(own).inertia;
       return std::max({std::fabs(J[0][0]), std::fabs(J[1][1]), std::fabs(J[2][2])});
     };
     const auto first_size = [&](const DhRow& own) {

@@ -15,8 +15,8 @@ constexpr Real kFarNormal = 10;
 std::size_t group_index(int index) { return static_cast<std::size_t>(index); }
 
 struct AxisLine {
-  Vector3 point{};
-  Vector3 direction{};  // a unit vector
+  RealVector point{};
+  RealVector direction{};  // a unit vector
 };
 
 Real same_or_zero(Real length) { return std::fabs(length) < kSameLength ? 0 : length; }
@@ -27,8 +27,8 @@ Real angle_of(Real sine, Real cosine) {
   return angle <= -kRealPi ? kRealPi : angle;
 }
 
-Pose turned_about_z(Real theta, Real r) { return {turn_z(theta), {{0, 0, r}}}; }
-Pose turned_about_x(Real alpha, Real d) { return {turn_x(alpha), {{d, 0, 0}}}; }
+RigidPose turned_about_z(Real theta, Real r) { return {turn_z(theta), {{0, 0, r}}}; }
+RigidPose turned_about_x(Real alpha, Real d) { return {turn_x(alpha), {{d, 0, 0}}}; }
 
 /// From a frame to a line: Rz(gamma) Tz(b), perhaps Tx(offset) Rz(turn) Tz(rise), then Rx(alpha)
 /// Tx(d), whose z is the line.
@@ -48,8 +48,8 @@ void spare_half_turn(Real& gamma, Real& alpha, Real& d) {
 }
 
 AxisReach reach_of(const AxisLine& line) {
-  const Vector3& u = line.direction;
-  const Vector3& p = line.point;
+  const RealVector& u = line.direction;
+  const RealVector& p = line.point;
   const Real tilt = std::hypot(u[0], u[1]);
   const Real beside = std::hypot(p[0], p[1]);
   AxisReach result;
@@ -62,7 +62,7 @@ AxisReach reach_of(const AxisLine& line) {
     return result;
   }
   // the common normal's direction, z x u, and where it meets both lines
-  const Vector3 normal = {{-u[1] / tilt, u[0] / tilt, 0}};
+  const RealVector normal = {{-u[1] / tilt, u[0] / tilt, 0}};
   const Real along = -(p[0] * u[0] + p[1] * u[1]) / (tilt * tilt);  // on the line, from its point
   const Real distance = std::max(beside, norm(p));
   if (std::fabs(along) > kFarNormal * distance + kSameLength && beside >= kSameLength) {
@@ -71,7 +71,7 @@ AxisReach reach_of(const AxisLine& line) {
     result.offset = beside;
     Real none = 0;
     spare_half_turn(result.gamma, none, result.offset);
-    const Vector3 x = turn_z(-result.gamma) * normal;
+    const RealVector x = turn_z(-result.gamma) * normal;
     result.turn = angle_of(x[1], x[0]);
     result.rise = same_or_zero(p[2]);
     result.alpha = angle_of(tilt, u[2]);
@@ -134,17 +134,17 @@ class TableMaker {
     return {own.pose * own.point, own.pose.R * own.axis};
   }
 
-  static AxisLine in_frame(const Pose& frame, const AxisLine& line) {
-    const Pose back = inverse(frame);
+  static AxisLine in_frame(const RigidPose& frame, const AxisLine& line) {
+    const RigidPose back = inverse(frame);
     return {back * line.point, back.R * line.direction};
   }
 
   /// Adds mounts, and returns the row's start with the frame behind Rx(alpha) Tx(d).
-  DhRow begin_row(int parent_row, int g, const AxisReach& way, Pose& frame) {
+  DhRow begin_row(int parent_row, int g, const AxisReach& way, RigidPose& frame) {
     int parent = parent_row;
     const auto mount = [&](Real d, Real theta, Real r) {
       if (d == 0 && theta == 0 && r == 0) return;
-      rows_.push_back({DhRowUse::kMount, parent, g, 0, d, theta, r, Pose{}});
+      rows_.push_back({DhRowUse::kMount, parent, g, 0, d, theta, r, RigidPose{}});
       frame = frame * turned_about_x(0, d) * turned_about_z(theta, r);
       parent = static_cast<int>(rows_.size());
     };
@@ -160,11 +160,11 @@ class TableMaker {
 
   void add_group(int g) {
     const MovingGroup& own = group(g);
-    Pose frame = frames_[group_index(own.parent)];  // in the parent group's frame
+    RigidPose frame = frames_[group_index(own.parent)];  // in the parent group's frame
     const AxisReach way = reach_of(in_frame(frame, axis_in_parent(g)));
     DhRow row = begin_row(row_of_[group_index(own.parent)], g, way, frame);
     row.group = g;
-    const Pose before = inverse(own.pose) * frame;  // in the group's own frame
+    const RigidPose before = inverse(own.pose) * frame;  // in the group's own frame
     choose_x(g, before, row);
     row.frame = before * turned_about_z(row.theta, row.r);
     frames_[group_index(g)] = row.frame;
@@ -174,12 +174,12 @@ class TableMaker {
 
   /// Sets theta and r so that the next axis is reached, or what is free of them so that few numbers
   /// are not zero.
-  void choose_x(int g, const Pose& before, DhRow& row) const {
+  void choose_x(int g, const RigidPose& before, DhRow& row) const {
     AxisLine next;
     if (main_child_[group_index(g)] >= 0) {
       next = in_frame(before, axis_in_parent(main_child_[group_index(g)]));
     } else if (robot_.tip_group == g) {
-      const Pose tip = inverse(before) * robot_.tip;
+      const RigidPose tip = inverse(before) * robot_.tip;
       next = {tip.p, tip.R.column(2)};
       const AxisReach way = reach_of(next);
       const bool same_line = way.d == 0 && way.alpha == 0 && !way.far && way.b == 0 &&
@@ -200,12 +200,12 @@ class TableMaker {
     if (parallel) choose_freely(g, before, row, way.d == 0, true);
   }
 
-  void choose_freely(int g, const Pose& before, DhRow& row, bool any_theta, bool any_r) const {
+  void choose_freely(int g, const RigidPose& before, DhRow& row, bool any_theta, bool any_r) const {
     const MovingGroup& own = group(g);
     std::vector<Real> thetas = {row.theta}, heights = {0};
-    const Pose body = inverse(before);  // the group's frame
+    const RigidPose body = inverse(before);  // the group's frame
     for (std::size_t k = 0; any_theta && k < 3; ++k) {
-      const Vector3 x = body.R.column(k);
+      const RealVector x = body.R.column(k);
       if (std::fabs(x[2]) > kSameAngle) continue;
       Real theta = angle_of(x[1], x[0]), none = 0, nothing = 0;
       spare_half_turn(theta, none, nothing);
@@ -233,18 +233,18 @@ class TableMaker {
 
   void add_tip() {
     const int g = robot_.tip_group;
-    const Pose own = frames_[group_index(g)];
-    const Pose tip = inverse(own) * robot_.tip;
+    const RigidPose own = frames_[group_index(g)];
+    const RigidPose tip = inverse(own) * robot_.tip;
     const bool is_there = std::hypot(tip.p[0], tip.p[1], tip.p[2]) < kSameLength &&
                           std::hypot(tip.R[0][2], tip.R[1][2], tip.R[1][0]) < kSameAngle &&
                           tip.R[0][0] > 0 && tip.R[2][2] > 0;
     if (is_there) return;
-    Pose frame = own;
+    RigidPose frame = own;
     const AxisReach way = reach_of({tip.p, tip.R.column(2)});
     DhRow row = begin_row(row_of_[group_index(g)], g, way, frame);
     row.use = DhRowUse::kTip;
     row.group = g;
-    const Pose rest = inverse(frame) * robot_.tip;
+    const RigidPose rest = inverse(frame) * robot_.tip;
     row.theta = angle_of(rest.R[1][0], rest.R[0][0]);
     row.r = same_or_zero(rest.p[2]);
     row.frame = frame * turned_about_z(row.theta, row.r);
@@ -252,9 +252,9 @@ class TableMaker {
   }
 
   const GroupedRobot& robot_;
-  std::vector<int> main_child_;  // of each group, -1: none
-  std::vector<int> row_of_;      // of each group's frame, 0: the base
-  std::vector<Pose> frames_;     // of the rows of the groups, in the groups' frames
+  std::vector<int> main_child_;    // of each group, -1: none
+  std::vector<int> row_of_;        // of each group's frame, 0: the base
+  std::vector<RigidPose> frames_;  // of the rows of the groups, in the groups' frames
   std::vector<DhRow> rows_;
 };
 
@@ -262,13 +262,13 @@ class TableMaker {
 
 std::vector<DhRow> dh_rows(const GroupedRobot& robot) { return TableMaker(robot).run(); }
 
-FrameInertia inertia_in(const MovingGroup& group, const Pose& frame) {
-  const Matrix3 back = transposed(frame.R);
+FrameInertia inertia_in(const MovingGroup& group, const RigidPose& frame) {
+  const RealMatrix back = transposed(frame.R);
   FrameInertia result;
   result.mass = group.mass;
   result.first_moment = back * (group.first_moment - group.mass * frame.p);
   // J_p = J_0 - m(2 c.p 1 - c p^T - p c^T) + m(p.p 1 - p p^T), with m c the first moment
-  Matrix3 shifted = group.inertia + parallel_axes(group.mass, frame.p);
+  RealMatrix shifted = group.inertia + parallel_axes(group.mass, frame.p);
   const Real product = 2 * dot(group.first_moment, frame.p);
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {

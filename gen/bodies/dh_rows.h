@@ -22,7 +22,7 @@ struct DhRow {
   int parent = 0;  ///< row, from 1; 0: the base
   int group = 0;   ///< whose joint moves it (kJoint), is reached (kMount), or carries it (kTip)
   Real alpha = 0, d = 0, theta = 0, r = 0;  ///< rad, m
-  Pose frame{};  ///< kJoint, kTip: of the row's frame in its group's frame
+  RigidPose frame{};  ///< kJoint, kTip: of the row's frame in its group's frame
 };
 
 /// A modified DH table of a robot whose joints stand anywhere. Frame 0 is the base group's frame;
@@ -39,10 +39,10 @@ std::vector<DhRow> dh_rows(const GroupedRobot& robot);
 /// Mass, first moments and inertia about the origin of a frame, in its axes.
 struct FrameInertia {
   Real mass = 0;
-  Vector3 first_moment{};
-  Matrix3 inertia{};
+  RealVector first_moment{};
+  RealMatrix inertia{};
 };
 /// @param frame  in the group's frame
-FrameInertia inertia_in(const MovingGroup& group, const Pose& frame);
+FrameInertia inertia_in(const MovingGroup& group, const RigidPose& frame);
 
 }  // namespace dyngen

@@ -7,53 +7,55 @@
 
 namespace dyngen {
 
-Vector3 operator+(const Vector3& a, const Vector3& b) {
+RealVector operator+(const RealVector& a, const RealVector& b) {
   return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}};
 }
-Vector3 operator-(const Vector3& a, const Vector3& b) {
+RealVector operator-(const RealVector& a, const RealVector& b) {
   return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
 }
-Vector3 operator-(const Vector3& a) { return {{-a[0], -a[1], -a[2]}}; }
-Vector3 operator*(Real factor, const Vector3& a) {
+RealVector operator-(const RealVector& a) { return {{-a[0], -a[1], -a[2]}}; }
+RealVector operator*(Real factor, const RealVector& a) {
   return {{factor * a[0], factor * a[1], factor * a[2]}};
 }
-Real dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector3 cross(const Vector3& a, const Vector3& b) {
+Real dot(const RealVector& a, const RealVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+RealVector cross(const RealVector& a, const RealVector& b) {
   return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
 }
-Real norm(const Vector3& a) { return std::hypot(a[0], a[1], a[2]); }
+Real norm(const RealVector& a) { return std::hypot(a[0], a[1], a[2]); }
 
-Matrix3 Matrix3::identity() { return {{{{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}}}}; }
+RealMatrix RealMatrix::identity() { return {{{{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}}}}; }
 
-Matrix3 Matrix3::of_columns(const Vector3& x, const Vector3& y, const Vector3& z) {
-  Matrix3 result;
+RealMatrix RealMatrix::of_columns(const RealVector& x, const RealVector& y, const RealVector& z) {
+  RealMatrix result;
   for (std::size_t i = 0; i < 3; ++i) result[i] = {{x[i], y[i], z[i]}};
   return result;
 }
 
-Matrix3 operator+(const Matrix3& a, const Matrix3& b) {
+RealMatrix operator+(const RealMatrix& a, const RealMatrix& b) {
   return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}};
 }
-Matrix3 operator*(Real factor, const Matrix3& a) {
+RealMatrix operator*(Real factor, const RealMatrix& a) {
   return {{factor * a[0], factor * a[1], factor * a[2]}};
 }
-Matrix3 operator*(const Matrix3& a, const Matrix3& b) {
-  Matrix3 result;
+RealMatrix operator*(const RealMatrix& a, const RealMatrix& b) {
+  RealMatrix result;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3 column = a * b.column(k);
+    const RealVector column = a * b.column(k);
     for (std::size_t i = 0; i < 3; ++i) result[i][k] = column[i];
   }
   return result;
 }
-Vector3 operator*(const Matrix3& a, const Vector3& v) {
+RealVector operator*(const RealMatrix& a, const RealVector& v) {
   return {{dot(a[0], v), dot(a[1], v), dot(a[2], v)}};
 }
-Matrix3 transposed(const Matrix3& a) { return {{a.column(0), a.column(1), a.column(2)}}; }
+RealMatrix transposed(const RealMatrix& a) { return {{a.column(0), a.column(1), a.column(2)}}; }
 
-Pose operator*(const Pose& a, const Pose& b) { return {a.R * b.R, a.R * b.p + a.p}; }
-Vector3 operator*(const Pose& a, const Vector3& point) { return a.R * point + a.p; }
-Pose inverse(const Pose& a) {
-  const Matrix3 back = transposed(a.R);
+RigidPose operator*(const RigidPose& a, const RigidPose& b) { return {a.R * b.R, a.R * b.p + a.p}; }
+RealVector operator*(const RigidPose& a, const RealVector& point) { return a.R * point + a.p; }
+RigidPose inverse(const RigidPose& a) {
+  const RealMatrix back = transposed(a.R);
   return {back, -(back * a.p)};
 }
 
@@ -84,22 +86,22 @@ Real rounded_angle(Real angle, Real tolerance) {
   return std::fabs(angle - nearest) <= tolerance ? nearest : angle;
 }
 
-Matrix3 turn_x(Real angle) {
+RealMatrix turn_x(Real angle) {
   const auto [s, c] = sine_cosine(angle);
   return {{{{{1, 0, 0}}, {{0, c, -s}}, {{0, s, c}}}}};
 }
-Matrix3 turn_y(Real angle) {
+RealMatrix turn_y(Real angle) {
   const auto [s, c] = sine_cosine(angle);
   return {{{{{c, 0, s}}, {{0, 1, 0}}, {{-s, 0, c}}}}};
 }
-Matrix3 turn_z(Real angle) {
+RealMatrix turn_z(Real angle) {
   const auto [s, c] = sine_cosine(angle);
   return {{{{{c, -s, 0}}, {{s, c, 0}}, {{0, 0, 1}}}}};
 }
 
-Matrix3 turn_about(const Vector3& axis, Real angle) {
+RealMatrix turn_about(const RealVector& axis, Real angle) {
   const auto [s, c] = sine_cosine(angle);
-  Matrix3 result;
+  RealMatrix result;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       result[i][k] = (1 - c) * axis[i] * axis[k] + (i == k ? c : 0);
@@ -113,9 +115,11 @@ Matrix3 turn_about(const Vector3& axis, Real angle) {
   return result;
 }
 
-Matrix3 turn_rpy(const Vector3& rpy) { return turn_z(rpy[2]) * turn_y(rpy[1]) * turn_x(rpy[0]); }
+RealMatrix turn_rpy(const RealVector& rpy) {
+  return turn_z(rpy[2]) * turn_y(rpy[1]) * turn_x(rpy[0]);
+}
 
-Matrix3 turn_quaternion(const std::array<Real, 4>& wxyz) {
+RealMatrix turn_quaternion(const std::array<Real, 4>& wxyz) {
   const auto [w, x, y, z] = wxyz;
   const Real square = w * w + x * x + y * y + z * z;
   const Real two = 2 / square;
@@ -124,8 +128,8 @@ Matrix3 turn_quaternion(const std::array<Real, 4>& wxyz) {
             {{two * (x * z - w * y), two * (y * z + w * x), 1 - two * (x * x + y * y)}}}}};
 }
 
-Matrix3 parallel_axes(Real mass, const Vector3& p) {
-  Matrix3 result;
+RealMatrix parallel_axes(Real mass, const RealVector& p) {
+  RealMatrix result;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     result[i][i] = mass * (p[j] * p[j] + p[k] * p[k]);
@@ -134,8 +138,8 @@ Matrix3 parallel_axes(Real mass, const Vector3& p) {
   return result;
 }
 
-Matrix3 turned(const Matrix3& R, const Matrix3& A) {
-  Matrix3 result = R * A * transposed(R);
+RealMatrix turned(const RealMatrix& R, const RealMatrix& A) {
+  RealMatrix result = R * A * transposed(R);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t k = (i + 1) % 3;
     result[i][k] = result[k][i] = (result[i][k] + result[k][i]) / 2;
@@ -143,8 +147,8 @@ Matrix3 turned(const Matrix3& R, const Matrix3& A) {
   return result;
 }
 
-Vector3 principal_moments(const Matrix3& A, Matrix3* axes) {
-  Matrix3 J = A, V = Matrix3::identity();
+RealVector principal_moments(const RealMatrix& A, RealMatrix* axes) {
+  RealMatrix J = A, V = RealMatrix::identity();
   constexpr int kSweeps = 20;  // each squares what is left
   for (int step = 0; step < 3 * kSweeps; ++step) {
     const auto i = static_cast<std::size_t>(step % 3), k = (i + 1) % 3;
@@ -152,9 +156,9 @@ Vector3 principal_moments(const Matrix3& A, Matrix3* axes) {
     // the smaller of the two angles: with the larger one sweeps may go round for ever
     const Real apart = J[i][i] - J[k][k];
     const Real angle = apart == 0 ? std::atan(Real(1)) : std::atan(2 * J[i][k] / apart) / 2;
-    Vector3 axis;
+    RealVector axis;
     axis[3 - i - k] = 1;
-    const Matrix3 turn = turn_about(axis, angle);
+    const RealMatrix turn = turn_about(axis, angle);
     J = transposed(turn) * J * turn;
     V = V * turn;
   }
@@ -162,8 +166,8 @@ Vector3 principal_moments(const Matrix3& A, Matrix3* axes) {
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return J[a][a] < J[b][b]; });
   if (axes != nullptr) {
-    const Vector3 x = V.column(order[0]), y = V.column(order[1]);
-    *axes = Matrix3::of_columns(x, y, cross(x, y));
+    const RealVector x = V.column(order[0]), y = V.column(order[1]);
+    *axes = RealMatrix::of_columns(x, y, cross(x, y));
   }
   return {{J[order[0]][order[0]], J[order[1]][order[1]], J[order[2]][order[2]]}};
 }

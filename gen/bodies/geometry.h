@@ -11,49 +11,49 @@ namespace dyngen {
 /// a few rotations keep 1e-17 of their size.
 using Real = long double;
 
-struct Vector3 {
+struct RealVector {
   std::array<Real, 3> at{};
 
   Real& operator[](std::size_t i) { return at[i]; }
   const Real& operator[](std::size_t i) const { return at[i]; }
 };
 
-Vector3 operator+(const Vector3& a, const Vector3& b);
-Vector3 operator-(const Vector3& a, const Vector3& b);
-Vector3 operator-(const Vector3& a);
-Vector3 operator*(Real factor, const Vector3& a);
-Real dot(const Vector3& a, const Vector3& b);
-Vector3 cross(const Vector3& a, const Vector3& b);
-Real norm(const Vector3& a);
+RealVector operator+(const RealVector& a, const RealVector& b);
+RealVector operator-(const RealVector& a, const RealVector& b);
+RealVector operator-(const RealVector& a);
+RealVector operator*(Real factor, const RealVector& a);
+Real dot(const RealVector& a, const RealVector& b);
+RealVector cross(const RealVector& a, const RealVector& b);
+Real norm(const RealVector& a);
 
 /// A 3 x 3 matrix, row by row.
-struct Matrix3 {
-  std::array<Vector3, 3> rows{};
+struct RealMatrix {
+  std::array<RealVector, 3> rows{};
 
-  Vector3& operator[](std::size_t i) { return rows[i]; }
-  const Vector3& operator[](std::size_t i) const { return rows[i]; }
-  [[nodiscard]] Vector3 column(std::size_t k) const {
+  RealVector& operator[](std::size_t i) { return rows[i]; }
+  const RealVector& operator[](std::size_t i) const { return rows[i]; }
+  [[nodiscard]] RealVector column(std::size_t k) const {
     return {{rows[0][k], rows[1][k], rows[2][k]}};
   }
-  static Matrix3 identity();
-  static Matrix3 of_columns(const Vector3& x, const Vector3& y, const Vector3& z);
+  static RealMatrix identity();
+  static RealMatrix of_columns(const RealVector& x, const RealVector& y, const RealVector& z);
 };
 
-Matrix3 operator+(const Matrix3& a, const Matrix3& b);
-Matrix3 operator*(Real factor, const Matrix3& a);
-Matrix3 operator*(const Matrix3& a, const Matrix3& b);
-Vector3 operator*(const Matrix3& a, const Vector3& v);
-Matrix3 transposed(const Matrix3& a);
+RealMatrix operator+(const RealMatrix& a, const RealMatrix& b);
+RealMatrix operator*(Real factor, const RealMatrix& a);
+RealMatrix operator*(const RealMatrix& a, const RealMatrix& b);
+RealVector operator*(const RealMatrix& a, const RealVector& v);
+RealMatrix transposed(const RealMatrix& a);
 
 /// A frame in another one: point = R point' + p.
-struct Pose {
-  Matrix3 R = Matrix3::identity();
-  Vector3 p{};
+struct RigidPose {
+  RealMatrix R = RealMatrix::identity();
+  RealVector p{};
 };
 
-Pose operator*(const Pose& a, const Pose& b);
-Vector3 operator*(const Pose& a, const Vector3& point);
-Pose inverse(const Pose& a);
+RigidPose operator*(const RigidPose& a, const RigidPose& b);
+RealVector operator*(const RigidPose& a, const RealVector& point);
+RigidPose inverse(const RigidPose& a);
 
 /// Sine and cosine; of multiples of a right angle exactly 0 or 1.
 struct SineCosine {
@@ -68,24 +68,24 @@ Real rounded_angle(Real angle, Real tolerance);
 
 inline constexpr Real kRealPi = std::numbers::pi_v<Real>;
 
-Matrix3 turn_x(Real angle);
-Matrix3 turn_y(Real angle);
-Matrix3 turn_z(Real angle);
+RealMatrix turn_x(Real angle);
+RealMatrix turn_y(Real angle);
+RealMatrix turn_z(Real angle);
 /// About a unit vector; Rodrigues' formula.
-Matrix3 turn_about(const Vector3& axis, Real angle);
+RealMatrix turn_about(const RealVector& axis, Real angle);
 /// Fixed axes x, y, z as URDF has them: Rz(yaw) Ry(pitch) Rx(roll).
-Matrix3 turn_rpy(const Vector3& rpy);
+RealMatrix turn_rpy(const RealVector& rpy);
 /// Of a quaternion w x y z of any length but 0.
-Matrix3 turn_quaternion(const std::array<Real, 4>& wxyz);
+RealMatrix turn_quaternion(const std::array<Real, 4>& wxyz);
 
 /// m (p.p 1 - p p^T): what the moments about a point at -p from the centre of mass have more.
-Matrix3 parallel_axes(Real mass, const Vector3& p);
+RealMatrix parallel_axes(Real mass, const RealVector& p);
 
 /// R A R^T
-Matrix3 turned(const Matrix3& R, const Matrix3& A);
+RealMatrix turned(const RealMatrix& R, const RealMatrix& A);
 
 /// Eigenvalues of a symmetric matrix in rising order; by Jacobi's rotations.
 /// @param axes  null, or where their unit vectors go, as columns of a rotation
-Vector3 principal_moments(const Matrix3& A, Matrix3* axes = nullptr);
+RealVector principal_moments(const RealMatrix& A, RealMatrix* axes = nullptr);
 
 }  // namespace dyngen

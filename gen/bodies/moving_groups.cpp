@@ -56,7 +56,7 @@ class Grouping {
     if (chain_) on_chain_ = path(base, tip);
     turn_gravity(root, base);
     robot_.groups.emplace_back();
-    add_body(0, base, Pose{}, -1);
+    add_body(0, base, RigidPose{}, -1);
     if (diagnostics_.has_errors()) throw ModelError(diagnostics_.render());
     for (MovingGroup& group : robot_.groups) weigh(group);
     if (robot_.groups.size() == 1) {
@@ -74,7 +74,7 @@ class Grouping {
     const int body = tree_.body(name);
     if (body >= 0) return body;
     std::vector<std::string> names;
-    for (const Body& own : tree_.bodies) names.push_back(own.name);
+    for (const TreeBody& own : tree_.bodies) names.push_back(own.name);
     diagnostics_.error(tree_.place.position, tree_.place.length,
                        fmt::format("{} '{}': there is no such link", option, printable(name)),
                        "the links are " + few_names(names));
@@ -121,7 +121,7 @@ class Grouping {
     robot_.base_acceleration = tree_.base_acceleration;
     if (root == base) return;
     const std::vector<bool> between = path(root, base);
-    Matrix3 turn = Matrix3::identity();
+    RealMatrix turn = RealMatrix::identity();
     int body = base;
     while (body != root) {
       for (std::size_t j = 0; j < tree_.joints.size(); ++j) {
@@ -145,7 +145,7 @@ class Grouping {
   }
 
   /// The body and all that hangs on it, but by the joint that it was reached by.
-  void add_body(int group, int body, const Pose& pose, int from) {
+  void add_body(int group, int body, const RigidPose& pose, int from) {
     robot_.groups[body_index(group)].bodies.push_back({body, pose});
     for (const int j : at_body_[body_index(body)]) {
       if (j == from) continue;
@@ -174,7 +174,8 @@ class Grouping {
       moved.point = joint.point;
       const int next = static_cast<int>(robot_.groups.size());
       robot_.groups.push_back(std::move(moved));
-      add_body(next, down ? joint.child : joint.parent, down ? Pose{} : inverse(joint.pose), j);
+      add_body(next, down ? joint.child : joint.parent, down ? RigidPose{} : inverse(joint.pose),
+               j);
     }
   }
 
@@ -213,7 +214,7 @@ class Grouping {
           });
       if (!has) names.push_back(tree_.bodies[i].name);
     }
-    const Body& body = tree_.bodies[body_index(base)];
+    const TreeBody& body = tree_.bodies[body_index(base)];
     robot_.warnings.push_back({Severity::kWarning, body.place.position, body.place.length,
                                fmt::format("what does not hang on the base '{}' is left out: {}",
                                            printable(body.name), few_names(names)),
@@ -232,8 +233,8 @@ class Grouping {
 
   void weigh(MovingGroup& group) const {
     for (const GroupedBody& own : group.bodies) {
-      const Body& body = tree_.bodies[body_index(own.body)];
-      const Vector3 centre = own.pose * body.centre;
+      const TreeBody& body = tree_.bodies[body_index(own.body)];
+      const RealVector centre = own.pose * body.centre;
       group.mass += body.mass;
       group.first_moment = group.first_moment + body.mass * centre;
       group.inertia =

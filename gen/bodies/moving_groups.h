@@ -17,8 +17,8 @@ struct TreePart {
 
 /// A body in a group of bodies that do not move against each other.
 struct GroupedBody {
-  int body = -1;  ///< place in BodyTree::bodies
-  Pose pose{};    ///< of the body's frame in the group's
+  int body = -1;     ///< place in BodyTree::bodies
+  RigidPose pose{};  ///< of the body's frame in the group's
 };
 
 /// Bodies that fixed joints join, and the joint that moves them.
@@ -26,21 +26,21 @@ struct MovingGroup {
   int joint = -1;         ///< place in BodyTree::joints; -1: the group of the base
   bool reversed = false;  ///< the joint's child carries its parent
   int parent = -1;        ///< group; -1 of the base
-  Pose pose{};            ///< of the group's frame in the parent group's, at q = 0
-  Vector3 axis{};         ///< of the joint, a unit vector in the group's frame
-  Vector3 point{};        ///< of the axis, in the group's frame
+  RigidPose pose{};       ///< of the group's frame in the parent group's, at q = 0
+  RealVector axis{};      ///< of the joint, a unit vector in the group's frame
+  RealVector point{};     ///< of the axis, in the group's frame
   std::vector<GroupedBody> bodies;
   Real mass = 0;
-  Vector3 first_moment{};  ///< kg m, in the group's frame
-  Matrix3 inertia{};       ///< about the origin of the group's frame, in its axes
+  RealVector first_moment{};  ///< kg m, in the group's frame
+  RealMatrix inertia{};       ///< about the origin of the group's frame, in its axes
 };
 
 /// A robot without fixed joints.
 struct GroupedRobot {
   std::vector<MovingGroup> groups;  ///< [0] is the base's; parents before children, depth first
   int tip_group = -1;               ///< -1: no tip was asked for
-  Pose tip{};                       ///< of the tip's frame in its group's
-  Vector3 base_acceleration{};      ///< -g in the base body's frame, m/s^2
+  RigidPose tip{};                  ///< of the tip's frame in its group's
+  RealVector base_acceleration{};   ///< -g in the base body's frame, m/s^2
   std::vector<Diagnostic> warnings;
 };
 

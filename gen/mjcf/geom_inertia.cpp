@@ -18,7 +18,7 @@ constexpr Real kDefaultDensity = 1000;
 /// Shape of a solid by half lengths: volume, and moments of inertia per mass about its axes.
 struct Solid {
   Real volume = 0;
-  Vector3 moments{};
+  RealVector moments{};
 };
 
 Solid solid_of(const std::string& type, const std::vector<Real>& size) {
@@ -57,7 +57,7 @@ class GeomReader {
              XmlValues& values)
       : geom_(geom), attributes_(attributes), angles_(angles), values_(values) {}
 
-  std::optional<GeomInertia> read(const Pose& around) {
+  std::optional<GeomInertia> read(const RigidPose& around) {
     const XmlAttribute* type = attributes_.find("type");
     const std::string name = type == nullptr ? "sphere" : type->value;
     if (const std::optional<Real> mass = number("mass"); mass && *mass == 0) return GeomInertia{};
@@ -71,7 +71,7 @@ class GeomReader {
     if (std::find(kSolids.begin(), kSolids.end(), name) == kSolids.end()) {
       return refuse("of type '" + printable(name) + "'");
     }
-    Pose pose = mjcf_pose(attributes_, angles_, values_);
+    RigidPose pose = mjcf_pose(attributes_, angles_, values_);
     const std::optional<std::vector<Real>> size = size_of(name, pose);
     if (!size) return std::nullopt;
     const Solid solid = solid_of(name, *size);
@@ -80,7 +80,7 @@ class GeomReader {
         number("mass").value_or(number("density").value_or(kDefaultDensity) * solid.volume);
     pose = around * pose;
     result.centre = pose.p;
-    Matrix3 own;
+    RealMatrix own;
     for (std::size_t k = 0; k < 3; ++k) own[k][k] = result.mass * solid.moments[k];
     result.inertia = turned(pose.R, own);
     return result;
@@ -99,7 +99,7 @@ class GeomReader {
   }
 
   /// Half lengths; the pose is that of `fromto` where it is given.
-  std::optional<std::vector<Real>> size_of(const std::string& type, Pose& pose) {
+  std::optional<std::vector<Real>> size_of(const std::string& type, RigidPose& pose) {
     const XmlAttribute* fromto = attributes_.find("fromto");
     const XmlAttribute* size = attributes_.find("size");
     const std::size_t wanted = fromto != nullptr ? 1 : sizes_of(type);
@@ -119,14 +119,14 @@ class GeomReader {
   }
 
   bool follow(const XmlAttribute& fromto, const std::string& type, std::vector<Real>& size,
-              Pose& pose) {
+              RigidPose& pose) {
     if (type == "sphere") {
       values_.error(fromto, "a sphere has no 'fromto'", "expected a capsule, cylinder or box");
       return false;
     }
     const auto ends = values_.numbers(fromto, 6);
     if (!ends) return false;
-    const Vector3 from{{(*ends)[0], (*ends)[1], (*ends)[2]}},
+    const RealVector from{{(*ends)[0], (*ends)[1], (*ends)[2]}},
         to{{(*ends)[3], (*ends)[4], (*ends)[5]}};
     const Real length = norm(from - to);
     if (length == 0) {
@@ -149,7 +149,7 @@ class GeomReader {
 }  // namespace
 
 std::optional<GeomInertia> geom_inertia(const XmlElement& geom, const MjcfAttributes& attributes,
-                                        const Pose& pose, const MjcfAngles& angles,
+                                        const RigidPose& pose, const MjcfAngles& angles,
                                         XmlValues& values) {
   return GeomReader(geom, attributes, angles, values).read(pose);
 }

@@ -10,8 +10,8 @@ namespace dyngen {
 /// A solid's mass and inertia in a body's frame. kg, m.
 struct GeomInertia {
   Real mass = 0;
-  Vector3 centre{};
-  Matrix3 inertia{};  ///< about its centre, in the body's axes
+  RealVector centre{};
+  RealMatrix inertia{};  ///< about its centre, in the body's axes
 };
 
 /// Mass and inertia of a geom of one density, as MuJoCo has them: sphere, capsule, cylinder,
@@ -20,7 +20,7 @@ struct GeomInertia {
 /// @param pose  of the frame that the geom stands in, in the body's
 /// @return  none, and reported, for meshes, signed distance fields and shells
 std::optional<GeomInertia> geom_inertia(const XmlElement& geom, const MjcfAttributes& attributes,
-                                        const Pose& pose, const MjcfAngles& angles,
+                                        const RigidPose& pose, const MjcfAngles& angles,
                                         XmlValues& values);
 
 }  // namespace dyngen

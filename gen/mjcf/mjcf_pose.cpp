@@ -10,13 +10,13 @@ namespace dyngen {
 
 namespace {
 
-Vector3 first_three(const std::vector<long double>& v, std::size_t from) {
+RealVector first_three(const std::vector<long double>& v, std::size_t from) {
   return {{v[from], v[from + 1], v[from + 2]}};
 }
 
 /// A unit vector; reported if it has no length.
-std::optional<Vector3> unit_direction(const Vector3& v, const XmlAttribute& attribute,
-                                      XmlValues& values) {
+std::optional<RealVector> unit_direction(const RealVector& v, const XmlAttribute& attribute,
+                                         XmlValues& values) {
   const Real length = norm(v);
   if (length > 0) return (1 / length) * v;
   values.error(attribute, fmt::format("'{}' has no length", printable(attribute.name)),
@@ -24,22 +24,22 @@ std::optional<Vector3> unit_direction(const Vector3& v, const XmlAttribute& attr
   return std::nullopt;
 }
 
-Matrix3 turn_euler(const Vector3& angle, const std::string& sequence) {
-  Matrix3 turn = Matrix3::identity();
+RealMatrix turn_euler(const RealVector& angle, const std::string& sequence) {
+  RealMatrix turn = RealMatrix::identity();
   for (std::size_t k = 0; k < 3; ++k) {
     const char axis = sequence[k];
     const bool turns_with = axis >= 'a';
     const char lower = turns_with ? axis : static_cast<char>(axis - 'A' + 'a');
-    const Matrix3 own = lower == 'x'   ? turn_x(angle[k])
-                        : lower == 'y' ? turn_y(angle[k])
-                                       : turn_z(angle[k]);
+    const RealMatrix own = lower == 'x'   ? turn_x(angle[k])
+                           : lower == 'y' ? turn_y(angle[k])
+                                          : turn_z(angle[k]);
     turn = turns_with ? turn * own : own * turn;
   }
   return turn;
 }
 
-Matrix3 turn_of(const XmlAttribute& attribute, const MjcfAngles& angles, XmlValues& values) {
-  const Matrix3 none = Matrix3::identity();
+RealMatrix turn_of(const XmlAttribute& attribute, const MjcfAngles& angles, XmlValues& values) {
+  const RealMatrix none = RealMatrix::identity();
   if (attribute.name == "quat") {
     const auto v = values.numbers(attribute, 4);
     if (!v) return none;
@@ -73,9 +73,9 @@ Matrix3 turn_of(const XmlAttribute& attribute, const MjcfAngles& angles, XmlValu
   if (!v) return none;
   const auto x = unit_direction(first_three(*v, 0), attribute, values);
   if (!x) return none;
-  const Vector3 written = first_three(*v, 3);
+  const RealVector written = first_three(*v, 3);
   const auto y = unit_direction(written - dot(written, *x) * *x, attribute, values);
-  return y ? Matrix3::of_columns(*x, *y, cross(*x, *y)) : none;
+  return y ? RealMatrix::of_columns(*x, *y, cross(*x, *y)) : none;
 }
 
 }  // namespace
@@ -85,8 +85,8 @@ Real mjcf_angle(Real written, const MjcfAngles& angles) {
   return rounded_angle(angles.degrees ? written * kRadiansPerDegree : written, angles.tolerance);
 }
 
-std::optional<Vector3> mjcf_vector(const MjcfAttributes& attributes, std::string_view name,
-                                   XmlValues& values) {
+std::optional<RealVector> mjcf_vector(const MjcfAttributes& attributes, std::string_view name,
+                                      XmlValues& values) {
   const XmlAttribute* attribute = attributes.find(name);
   if (attribute == nullptr) return std::nullopt;
   const auto v = values.numbers(*attribute, 3);
@@ -94,15 +94,15 @@ std::optional<Vector3> mjcf_vector(const MjcfAttributes& attributes, std::string
   return first_three(*v, 0);
 }
 
-Matrix3 turn_z_to(const Vector3& d) {
+RealMatrix turn_z_to(const RealVector& d) {
   const Real sine = std::hypot(d[0], d[1]);
-  if (sine == 0) return d[2] > 0 ? Matrix3::identity() : turn_x(kRealPi);
+  if (sine == 0) return d[2] > 0 ? RealMatrix::identity() : turn_x(kRealPi);
   return turn_about({{-d[1] / sine, d[0] / sine, 0}}, std::atan2(sine, d[2]));
 }
 
-Pose mjcf_pose(const MjcfAttributes& attributes, const MjcfAngles& angles, XmlValues& values) {
-  Pose pose;
-  pose.p = mjcf_vector(attributes, "pos", values).value_or(Vector3{});
+RigidPose mjcf_pose(const MjcfAttributes& attributes, const MjcfAngles& angles, XmlValues& values) {
+  RigidPose pose;
+  pose.p = mjcf_vector(attributes, "pos", values).value_or(RealVector{});
   const XmlAttribute* first = nullptr;
   for (const std::string_view name : {"quat", "axisangle", "xyaxes", "zaxis", "euler"}) {
     const XmlAttribute* attribute = attributes.find(name);

@@ -20,13 +20,13 @@ struct MjcfAngles {
 Real mjcf_angle(Real written, const MjcfAngles& angles);
 
 /// Numbers of an attribute that may be missing.
-std::optional<Vector3> mjcf_vector(const MjcfAttributes& attributes, std::string_view name,
-                                   XmlValues& values);
+std::optional<RealVector> mjcf_vector(const MjcfAttributes& attributes, std::string_view name,
+                                      XmlValues& values);
 
 /// pos and one of quat, axisangle, xyaxes, zaxis, euler. More than one of these is reported.
-Pose mjcf_pose(const MjcfAttributes& attributes, const MjcfAngles& angles, XmlValues& values);
+RigidPose mjcf_pose(const MjcfAttributes& attributes, const MjcfAngles& angles, XmlValues& values);
 
 /// The turn that takes z to a direction by the shortest way.
-Matrix3 turn_z_to(const Vector3& direction);
+RealMatrix turn_z_to(const RealVector& direction);
 
 }  // namespace dyngen

@@ -46,7 +46,7 @@ class MjcfReader {
     tree_.gravity_place = settings_.gravity_place;
     tree_.base_acceleration = -settings_.gravity;
     if (const XmlAttribute* name = root.attribute("model")) tree_.name = name->value;
-    Body world;
+    TreeBody world;
     world.name = "world";
     world.place = world.inertial_place = place_in_mjcf(root);
     tree_.bodies.push_back(std::move(world));
@@ -55,7 +55,7 @@ class MjcfReader {
       refuse_element(child);
       if (child.name != "worldbody") continue;
       any = true;
-      read_children(child, 0, Pose{}, "");
+      read_children(child, 0, RigidPose{}, "");
     }
     if (!any) values_.error(root, "the model has no <worldbody>", "expected bodies");
     for (const XmlElement& child : root.children) {
@@ -84,7 +84,7 @@ class MjcfReader {
   }
 
   /// Bodies of a body or a frame. @param around  of the element's frame in the body's
-  void read_children(const XmlElement& element, int body, const Pose& around,
+  void read_children(const XmlElement& element, int body, const RigidPose& around,
                      const std::string& given_class) {
     for (const XmlElement& child : element.children) {
       if (refuse_element(child)) continue;
@@ -95,7 +95,7 @@ class MjcfReader {
     }
   }
 
-  Pose frame_pose(const XmlElement& element) {
+  RigidPose frame_pose(const XmlElement& element) {
     MjcfAttributes attributes;
     attributes.take(element);
     return mjcf_pose(attributes, settings_.angles, values_);
@@ -115,14 +115,14 @@ class MjcfReader {
   struct Contents {
     struct Item {
       const XmlElement* element = nullptr;
-      Pose around{};
+      RigidPose around{};
       std::string given_class;
     };
     std::vector<Item> joints, geoms;
     const XmlElement* inertial = nullptr;
   };
 
-  void collect(const XmlElement& element, const Pose& around, const std::string& given_class,
+  void collect(const XmlElement& element, const RigidPose& around, const std::string& given_class,
                Contents& contents) {
     for (const XmlElement& child : element.children) {
       if (child.name == "joint" || child.name == "freejoint") {
@@ -137,14 +137,14 @@ class MjcfReader {
     }
   }
 
-  void read_body(const XmlElement& element, int parent, const Pose& around,
+  void read_body(const XmlElement& element, int parent, const RigidPose& around,
                  const std::string& given_class) {
     if (tree_.bodies.size() > static_cast<std::size_t>(kMaxBodies)) {
       values_.error(element, "too many bodies", fmt::format("at most {} are read", kMaxBodies));
       return;
     }
     const std::string inside = class_inside(element, given_class);
-    Body body;
+    TreeBody body;
     body.place = body.inertial_place = place_in_mjcf(element);
     const XmlAttribute* name = element.attribute("name");
     body.name = name != nullptr ? name->value : fmt::format("body{}", tree_.bodies.size());
@@ -161,15 +161,15 @@ class MjcfReader {
       }
     }
     Contents contents;
-    collect(element, Pose{}, inside, contents);
+    collect(element, RigidPose{}, inside, contents);
     read_inertia(contents, body);
-    const Pose pose = around * frame_pose(element);
+    const RigidPose pose = around * frame_pose(element);
     const int own = add_body(std::move(body), contents, parent, pose);
-    read_children(element, own, Pose{}, inside);
+    read_children(element, own, RigidPose{}, inside);
   }
 
   /// @return  the body's place
-  int add_body(Body body, const Contents& contents, int parent, const Pose& pose) {
+  int add_body(TreeBody body, const Contents& contents, int parent, const RigidPose& pose) {
     std::vector<TreeJoint> joints;
     for (const Contents::Item& item : contents.joints)
       joints.push_back(read_joint(item, body.name));
@@ -179,18 +179,18 @@ class MjcfReader {
       fixed.place = fixed.pose_place = fixed.limit_place = fixed.dynamics_place = body.place;
       joints.push_back(std::move(fixed));
     }
-    Pose step = pose;
+    RigidPose step = pose;
     for (std::size_t i = 0; i < joints.size(); ++i) {
       TreeJoint& joint = joints[i];
       const bool last = i + 1 == joints.size();
       joint.parent = parent;
       joint.child = static_cast<int>(tree_.bodies.size());
       joint.pose = step * from_reference(joint, references_of_[joint.name]);
-      step = Pose{};
+      step = RigidPose{};
       if (last) {
         tree_.bodies.push_back(std::move(body));
       } else {
-        Body between;
+        TreeBody between;
         between.name = fmt::format("{}_{}", body.name, i + 1);
         between.place = between.inertial_place = joint.place;
         tree_.bodies.push_back(std::move(between));
@@ -202,12 +202,12 @@ class MjcfReader {
   }
 
   /// At q = ref the body stands as it is described.
-  static Pose from_reference(const TreeJoint& joint, Real reference) {
+  static RigidPose from_reference(const TreeJoint& joint, Real reference) {
     if (reference == 0) return {};
     if (joint.type == TreeJointType::kPrismatic) {
-      return {Matrix3::identity(), -reference * joint.axis};
+      return {RealMatrix::identity(), -reference * joint.axis};
     }
-    const Matrix3 turn = turn_about(joint.axis, -reference);
+    const RealMatrix turn = turn_about(joint.axis, -reference);
     return {turn, joint.point - turn * joint.point};
   }
 
@@ -253,9 +253,9 @@ class MjcfReader {
     return joint;
   }
 
-  void read_axis(const MjcfAttributes& own, const XmlElement& element, const Pose& around,
+  void read_axis(const MjcfAttributes& own, const XmlElement& element, const RigidPose& around,
                  TreeJoint& joint) {
-    const Vector3 axis = mjcf_vector(own, "axis", values_).value_or(Vector3{{0, 0, 1}});
+    const RealVector axis = mjcf_vector(own, "axis", values_).value_or(RealVector{{0, 0, 1}});
     const Real length = norm(axis);
     if (length == 0) {
       values_.error(element,
@@ -264,7 +264,7 @@ class MjcfReader {
       return;
     }
     joint.axis = around.R * ((1 / length) * axis);
-    joint.point = around * mjcf_vector(own, "pos", values_).value_or(Vector3{});
+    joint.point = around * mjcf_vector(own, "pos", values_).value_or(RealVector{});
     references_of_[joint.name] = coordinate(own, "ref", joint);
   }
 
@@ -336,7 +336,7 @@ class MjcfReader {
 
   // ---- inertia
 
-  void read_inertia(const Contents& contents, Body& body) {
+  void read_inertia(const Contents& contents, TreeBody& body) {
     const bool given = contents.inertial != nullptr && settings_.inertia != InertiaSource::kGeoms;
     if (given) {
       read_inertial(*contents.inertial, body);
@@ -346,19 +346,19 @@ class MjcfReader {
     bound(body);
   }
 
-  void read_inertial(const XmlElement& element, Body& body) {
+  void read_inertial(const XmlElement& element, TreeBody& body) {
     MjcfAttributes own;
     own.take(element);
     const std::string whose = fmt::format("the inertial of body '{}'", printable(body.name));
     body.has_inertial = true;
     body.inertial_place = place_in_mjcf(element);
-    const Pose pose = mjcf_pose(own, settings_.angles, values_);
+    const RigidPose pose = mjcf_pose(own, settings_.angles, values_);
     values_.required(element, "pos", whose);
     body.centre = pose.p;
     if (const XmlAttribute* mass = values_.required(element, "mass", whose)) {
       body.mass = values_.number(*mass).value_or(0);
     }
-    Matrix3 tensor;
+    RealMatrix tensor;
     if (const XmlAttribute* full = own.find("fullinertia")) {
       if (const auto v = values_.numbers(*full, 6)) {
         for (std::size_t k = 0; k < 3; ++k) tensor[k][k] = (*v)[k];
@@ -375,7 +375,7 @@ class MjcfReader {
     body.inertia = turned(pose.R, tensor);
   }
 
-  void add_geoms(const Contents& contents, Body& body) {
+  void add_geoms(const Contents& contents, TreeBody& body) {
     std::vector<GeomInertia> solids;
     for (const Contents::Item& item : contents.geoms) {
       const MjcfAttributes own = defaults_.of(*item.element, "geom", item.given_class, values_);
@@ -399,11 +399,11 @@ class MjcfReader {
   }
 
   /// What <compiler> makes of masses and moments, in MuJoCo's order.
-  void bound(Body& body) const {
+  void bound(TreeBody& body) const {
     body.mass = std::max(body.mass, settings_.least_mass);
     if (settings_.least_moment <= 0 && !settings_.balance_inertia) return;
-    Matrix3 axes;
-    Vector3 p = principal_moments(body.inertia, &axes);
+    RealMatrix axes;
+    RealVector p = principal_moments(body.inertia, &axes);
     bool changed = false;
     for (std::size_t k = 0; k < 3; ++k) {
       changed = changed || p[k] < settings_.least_moment;
@@ -415,7 +415,7 @@ class MjcfReader {
       changed = true;
     }
     if (!changed) return;
-    Matrix3 diagonal;
+    RealMatrix diagonal;
     for (std::size_t k = 0; k < 3; ++k) diagonal[k][k] = p[k];
     body.inertia = turned(axes, diagonal);
   }
@@ -423,10 +423,10 @@ class MjcfReader {
   void set_total_mass() {
     if (settings_.total_mass <= 0) return;
     Real sum = 0;
-    for (const Body& body : tree_.bodies) sum += body.mass;
+    for (const TreeBody& body : tree_.bodies) sum += body.mass;
     if (sum == 0) return;
     const Real factor = settings_.total_mass / sum;
-    for (Body& body : tree_.bodies) {
+    for (TreeBody& body : tree_.bodies) {
       body.mass *= factor;
       body.inertia = factor * body.inertia;
     }

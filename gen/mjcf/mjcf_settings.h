@@ -18,7 +18,7 @@ struct MjcfSettings {
   Real least_mass = 0;                  ///< kg, of bodies
   Real least_moment = 0;                ///< kg m^2, of principal moments
   Real total_mass = -1;                 ///< kg, that all masses are scaled to; negative: none
-  Vector3 gravity{{0, 0, -9.81L}};
+  RealVector gravity{{0, 0, -9.81L}};
   TextPlace gravity_place{};
 };
 

@@ -14,7 +14,7 @@ namespace dyngen {
 
 namespace {
 
-std::string spelled_quaternion(const Matrix3& turn) {
+std::string spelled_quaternion(const RealMatrix& turn) {
   std::string text;
   for (const Real value : quaternion_of(turn)) {
     constexpr Real kRoundedComponent = 1e-17L;
@@ -58,7 +58,7 @@ class MjcfWriter {
   }
 
   void add_body(const TreeJoint& joint, std::size_t depth) {
-    const Body& body = tree_.bodies[static_cast<std::size_t>(joint.child)];
+    const TreeBody& body = tree_.bodies[static_cast<std::size_t>(joint.child)];
     line(depth, fmt::format("<body name=\"{}\" pos=\"{}\" quat=\"{}\">", body.name,
                             spelled_vector(joint.pose.p), spelled_quaternion(joint.pose.R)));
     if (body.has_inertial) add_inertial(body, depth + 1);
@@ -69,9 +69,9 @@ class MjcfWriter {
 
   /// About principal axes, which MuJoCo takes as they are; of a full tensor it finds them itself,
   /// to fewer digits.
-  void add_inertial(const Body& body, std::size_t depth) {
-    Matrix3 axes = Matrix3::identity();
-    Vector3 moments{{body.inertia[0][0], body.inertia[1][1], body.inertia[2][2]}};
+  void add_inertial(const TreeBody& body, std::size_t depth) {
+    RealMatrix axes = RealMatrix::identity();
+    RealVector moments{{body.inertia[0][0], body.inertia[1][1], body.inertia[2][2]}};
     constexpr Real kDiagonal = 1e-16L;
     const Real beside = std::hypot(body.inertia[0][1], body.inertia[0][2], body.inertia[1][2]);
     if (beside > kDiagonal * norm(moments)) moments = principal_moments(body.inertia, &axes);

@@ -27,7 +27,7 @@ class RobotTreeMaker {
     throw_if_wrong();
     tree_.format = target_;
     tree_.name = model_.name;
-    Body base;
+    TreeBody base;
     base.name = "base";
     tree_.bodies.push_back(std::move(base));
     frames_.emplace_back();
@@ -99,15 +99,15 @@ class RobotTreeMaker {
     const JointModel& own = model_.joint(j);
     const Real al = number(own.alpha), d = number(own.d.value), th = number(own.theta),
                r = number(own.r.value);
-    const Pose about_x{turn_x(al), {{d, 0, 0}}}, about_z{turn_z(th), {{0, 0, r}}};
+    const RigidPose about_x{turn_x(al), {{d, 0, 0}}}, about_z{turn_z(th), {{0, 0, r}}};
     const bool modified = model_.convention == DhConvention::kModified;
     TreeJoint joint;
     joint.name = own.name;
     joint.parent = own.parent;
     joint.child = j;
-    const Pose& before = frames_[static_cast<std::size_t>(own.parent)];
+    const RigidPose& before = frames_[static_cast<std::size_t>(own.parent)];
     joint.pose = modified ? before * about_x * about_z : before * about_z;
-    frames_.push_back(modified ? Pose{} : about_x);  // Tx(d) Rx(al), which commute
+    frames_.push_back(modified ? RigidPose{} : about_x);  // Tx(d) Rx(al), which commute
     joint.axis = {{0, 0, 1}};
     joint.type = own.type == JointType::kRevolute    ? TreeJointType::kRevolute
                  : own.type == JointType::kPrismatic ? TreeJointType::kPrismatic
@@ -136,12 +136,12 @@ class RobotTreeMaker {
   void add_body(int j) {
     const JointModel& own = model_.joint(j);
     const auto chi = [&](Chi kind) { return number(own.chi[index(kind)].value); };
-    Body body;
+    TreeBody body;
     body.name = own.name + "_link";
     body.place = place_of(RowKey::kSigma, j);
     body.inertial_place = place_of(RowKey::kM, j);
     body.mass = chi(Chi::kM);
-    const Vector3 first{{chi(Chi::kMX), chi(Chi::kMY), chi(Chi::kMZ)}};
+    const RealVector first{{chi(Chi::kMX), chi(Chi::kMY), chi(Chi::kMZ)}};
     if (body.mass == 0 && norm(first) > 0) {
       diagnostics_.error(body.inertial_place.position, body.inertial_place.length,
                          fmt::format("link {} has first moments and no mass: it has no centre of "
@@ -150,12 +150,12 @@ class RobotTreeMaker {
                          "write its mass");
       return;
     }
-    const Matrix3 about_origin{{{{{chi(Chi::kXX), chi(Chi::kXY), chi(Chi::kXZ)}},
-                                 {{chi(Chi::kXY), chi(Chi::kYY), chi(Chi::kYZ)}},
-                                 {{chi(Chi::kXZ), chi(Chi::kYZ), chi(Chi::kZZ)}}}}};
-    const Vector3 centre = body.mass == 0 ? Vector3{} : (1 / body.mass) * first;
-    const Matrix3 central = about_origin + (-1 * parallel_axes(body.mass, centre));
-    const Pose& frame = frames_.back();  // of the file's parameters, in the body's frame
+    const RealMatrix about_origin{{{{{chi(Chi::kXX), chi(Chi::kXY), chi(Chi::kXZ)}},
+                                    {{chi(Chi::kXY), chi(Chi::kYY), chi(Chi::kYZ)}},
+                                    {{chi(Chi::kXZ), chi(Chi::kYZ), chi(Chi::kZZ)}}}}};
+    const RealVector centre = body.mass == 0 ? RealVector{} : (1 / body.mass) * first;
+    const RealMatrix central = about_origin + (-1 * parallel_axes(body.mass, centre));
+    const RigidPose& frame = frames_.back();  // of the file's parameters, in the body's frame
     body.centre = frame * centre;
     if (body.mass == 0) body.centre = {};
     body.inertia = turned(frame.R, central);
@@ -211,7 +211,7 @@ class RobotTreeMaker {
   const std::string& target_;
   Diagnostics diagnostics_;
   BodyTree tree_;
-  std::vector<Pose> frames_;  // of the file's parameters in the bodies' frames
+  std::vector<RigidPose> frames_;  // of the file's parameters in the bodies' frames
 };
 
 }  // namespace

@@ -9,10 +9,10 @@
 
 namespace dyngen {
 
-Vector3 rpy_of(const Matrix3& R) {
+RealVector rpy_of(const RealMatrix& R) {
   const Real level = std::hypot(R[0][0], R[1][0]);  // cosine of the pitch
   const Real pitch = std::atan2(-R[2][0], level);
-  Vector3 rpy;
+  RealVector rpy;
   constexpr Real kUpright = 1e-15L;  // below, roll and yaw turn about one axis
   if (level < kUpright) {
     rpy = {{0, pitch, std::atan2(-R[0][1], R[1][1])}};
@@ -23,7 +23,7 @@ Vector3 rpy_of(const Matrix3& R) {
   return rpy;
 }
 
-std::array<Real, 4> quaternion_of(const Matrix3& R) {
+std::array<Real, 4> quaternion_of(const RealMatrix& R) {
   // the largest of the four squares first (Shepperd 1978)
   const Real trace = R[0][0] + R[1][1] + R[2][2];
   const std::array<Real, 4> squares = {trace, R[0][0], R[1][1], R[2][2]};
@@ -45,7 +45,7 @@ std::array<Real, 4> quaternion_of(const Matrix3& R) {
   return q;
 }
 
-std::string spelled_vector(const Vector3& v) {
+std::string spelled_vector(const RealVector& v) {
   constexpr Real kRoundedPart = 1e-16L;
   const Real size = norm(v);
   std::string text;

@@ -25,7 +25,7 @@ class UrdfWriter {
     text_ = "<?xml version=\"1.0\"?>\n<!-- Made by dyngen of a robot file. -->\n";
     text_ += fmt::format("<robot name=\"{}\">\n", tree_.name);
     add_world();
-    for (const Body& body : tree_.bodies) add_link(body);
+    for (const TreeBody& body : tree_.bodies) add_link(body);
     for (const TreeJoint& joint : tree_.joints) add_joint(joint);
     text_ += "</robot>\n";
     written_.text = std::move(text_);
@@ -40,7 +40,7 @@ class UrdfWriter {
 
   /// URDF's gravity is along -z of the root: where it is not, a link "world" is the root.
   void add_world() {
-    const Vector3& up = tree_.base_acceleration;
+    const RealVector& up = tree_.base_acceleration;
     const Real size = norm(up);
     const TextPlace place{file_.last_word, 1};
     if (std::fabs(size - kStandardGravity) > kSameLength) {
@@ -50,19 +50,19 @@ class UrdfWriter {
     }
     if (size == 0 || (up[0] == 0 && up[1] == 0 && up[2] > 0)) return;
     text_ += "  <link name=\"world\"/>\n";
-    const Matrix3 turn = transposed(turn_z_to((1 / size) * up));  // of the base, in the world
+    const RealMatrix turn = transposed(turn_z_to((1 / size) * up));  // of the base, in the world
     text_ += fmt::format(
         "  <joint name=\"world_base\" type=\"fixed\">\n    <origin xyz=\"0 0 0\" rpy=\"{}\"/>\n"
         "    <parent link=\"world\"/>\n    <child link=\"{}\"/>\n  </joint>\n",
         spelled_vector(rpy_of(turn)), tree_.bodies.front().name);
   }
 
-  void add_link(const Body& body) {
+  void add_link(const TreeBody& body) {
     if (!body.has_inertial) {
       text_ += fmt::format("  <link name=\"{}\"/>\n", body.name);
       return;
     }
-    const Matrix3& J = body.inertia;
+    const RealMatrix& J = body.inertia;
     text_ += fmt::format(
         "  <link name=\"{}\">\n    <inertial>\n      <origin xyz=\"{}\" rpy=\"0 0 0\"/>\n"
         "      <mass value=\"{}\"/>\n"

@@ -133,7 +133,7 @@ class UrdfReader {
 
   // ---- values
 
-  Vector3 vector(const XmlElement& element, std::string_view name, const Vector3& absent) {
+  RealVector vector(const XmlElement& element, std::string_view name, const RealVector& absent) {
     const XmlAttribute* attribute = element.attribute(name);
     if (attribute == nullptr) return absent;
     const auto values = values_.numbers(*attribute, 3);
@@ -142,9 +142,9 @@ class UrdfReader {
   }
 
   /// Angles within the tolerance are multiples of pi/12; nearly right ones are warned of.
-  Vector3 angles(const XmlElement& element, const std::string& whose) {
+  RealVector angles(const XmlElement& element, const std::string& whose) {
     constexpr Real kNearlyRight = 1e-3L;  // rad: rounded by hand, rather than calibrated
-    Vector3 rpy = vector(element, "rpy", {});
+    RealVector rpy = vector(element, "rpy", {});
     const XmlAttribute* attribute = element.attribute("rpy");
     for (std::size_t k = 0; k < 3; ++k) {
       const Real tolerance = std::max(kSameAngle, options_.round_angles);
@@ -168,7 +168,7 @@ class UrdfReader {
     return std::pow(10.0, std::ceil(std::log10(static_cast<double>(value))));
   }
 
-  Pose origin(const XmlElement& element, const std::string& whose) {
+  RigidPose origin(const XmlElement& element, const std::string& whose) {
     const XmlElement* child = only_child(element, "origin");
     if (child == nullptr) return {};
     return {turn_rpy(angles(*child, whose)), vector(*child, "xyz", {})};
@@ -194,7 +194,7 @@ class UrdfReader {
   void read_link(const XmlElement& element) {
     const XmlAttribute* name = values_.required(element, "name", "a link");
     if (name == nullptr) return;
-    Body body;
+    TreeBody body;
     body.name = name->value;
     body.place = body.inertial_place = place_in_urdf(element);
     const auto [first, is_first] = link_of_.emplace(body.name, tree_.bodies.size());
@@ -214,11 +214,11 @@ class UrdfReader {
     tree_.bodies.push_back(std::move(body));
   }
 
-  void read_inertial(const XmlElement& element, Body& body) {
+  void read_inertial(const XmlElement& element, TreeBody& body) {
     const std::string whose = fmt::format("the inertial of link '{}'", printable(body.name));
     body.has_inertial = true;
     body.inertial_place = place_in_urdf(element);
-    const Pose frame = origin(element, whose);
+    const RigidPose frame = origin(element, whose);
     body.centre = frame.p;
     const XmlElement* mass = only_child(element, "mass");
     const XmlElement* inertia = only_child(element, "inertia");
@@ -239,7 +239,7 @@ class UrdfReader {
       }
     }
     if (inertia == nullptr) return;
-    Matrix3 own;
+    RealMatrix own;
     constexpr std::array<std::string_view, 6> kNames = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
     constexpr std::array<std::pair<std::size_t, std::size_t>, 6> kPlaces = {
         {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
@@ -341,7 +341,7 @@ class UrdfReader {
     if (child == nullptr) return;
     const XmlAttribute* xyz = values_.required(*child, "xyz", "the axis of " + whose);
     if (xyz == nullptr) return;
-    const Vector3 axis = vector(*child, "xyz", joint.axis);
+    const RealVector axis = vector(*child, "xyz", joint.axis);
     const Real length = norm(axis);
     if (length == 0) {
       values_.error(*xyz, fmt::format("the axis of {} has no length", whose),
@@ -437,7 +437,7 @@ class UrdfReader {
     std::vector<const TreeJoint*> carrier(tree_.bodies.size(), nullptr);
     for (const TreeJoint& joint : tree_.joints) {
       const TreeJoint*& own = carrier[static_cast<std::size_t>(joint.child)];
-      const Body& body = tree_.bodies[static_cast<std::size_t>(joint.child)];
+      const TreeBody& body = tree_.bodies[static_cast<std::size_t>(joint.child)];
       if (own != nullptr) {
         diagnostics_.error(
             joint.place.position, joint.place.length,
@@ -459,7 +459,7 @@ class UrdfReader {
       return;
     }
     if (roots.size() > 1) {
-      const Body& second = tree_.bodies[roots[1]];
+      const TreeBody& second = tree_.bodies[roots[1]];
       diagnostics_.error(
           second.place.position, second.place.length,
           fmt::format("the robot has {} roots: links '{}' and '{}' hang on no joint", roots.size(),

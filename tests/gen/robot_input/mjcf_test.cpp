@@ -51,7 +51,7 @@ TEST(Mjcf, EulerSequencesTurnWithTheBodyOrStand) {
   const std::string body = std::string("<body name=\"a\" euler=\"30 40 50\">") + kInertial +
                            "<joint name=\"j\"/></body>";
   const Real d = kRealPi / 180;
-  const auto expect_turn = [&](const std::string& sequence, const Matrix3& expected) {
+  const auto expect_turn = [&](const std::string& sequence, const RealMatrix& expected) {
     const BodyTree tree = tree_of(in_world(body, "<compiler eulerseq=\"" + sequence + "\"/>"));
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -91,30 +91,30 @@ TEST(Mjcf, DefaultClassesAreNestedAndInherited) {
 }
 
 /// Of a body with one geom and MuJoCo's density of water.
-Body geom_body(const std::string& geom) {
+TreeBody geom_body(const std::string& geom) {
   return tree_of(in_world("<body name=\"a\"><joint name=\"j\"/><geom " + geom + "/></body>"))
       .bodies[1];
 }
 
 TEST(Mjcf, GeomsHaveTheInertiaOfTheirSolids) {
   const double pi = std::numbers::pi;
-  const auto moment = [](const Body& body, std::size_t k) {
+  const auto moment = [](const TreeBody& body, std::size_t k) {
     return static_cast<double>(body.inertia[k][k]);
   };
-  const Body box = geom_body("type=\"box\" size=\"0.1 0.2 0.3\" pos=\"1 0 0\"");
+  const TreeBody box = geom_body("type=\"box\" size=\"0.1 0.2 0.3\" pos=\"1 0 0\"");
   EXPECT_NEAR(static_cast<double>(box.mass), 48, 1e-12);
   EXPECT_NEAR(moment(box, 0), 48 * (0.04 + 0.09) / 3, 1e-12);
   EXPECT_EQ(box.centre[0], 1);
-  const Body ball = geom_body("size=\"0.1\" mass=\"2\"");
+  const TreeBody ball = geom_body("size=\"0.1\" mass=\"2\"");
   EXPECT_NEAR(moment(ball, 1), 2 * 0.4 * 0.01, 1e-16);
-  const Body tube = geom_body("type=\"cylinder\" size=\"0.1 0.4\" density=\"100\"");
+  const TreeBody tube = geom_body("type=\"cylinder\" size=\"0.1 0.4\" density=\"100\"");
   EXPECT_NEAR(static_cast<double>(tube.mass), 100 * pi * 0.01 * 0.8, 1e-12);
-  const Body capsule =
+  const TreeBody capsule =
       geom_body("type=\"capsule\" size=\"0.1\" fromto=\"0 0 0 0 0.6 0\" mass=\"3\"");
   EXPECT_NEAR(static_cast<double>(capsule.centre[1]), 0.3, 1e-16);
   EXPECT_LT(moment(capsule, 1), moment(capsule, 0));
   EXPECT_NEAR(moment(capsule, 0), moment(capsule, 2), 1e-15);
-  const Body ellipsoid = geom_body("type=\"ellipsoid\" size=\"0.1 0.2 0.3\" mass=\"5\"");
+  const TreeBody ellipsoid = geom_body("type=\"ellipsoid\" size=\"0.1 0.2 0.3\" mass=\"5\"");
   EXPECT_NEAR(moment(ellipsoid, 2), 0.04 + 0.01, 1e-15);
   EXPECT_EQ(geom_body("type=\"plane\" size=\"1 1 1\"").mass, 0);
 }
