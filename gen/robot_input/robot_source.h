@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <string>
 #include <utility>
 
@@ -27,6 +29,19 @@ struct RobotSource {
     source.path = other;
     source.part_if_any = true;
     return source;
+  }
+  /// As on a command line: "arm.urdf --tip hand".
+  [[nodiscard]] std::string words() const {
+    std::string text = path;
+    if (!base.empty()) text += " --base " + base;
+    if (!tip.empty()) text += " --tip " + tip;
+    if (round_angles != 0) {
+      std::array<char, 32> digits{};  // the shortest that reads back, whatever the locale
+      const auto end =
+          std::to_chars(digits.data(), digits.data() + digits.size(), round_angles).ptr;
+      text += " --round-angles " + std::string(digits.data(), end);
+    }
+    return text;
   }
   [[nodiscard]] bool empty() const { return path.empty(); }
   bool operator==(const RobotSource&) const = default;

@@ -272,7 +272,7 @@ int run_diagnose(const ToolOptions& options) {
   report.false_alarm = settings.false_alarm;
   report.seed = settings.seed;
   report.command = options.page.command;
-  report.robot_path = options.robot;
+  report.robot_path = options.robot.words();
   report.json_path = options.json;
   report.version = DYNGEN_VERSION;
   const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;

@@ -119,7 +119,7 @@ int run_simulate(const SimulateOptions& options) {
       (options.temperature.back() - options.temperature.front()) / duration};
   const SimulatedRobot model = read_simulated_robot(
       options.robot, same ? RobotUse::kPlant : RobotUse::kController, catalogue, temperature);
-  if (!same) progress.show("equations of " + options.plant, 0, 1);
+  if (!same) progress.show("equations of " + options.plant.path, 0, 1);
   const SimulatedRobot plant =
       same ? model : read_simulated_robot(options.plant, RobotUse::kPlant, catalogue, temperature);
   if (!plant.remarks.empty()) progress.clear();

@@ -8,6 +8,7 @@
 
 #include "gen/effects/effect_catalogue.h"
 #include "gen/robot_file/robot_file.h"
+#include "gen/robot_input/robot_source.h"
 #include "runtime/control/control_model.h"
 #include "runtime/effects/effect_law.h"
 #include "runtime/simulation/plant_model.h"
