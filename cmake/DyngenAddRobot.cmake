@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 #[[
-dyngen_add_robot(<target> ROBOT file
+dyngen_add_robot(<target> ROBOT file   # .robot, URDF, MJCF or SYMORO's .par
+  [BASE link] [TIP link]          # of URDF and MJCF: the chain between them
+  [ROUND_ANGLES tol]              # of URDF and MJCF, rad: 1e-4 makes 1.5708 a right angle
   [FUNCTIONS name ...]            # default: all for one sample; name_batch: for many; all: both
   [PREFIX p]                      # begins every external name; default: <target>
   [PARAMETERS baked|runtime]      # default: baked
@@ -34,7 +36,7 @@ cmake_policy(VERSION 3.20...3.25)
 
 function(dyngen_add_robot target)
   set(flags WRENCH PAYLOAD NO_REGROUP FOLD CPP_WRAPPER)
-  set(one_value ROBOT PREFIX PARAMETERS SCALAR TRIG GRAVITY OUTPUT_DIR GENERATOR CHECKED_IN)
+  set(one_value ROBOT BASE TIP ROUND_ANGLES PREFIX PARAMETERS SCALAR TRIG GRAVITY OUTPUT_DIR GENERATOR CHECKED_IN)
   cmake_parse_arguments(PARSE_ARGV 1 arg "${flags}" "${one_value}" "FUNCTIONS;EFFECTS")
   set(where "dyngen_add_robot(${target})")
 
@@ -139,9 +141,10 @@ function(dyngen_add_robot target)
       list(JOIN arg_FUNCTIONS "," functions)
       list(APPEND options --functions ${functions})
     endif()
-    foreach(keyword IN ITEMS PARAMETERS SCALAR TRIG GRAVITY)
+    foreach(keyword IN ITEMS BASE TIP ROUND_ANGLES PARAMETERS SCALAR TRIG GRAVITY)
       if(DEFINED arg_${keyword})
         string(TOLOWER ${keyword} option)
+        string(REPLACE "_" "-" option ${option})
         list(APPEND options --${option} ${arg_${keyword}})
       endif()
     endforeach()

@@ -94,7 +94,7 @@ bool is_rival(const EffectInstance& effect, const OpenFinding& finding) {
 
 /// Parameters of the findings, else of the robot file.
 VectorXd base_values(const OpenFinding& finding, const DescribedRobot& robot,
-                     const std::string& path) {
+                     const RobotSource& source) {
   const auto size = static_cast<Index>(robot.linear.parameters.size());
   VectorXd found = VectorXd::Constant(size, std::numeric_limits<double>::quiet_NaN());
   for (Index i = 0; i < size; ++i) {
@@ -104,7 +104,7 @@ VectorXd base_values(const OpenFinding& finding, const DescribedRobot& robot,
   }
   if (found.allFinite()) return found;
   const VectorXd written = file_values(
-      robot, path,
+      robot, source,
       "since the findings do not have all base parameters of it: 'dynid fit' finds them");
   for (Index i = 0; i < size; ++i) {
     if (!std::isfinite(found[i])) found[i] = written[i];
@@ -181,7 +181,7 @@ Contest contest_of(const OpenFinding& finding, const std::string& path, const De
 }
 
 SeparationReport make_separation_report(
-    const std::string& robot, const ExciteOptions& options,
+    const RobotSource& robot, const ExciteOptions& options,
     const std::function<void(const std::string&, std::size_t, std::size_t)>& progress) {
   SeparationReport report;
   report.options = options;

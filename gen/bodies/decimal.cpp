@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "gen/bodies/decimal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "gen/bodies/body_tree.h"
+#include "gen/xml/decimal_number.h"
+
+namespace dyngen {
+
+std::string decimal(Real value) {
+  if (value == 0) return "0";
+  constexpr Real kRelativeError = 1e-14L, kAbsoluteError = 1e-15L;
+  constexpr int kMostDigits = 21;
+  // "30", not "3e+01"
+  constexpr int kLowest = -5, kHighest = 15;  // decimal exponents that are spelt without one
+  const int exponent = std::isfinite(value)
+                           ? static_cast<int>(std::floor(std::log10(std::fabs(value))))
+                           : kHighest + 1;
+  const bool plain = exponent >= kLowest && exponent <= kHighest;
+  std::string text;
+  for (int digits = 1; digits <= kMostDigits; ++digits) {
+    text = plain ? fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent))
+                 : fmt::format("{:.{}g}", value, digits);
+    const std::optional<Real> back = read_decimal(text);
+    if (back && std::fabs(*back - value) <= kRelativeError * std::fabs(value) + kAbsoluteError)
+      break;
+  }
+  // a number below the absolute tolerance is spelt "0" or by its first digit
+  return read_decimal(text).value_or(0) == 0 ? "0" : text;
+}
+
+std::string exact_decimal(Real value) {
+  const auto rounded = static_cast<double>(value);
+  return rounded == 0 ? "0" : fmt::format("{}", rounded);
+}
+
+std::string angle_text(Real angle) {
+  constexpr Real kStep = kRealPi / 12;
+  const Real steps = std::round(angle / kStep);
+  constexpr Real kMostSteps = 1e6L;
+  if (!(std::fabs(steps) <= kMostSteps) || std::fabs(angle - steps * kStep) > kSameAngle) {
+    return decimal(angle);
+  }
+  const long count = std::lround(steps);
+  if (count == 0) return "0";
+  const long common = std::gcd(count, 12L);
+  const long numerator = std::labs(count) / common, denominator = 12 / common;
+  return fmt::format("{}{}pi{}", count < 0 ? "-" : "",
+                     numerator == 1 ? "" : fmt::format("{}*", numerator),
+                     denominator == 1 ? "" : fmt::format("/{}", denominator));
+}
+
+}  // namespace dyngen
