@@ -2,11 +2,11 @@
 #include "runtime/logs/log_bytes.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
-#include <bit>
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -91,22 +91,26 @@ std::string_view PieceReader::text() { return bytes(number<std::uint32_t>()); }
 
 ReadablePath::ReadablePath(const LogBytes& bytes) : path_(bytes.path) {
   if (!bytes.memory) return;
-  descriptor_ = memfd_create("log", MFD_CLOEXEC);
+  std::error_code error;
+  path_ = (std::filesystem::temp_directory_path(error) / "dyngen_log_XXXXXX").string();
+  const int descriptor = mkstemp(path_.data());
+  is_copy_ = descriptor >= 0;
   std::string_view left = *bytes.memory;
-  while (descriptor_ >= 0 && !left.empty()) {
-    const ssize_t written = write(descriptor_, left.data(), left.size());
+  while (is_copy_ && !left.empty()) {
+    const ssize_t written = write(descriptor, left.data(), left.size());
     if (written <= 0) break;
     left.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (descriptor_ < 0 || !left.empty()) {
-    if (descriptor_ >= 0) close(descriptor_);
-    throw log_error(bytes.name, "found no memory for a copy of the log");
+  if (is_copy_) close(descriptor);
+  if (!is_copy_ || !left.empty()) {
+    if (is_copy_) std::filesystem::remove(path_, error);
+    throw log_error(bytes.name, "cannot write a copy of it, which the library of its format needs");
   }
-  path_ = fmt::format("/proc/self/fd/{}", descriptor_);
 }
 
 ReadablePath::~ReadablePath() {
-  if (descriptor_ >= 0) close(descriptor_);
+  std::error_code ignored;
+  if (is_copy_) std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace dyngen::runtime

@@ -73,11 +73,11 @@ extern template std::uint16_t PieceReader::number();
 extern template std::uint32_t PieceReader::number();
 extern template std::uint64_t PieceReader::number();
 
-/// A path under which a library can read the bytes: the file's own, or that of a copy in memory
-/// (memfd) that lives as long as this.
+/// A path under which a library can read the bytes: the file's own, or that of a temporary copy
+/// that lives as long as this.
 class ReadablePath {
  public:
-  /// @throws LogError if there is no room for the copy
+  /// @throws LogError if the copy cannot be written
   explicit ReadablePath(const LogBytes& bytes);
   ~ReadablePath();
   ReadablePath(const ReadablePath&) = delete;
@@ -86,7 +86,7 @@ class ReadablePath {
 
  private:
   std::string path_;
-  int descriptor_ = -1;
+  bool is_copy_ = false;
 };
 
 }  // namespace dyngen::runtime

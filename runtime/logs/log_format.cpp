@@ -12,7 +12,7 @@ bool looks_like_json(std::string_view head) {
   if (at == head.npos || (head[at] != '{' && head[at] != '[')) return false;
   const bool object = head[at] == '{';
   while (at < head.size() && head[at] == '[') at = head.find_first_not_of(kBlanks, at + 1);
-  if (at >= head.size()) return false;
+  if (at >= head.size()) return !object;
   if (object) {
     at = head.find_first_not_of(kBlanks, at + 1);
     return at < head.size() && (head[at] == '"' || head[at] == '}');

@@ -118,9 +118,9 @@ bool needs_more_than_double(std::string_view word) {
   word = without_sign(trimmed(word));
   const std::size_t whole = std::min(word.find_first_not_of("0123456789"), word.size());
   if (whole == word.size()) {
-    double value = 0;
+    unsigned long long value = 0;
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc() && stop == word.data() + word.size() && value > std::ldexp(1, 53);
+    return error == std::errc() && value > 1ULL << 53;
   }
   if (whole < kStampDigits || (word[whole] != '.' && word[whole] != ',')) return false;
   const std::string_view decimals = word.substr(whole + 1);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -51,6 +52,7 @@ class McapSource final : public MessageSource {
 
  private:
   bool next_of_file(LogMessage& message, bool& found);
+  void check_end();
   bool take_record(unsigned char kind, std::string_view content, LogMessage& message);
   void take_schema(PieceReader& piece);
   void take_channel(PieceReader& piece);
@@ -175,6 +177,16 @@ bool McapSource::take_record(unsigned char kind, std::string_view content, LogMe
   }
 }
 
+/// What follows the data is not read, but it has to be there.
+void McapSource::check_end() {
+  std::string magic;
+  file_.seek(file_.size() - std::min<std::uint64_t>(file_.size(), kMcapMagic.size()));
+  file_.read(magic, kMcapMagic.size(), "the last bytes of MCAP");
+  if (magic != kMcapMagic) {
+    file_.fail(file_.size(), "found no end of MCAP: the file is truncated (mcap recover mends it)");
+  }
+}
+
 /// One record of the file. @return false at the end
 bool McapSource::next_of_file(LogMessage& message, bool& found) {
   record_place_ = file_.place();
@@ -184,7 +196,10 @@ bool McapSource::next_of_file(LogMessage& message, bool& found) {
   const unsigned char kind = head_piece.number<std::uint8_t>();
   const auto length = head_piece.number<std::uint64_t>();
   if (kind == 0) file_.fail(record_place_, "found a record of kind 0, which MCAP does not have");
-  if (kind == kMcapDataEnd || kind == kMcapFooter) return false;
+  if (kind == kMcapDataEnd || kind == kMcapFooter) {
+    check_end();
+    return false;
+  }
   const bool used =
       kind == kMcapSchema || kind == kMcapChannel || kind == kMcapMessage || kind == kMcapChunk;
   if (!used) {

