@@ -150,6 +150,9 @@ std::optional<WholeNumber> whole_number(std::string_view word, char decimal) {
 bool is_log_unit(std::string_view word) {
   word = without_brackets(word);
   if (word.empty()) return false;
+  // single letters are names more often than not
+  constexpr std::string_view kLetters = "AVWJFCKNsmg1%-";
+  if (word.size() == 1) return kLetters.find(word.front()) != kLetters.npos;
   for (const Quantity quantity :
        {Quantity::kTime, Quantity::kPosition, Quantity::kVelocity, Quantity::kAcceleration,
         Quantity::kTorque, Quantity::kTemperature}) {

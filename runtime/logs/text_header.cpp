@@ -108,6 +108,7 @@ class HeaderFinder {
   bool find_pairs();
   void take_names(const Words& words, const SampleLine& line);
   void find_own_times(const Words& words);
+  [[nodiscard]] Words with_names_above(const Words& words, std::size_t index) const;
   [[noreturn]] void refuse(const Words& words, const SampleLine& line) const;
 
   const std::vector<SampleLine>* sample_;
@@ -162,6 +163,22 @@ bool HeaderFinder::find_pairs() {
   header_.line = (*sample_)[line].number;
   header_.text = (*sample_)[line].text;
   return true;
+}
+
+/// Names of two levels, a line each: "joint" above "a" is "joint.a".
+/// @param index  of the lower line
+Words HeaderFinder::with_names_above(const Words& words, std::size_t index) const {
+  const std::set<std::string> different(words.begin(), words.end());
+  const bool complete = different.size() == words.size() && !different.contains("");
+  if (complete || index == begin_) return words;
+  const Words above = words_of((*sample_)[index - 1], *rows_);
+  if (above.size() != words.size() || !is_text_row(above)) return words;
+  Words joined;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool both = !above[i].empty() && !words[i].empty();
+    joined.push_back(above[i] + (both ? "." : "") + words[i]);
+  }
+  return joined;
 }
 
 /// Columns of time that come again begin a table each.
@@ -249,7 +266,12 @@ TextHeader HeaderFinder::find() {
     }
     const bool text = is_text_row(words);
     if (words.size() == rows_->fields && text) {
-      take_names(words, line);
+      take_names(with_names_above(words, i), line);
+      break;
+    }
+    // LabVIEW names a column of comments that rows leave out
+    if (words.size() == rows_->fields + 1 && text && small_letters(words.back()) == "comment") {
+      take_names({words.begin(), words.end() - 1}, line);
       break;
     }
     // an empty field at the end of rows has no name

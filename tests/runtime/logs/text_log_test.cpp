@@ -228,6 +228,19 @@ const std::vector<TextCase> kTextCases = {
      {"t", "A1 [deg]", "A1 [Nm]"},
      {"", "deg", "Nm"},
      {{0, 1, 2}, {1, 2, 3}}},
+    {"names of two levels",
+     "time,joint,joint,vel\n,a,b,a\n0,1,2,3\n1,2,3,4\n",
+     {"time", "joint.a", "joint.b", "vel.a"},
+     {"", "", "", ""},
+     {{0, 1, 2, 3}, {1, 2, 3, 4}}},
+    {"LabVIEW's header",
+     "LabVIEW Measurement\t\nSeparator\tTab\n***End_of_Header***\t\n\nChannels\t2\t\t\n"
+     "Samples\t5\t5\t\nDate\t2026/11/28\t2026/11/28\t\nX0\t0.0\t0.0\t\nDelta_X\t1\t1\t\n"
+     "***End_of_Header***\t\t\t\nX_Value\tq1\ttau1\tComment\n0\t1\t2\n1\t2\t3\n2\t3\t4\n"
+     "3\t4\t5\n4\t5\t6\n5\t6\t7\n",
+     {"X_Value", "q1", "tau1"},
+     {"", "", ""},
+     {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 5}, {4, 5, 6}, {5, 6, 7}}},
     {"the header comes again", "t,x\n0,1\nt,x\n1,2\n", {"t", "x"}, {"", ""}, {{0, 1}, {1, 2}}},
     {"the last row is cut off",
      "t,x,y\n0,1,2\n1,2,3\n2,3",
