@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/recordings/notice.h"
+#include "runtime/recordings/reader.h"
 #include "runtime/recordings/recording.h"
 #include "runtime/signals/cutoff.h"
 #include "runtime/signals/joint_state.h"
@@ -108,6 +109,9 @@ MotionSource motion_of(Recording recording, const MotionOptions& options);
 /// @throws RecordingError; std::invalid_argument; TooLittleDataError
 MotionSource motion_of_file(const std::string& path, const MotionOptions& options,
                             std::vector<Notice>* repairs = nullptr);
+
+MotionSource motion_of_input(const RecordingInput& input, const MotionOptions& options,
+                             std::vector<Notice>* repairs = nullptr);
 
 /// The same recording, other pieces of it; with no other joint state, of which they are not.
 MotionSource with_pieces(

@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "runtime/recordings/notice.h"
 #include "runtime/recordings/recording.h"
+#include "runtime/recordings/sample_rows.h"
 
 namespace dyngen::runtime {
 
@@ -35,6 +37,10 @@ class RecordingReader {
   /// Opens the file and reads its header.
   /// @throws RecordingError
   explicit RecordingReader(const std::string& path, ReadOptions options = {});
+
+  /// The same of samples that something else reads. @param place_word  what a place of them is
+  RecordingReader(const OpenSampleRows& open_rows, const std::string& name,
+                  const std::string& place_word, const ReadOptions& options = {});
 
   /// The same from memory (plain or gzip); `name` stands in messages.
   static RecordingReader from_text(std::string bytes, std::string name, ReadOptions options = {});
@@ -73,6 +79,17 @@ class RecordingReader {
   std::unique_ptr<State> state_;
 };
 
+/// A recording that can be opened, as a file of its own or as what is made of a log.
+struct RecordingInput {
+  std::string name;
+  std::function<RecordingReader(const ReadOptions& options)> open;
+  bool reopens = true;         ///< it can be read again; a pipe cannot
+  std::size_t text_bytes = 0;  ///< about how long it is as plain text; 0: not known
+};
+
+/// The recording in a file.
+RecordingInput recording_file(const std::string& path);
+
 /// Reads a whole recording into memory: rows that are shuffled are sorted, and signals are repaired
 /// (repair_signals()).
 ///
@@ -80,6 +97,8 @@ class RecordingReader {
 /// refused
 /// @throws RecordingError
 Recording read_recording(const std::string& path, const ReadOptions& options = {},
+                         std::vector<Notice>* notices = nullptr);
+Recording read_recording(const RecordingInput& input, const ReadOptions& options = {},
                          std::vector<Notice>* notices = nullptr);
 
 /// All that is left of a reader, in one piece.

@@ -67,7 +67,7 @@ class SignalRepair {
   [[nodiscard]] Index count(std::size_t run) const { return run_end(recording_, run) - first(run); }
 
   void tell(Index row, const std::string& message) {
-    notices_.push_back({recording_.file_name, line(row), 0, message});
+    notices_.push_back({recording_.file_name, line(row), 0, message, recording_.place_word});
   }
 
   /// A step that is small for the column; of a coarse encoder, its count.
@@ -166,8 +166,8 @@ class SignalRepair {
           one.count == 1 ? "interpolated" : fmt::format("{} samples interpolated", one.count));
     }
     if (glitches.size() > 1) {
-      message += fmt::format(" ({} such in all, the last in line {})", glitches.size(),
-                             line(glitches.back().first));
+      message += fmt::format(" ({} such in all, the last in {} {})", glitches.size(),
+                             recording_.place_word, line(glitches.back().first));
     }
     tell(one.first, message);
   }
@@ -190,8 +190,8 @@ class SignalRepair {
     std::string message = fmt::format("{}: {:.3g} s; {}, and a new run begins after them", what,
                                       duration, left_out(one.count));
     if (stuck.size() > 1) {
-      message += fmt::format(" ({} such in all with {} rows, the last in line {})", stuck.size(),
-                             rows, line(stuck.back().first));
+      message += fmt::format(" ({} such in all with {} rows, the last in {} {})", stuck.size(),
+                             rows, recording_.place_word, line(stuck.back().first));
     }
     tell(one.first, message);
     first_stuck_ = std::min(first_stuck_, line(one.first));
@@ -295,8 +295,7 @@ void SignalRepair::take_out() {
   }
   if (kept.empty()) refuse("found no run that is left where no column is stuck");
   recording_.time = recording_.time(kept).eval();
-  for (const auto part : {&Recording::q, &Recording::tau, &Recording::dq, &Recording::ddq,
-                          &Recording::tau_sim, &Recording::temperature}) {
+  for (const auto part : kRecordingParts) {
     Eigen::MatrixXd& matrix = recording_.*part;
     if (matrix.cols() > 0) matrix = matrix(kept, Eigen::all).eval();
   }

@@ -28,11 +28,12 @@ struct Part {
   bool per_joint;
 };
 
-constexpr std::array<Part, 6> kWrittenParts = {{{"q", &Recording::q, true},
+constexpr std::array<Part, 7> kWrittenParts = {{{"q", &Recording::q, true},
                                                 {"tau", &Recording::tau, true},
                                                 {"qd", &Recording::dq, true},
                                                 {"qdd", &Recording::ddq, true},
                                                 {"tausim", &Recording::tau_sim, true},
+                                                {"ql", &Recording::q_link, true},
                                                 {"temp", &Recording::temperature, false}}};
 
 void check(const Recording& recording, const WriteOptions& options) {
