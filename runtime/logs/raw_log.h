@@ -16,7 +16,8 @@ namespace dyngen::runtime {
 /// file.
 struct LogTable {
   std::string name;                  ///< topic, variable or dataset; empty: the log is one table
-  std::vector<std::string> columns;  ///< as the log names them; "1", "2", ... where it does not
+  /// As the log names them, without a unit in brackets; "1", "2", ... where it has no names.
+  std::vector<std::string> columns;
   std::vector<std::string> units;  ///< one for each column, as written; empty: the log does not say
 };
 
@@ -43,6 +44,12 @@ struct LogTextSettings {
   std::optional<std::vector<std::string>> columns;  ///< names; the file has no header then
 };
 
+/// What was taken off all values of a column. An absolute value is count / counts_per_unit + value.
+struct ColumnOrigin {
+  std::int64_t count = 0;
+  std::int64_t counts_per_unit = 1;  ///< 1e9: count is in ns, values are in s
+};
+
 /// A log as its writer left it, read piece by piece.
 class RawLog {
  public:
@@ -53,7 +60,8 @@ class RawLog {
 
   [[nodiscard]] virtual const std::vector<LogTable>& tables() const = 0;
 
-  /// Up to `at_most` (>= 1) further rows of one table, in the order of the file.
+  /// Up to `at_most` (>= 1) further rows of one table, in the order of the file. Rows of several
+  /// tables come in turn: no more than `at_most` rows in all are held back.
   /// @return false at the end of the log
   /// @throws LogError
   virtual bool next(LogRows& rows, std::size_t at_most) = 0;
@@ -64,6 +72,14 @@ class RawLog {
   /// What was repaired or left out, in sentences.
   [[nodiscard]] virtual std::vector<std::string> notices() const { return {}; }
 
+  /// Of columns with whole numbers too large for a double, and with dates and times of day (ns since
+  /// 1970 UTC; since midnight where the file has no date). Nothing: values are as written. Known
+  /// once the first rows of the table have been read.
+  [[nodiscard]] virtual std::optional<ColumnOrigin> origin(std::size_t /*table*/,
+                                                           std::size_t /*column*/) const {
+    return std::nullopt;
+  }
+
   /// 0 .. 1: for progress.
   [[nodiscard]] virtual double fraction_read() const = 0;
 };
@@ -72,5 +88,9 @@ class RawLog {
 /// @throws LogError  if it cannot be read, or its format needs a package that this program was
 /// built without
 std::unique_ptr<RawLog> open_log(const std::string& path, const LogTextSettings& settings = {});
+
+/// The same from memory; `name` stands in messages.
+std::unique_ptr<RawLog> open_log_bytes(std::string bytes, const std::string& name,
+                                       const LogTextSettings& settings = {});
 
 }  // namespace dyngen::runtime
