@@ -9,10 +9,13 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "runtime/identification/stretches.h"
 #include "runtime/recordings/clipping.h"
+#include "runtime/recordings/clock.h"
 #include "runtime/recordings/periods.h"
 #include "runtime/recordings/quantisation.h"
 #include "runtime/recordings/reader.h"
+#include "runtime/recordings/signal_repair.h"
 #include "runtime/recordings/time_base.h"
 #include "runtime/signals/interpolation.h"
 
@@ -54,9 +57,17 @@ Recording with_uniform_time(Recording recording, RecordingCondition& condition) 
   condition.jitter = base.jitter;
   if (base.uniform) return recording;
   condition.resampled = true;
-  condition.messages.push_back(base.message +
-                               fmt::format("; resampled to {:.6g} s", base.sample_time));
-  return resample(recording, base.sample_time);
+  ClockChoice clock = choose_clock(recording);
+  if (!clock.rebuilt) {
+    condition.messages.push_back(base.message + fmt::format("; resampled to {:.6g} s; {}",
+                                                            base.sample_time, clock.message));
+    return resample(recording, base.sample_time);
+  }
+  condition.messages.push_back(base.message + "; " + clock.message);
+  recording.time = std::move(clock.time);
+  condition.sample_time = clock.step;
+  // samples that were lost are all that is uneven now
+  return examine_time_base(recording).uniform ? recording : resample(recording, clock.step);
 }
 
 /// None where there are no periods.
@@ -213,9 +224,15 @@ MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
 MotionSource stream_of(const RecordingInput& input, MotionOptions options,
                        std::vector<Notice>& told) {
   constexpr Index kFirstPart = 200000;
-  RecordingReader reader = input.open({});
+  ReadOptions reading;
   Recording first;
+  RecordingReader reader = input.open(reading);
   reader.next(first, kFirstPart);
+  if (stamps_are_repeated(reader) && input.reopens) {
+    reading.spread_stamps = true;
+    reader = input.open(reading);
+    reader.next(first, kFirstPart);
+  }
   told.insert(told.end(), reader.notices().begin(), reader.notices().end());
   const TimeBase base = examine_time_base(first);
   if (!base.uniform) {
@@ -228,9 +245,9 @@ MotionSource stream_of(const RecordingInput& input, MotionOptions options,
   of_first.average_periods = false;
   const MotionSource of_part = motion_in_memory(std::move(first), {}, of_first);
   options.state.cutoff_hz = of_part.cutoff.hz;
-  const auto pieces = [input, state = options.state, sample_time = base.sample_time](
+  const auto pieces = [input, reading, state = options.state, sample_time = base.sample_time](
                           const std::function<void(const StreamPiece&)>& visit) {
-    RecordingReader again = input.open({});
+    RecordingReader again = input.open(reading);
     JointStateStream stream(state, sample_time);
     Recording chunk;
     while (again.next(chunk, kChunk)) {
@@ -242,6 +259,27 @@ MotionSource stream_of(const RecordingInput& input, MotionOptions options,
   source.name = input.name;
   source.condition.messages.push_back("read piece by piece; periods were not looked for");
   return source;
+}
+
+/// What says most of a recording that is too long for memory.
+MotionSource motion_of_stretches(const RecordingInput& input, const MotionOptions& options,
+                                 std::vector<Notice>& told) {
+  ReadOptions reading;
+  {
+    constexpr Index kSeen = 20000;
+    RecordingReader reader = input.open(reading);
+    Recording first;
+    reader.next(first, kSeen);
+    reading.spread_stamps = stamps_are_repeated(reader) && input.reopens;
+  }
+  Stretches stretches = telling_stretches(input, reading, {}, &told);
+  repair_signals(stretches.recording, told);
+  RecordingCondition condition;
+  condition.repairs = told;
+  condition.stretches = std::move(stretches.times);
+  condition.messages.push_back(stretches.sentence);
+  told.push_back({input.name, 0, 0, stretches.sentence});
+  return motion_in_memory(std::move(stretches.recording), std::move(condition), options);
 }
 
 }  // namespace
@@ -259,6 +297,7 @@ MotionSource motion_of_input(const RecordingInput& input, const MotionOptions& o
                              std::vector<Notice>* repairs) {
   std::vector<Notice> own;
   std::vector<Notice>& told = repairs != nullptr ? *repairs : own;
+  if (input.text_bytes > options.stretches_above) return motion_of_stretches(input, options, told);
   if (input.text_bytes > options.stream_above && options.state.method == StateMethod::kLowPass) {
     return stream_of(input, options, told);
   }

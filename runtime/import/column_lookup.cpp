@@ -72,6 +72,9 @@ ColumnLookup::Scope ColumnLookup::scope(const MapPlace& place, const std::string
 
 void ColumnLookup::collect(const Scope& where, const std::string& name, Quantity quantity,
                            bool bare, std::vector<ColumnPlace>& found) const {
+  const NameAndUnit asked = name_and_unit(name);
+  const std::string_view bare_name =
+      signal_unit(asked.unit, quantity) ? asked.name : std::string_view(name);
   for (const std::size_t i : where.logs) {
     const std::vector<LogTable>& tables = (*logs_)[i].log->tables();
     for (std::size_t t = 0; t < tables.size(); ++t) {
@@ -81,7 +84,8 @@ void ColumnLookup::collect(const Scope& where, const std::string& name, Quantity
         const std::string& column = table.columns[c];
         const NameAndUnit parts = name_and_unit(column);
         const bool has_unit = signal_unit(parts.unit, quantity).has_value();
-        const bool is_it = bare ? has_unit && parts.name == name
+        // the map and the log may have the unit in the name or not
+        const bool is_it = bare ? (has_unit ? parts.name : column) == bare_name
                                 : column == name || is_called(table, column, name);
         if (!is_it) continue;
         ColumnPlace place{i, t, c, name, {}};
@@ -182,6 +186,10 @@ std::vector<ColumnPlace> ColumnLookup::find_all(const ColumnNames& columns,
 std::optional<ColumnPlace> ColumnLookup::clock_of(const ColumnPlace& other) const {
   const LogTable& table = (*logs_)[other.log].log->tables()[other.table];
   const std::string& name = map_->time.column;
+  const NameAndUnit asked = name_and_unit(name);
+  const std::string_view bare_name = unit_conversion(asked.unit, Quantity::kTime)
+                                         ? asked.name
+                                         : std::string_view(name);
   const auto make = [&](std::size_t c, std::string unit) {
     return ColumnPlace{other.log, other.table, c, name, std::move(unit)};
   };
@@ -189,7 +197,7 @@ std::optional<ColumnPlace> ColumnLookup::clock_of(const ColumnPlace& other) cons
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       const NameAndUnit parts = name_and_unit(table.columns[c]);
       const bool has_unit = unit_conversion(parts.unit, Quantity::kTime).has_value();
-      if (bare ? !(has_unit && parts.name == name)
+      if (bare ? (has_unit ? parts.name : std::string_view(table.columns[c])) != bare_name
                : table.columns[c] != name && !is_called(table, table.columns[c], name)) {
         continue;
       }

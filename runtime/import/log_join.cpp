@@ -14,7 +14,7 @@ namespace {
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr double kJoinGapSteps = 5;  // usual steps: over a longer gap nothing is interpolated
 
-/// Through four points, Lagrange (1795); where two of them have one time, along the line.
+/// Through four points, in Lagrange's form.
 double cubic(const std::array<double, 4>& t, const std::array<double, 4>& x, double time) {
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -131,6 +131,7 @@ bool LogJoin::ensure(std::size_t table, std::size_t row) {
   while (tables_[table].window.end() <= row) {
     if (!pull(tables_[table].log)) return false;
   }
+  if (tables_[table].clock == ClockKind::kOwn) count_from_base(tables_[table]);
   return true;
 }
 
@@ -138,7 +139,47 @@ double LogJoin::time_of(std::size_t table, std::size_t row) const {
   if (rate_ > 0) return static_cast<double>(row) / rate_;
   const Table& clock =
       tables_[table].clock == ClockKind::kOwn ? tables_[table] : tables_[clock_table_];
-  return clock.to_seconds(clock.window.value(row, clock.clock_column) - first_raw_);
+  return clock.to_seconds(clock.window.value(row, clock.clock_column) - clock.first_raw) +
+         clock.shift;
+}
+
+/// Zero of the join's time: that of the lead's clock, or of its first row if that is a calendar's.
+/// @param place  of the first row that has a time
+void LogJoin::set_base(std::uint64_t place) {
+  Table& clock = tables_[clock_table_];
+  const double raw = clock.window.value(row_, clock.clock_column);
+  const std::optional<long double> origin = origin_seconds(clock);
+  base_ = origin.value_or(0);
+  const long double first = base_ + static_cast<long double>(clock.to_seconds(raw));
+  if (std::abs(first) > kWallClock) {
+    base_ = first;
+    log_->add_once("wall clock", place, 0,
+                   "times are those of a calendar; they are counted from the first row");
+    if (!origin) clock_raw_ = raw;
+  }
+  base_known_ = true;
+}
+
+std::optional<long double> LogJoin::origin_seconds(const Table& table) const {
+  // its column as the log numbers it
+  const auto origin =
+      (*logs_)[table.log].log->origin(table.table, table.window.columns()[table.clock_column]);
+  if (!origin) return std::nullopt;
+  return static_cast<long double>(origin->count) /
+         static_cast<long double>(origin->counts_per_unit) *
+         static_cast<long double>(table.to_seconds.factor) /
+         static_cast<long double>(table.to_seconds.divisor);
+}
+
+/// What brings the times of a table to the zero of the join.
+void LogJoin::count_from_base(Table& table) {
+  if (table.counted || !base_known_) return;
+  const std::optional<long double> origin = origin_seconds(table);
+  if (!origin) table.first_raw = clock_raw_;
+  const long double zero =
+      origin ? *origin : static_cast<long double>(table.to_seconds(table.first_raw));
+  table.shift = static_cast<double>(zero - base_);
+  table.counted = true;
 }
 
 /// The value of a source with a clock or a delay of its own.
@@ -234,16 +275,11 @@ bool LogJoin::next(double& time, std::vector<double>& values, std::uint64_t& pla
                                     "(there are {})",
                                     row_));
     }
-    if (rate_ == 0 && !first_known_) {
-      const Table& clock = tables_[clock_table_];
-      const double raw = clock.window.value(row_, clock.clock_column);
-      if (!std::isfinite(raw)) continue;
-      first_known_ = true;
-      if (std::abs(clock.to_seconds(raw)) > kWallClock) {
-        first_raw_ = raw;
-        log_->add_once("wall clock", place, 0,
-                       "times are those of a calendar; they are counted from the first row");
-      }
+    if (rate_ == 0 && !base_known_) {
+      Table& clock = tables_[clock_table_];
+      if (!std::isfinite(clock.window.value(row_, clock.clock_column))) continue;
+      set_base(place);
+      count_from_base(clock);
     }
     time = time_of(lead, row_);
     if (other_clocks_) {

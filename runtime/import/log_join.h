@@ -68,6 +68,9 @@ class LogJoin {
     std::size_t cursor = 0;   ///< last row at or before the time that is asked for
     std::size_t needed = 0;   ///< rows before it are not
     double usual_step = 0;    ///< s, of a clock of its own; 0: not known yet
+    bool counted = false;     ///< the next two are known
+    double first_raw = 0;     ///< that is taken off values of the clock's column
+    double shift = 0;         ///< s, that is added then
     bool any_used = false;
   };
   struct Source {
@@ -89,6 +92,9 @@ class LogJoin {
   [[nodiscard]] double time_of(std::size_t table, std::size_t row) const;
   enum class Found { kValue, kBefore, kAfter };
   Found interpolate(Source& source, double time, double& value);
+  [[nodiscard]] std::optional<long double> origin_seconds(const Table& table) const;
+  void set_base(std::uint64_t place);
+  void count_from_base(Table& table);
   void check_rows_end();
   void release();
 
@@ -100,8 +106,9 @@ class LogJoin {
   std::vector<bool> ended_;        ///< per log
   std::size_t clock_table_ = 0;    ///< in tables_, of the lead
   double rate_ = 0;
-  double first_raw_ = 0;           ///< that all clocks are counted from
-  bool first_known_ = false;
+  double clock_raw_ = 0;           ///< the zero as a value of the lead's clock, which has no origin
+  long double base_ = 0;           ///< s, absolute: the zero of the join's time
+  bool base_known_ = false;
   bool other_clocks_ = false;
   std::size_t row_ = 0;            ///< of the lead
   double last_time_ = 0;

@@ -19,6 +19,7 @@ class TableWindow {
   /// Rows before this one are needed no more.
   void release(std::size_t row);
 
+  [[nodiscard]] const std::vector<std::size_t>& columns() const { return columns_; }
   [[nodiscard]] std::size_t end() const { return first_ + places_.size() - head_; }
   [[nodiscard]] double value(std::size_t row, std::size_t kept) const {
     return values_[(row - first_ + head_) * columns_.size() + kept];

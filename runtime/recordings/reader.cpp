@@ -32,7 +32,7 @@ struct RecordingReader::State {
         out(rows->layout().width()),
         filter(rows->layout().width(), out, log),
         values(rows->layout().width(), filter, log),
-        time(rows->layout().width(), values, log) {
+        time(rows->layout().width(), values, log, options.spread_stamps) {
     if (sort_rows) rows->segments_come_again();
     notices = log.notices();
   }
@@ -55,6 +55,7 @@ struct RecordingReader::State {
   std::size_t data_rows = 0;
   std::size_t delivered = 0;
   std::size_t backward_steps = 0;
+  std::size_t repeated_stamps = 0;
   double last_time = std::numeric_limits<double>::quiet_NaN();
   std::int64_t last_segment = 0;
   bool all_read = false;
@@ -76,6 +77,11 @@ bool RecordingReader::State::next_row() {
   const double now = queue.time(queue.size() - 1);
   const std::int64_t segment = queue.info(queue.size() - 1).segment;
   if (now < last_time && segment == last_segment) ++backward_steps;
+  if (now == last_time && segment == last_segment && queue.size() > 1) {
+    const double* row = queue.values(queue.size() - 1);
+    const double* before = queue.values(queue.size() - 2);
+    if (!std::equal(row + 1, row + rows->layout().width(), before + 1)) ++repeated_stamps;
+  }
   if (!std::isnan(now)) last_time = now;
   last_segment = segment;
   return true;
@@ -226,10 +232,20 @@ bool RecordingReader::continues_run() const { return state_->continues_run; }
 const std::vector<Notice>& RecordingReader::notices() const { return state_->notices; }
 int RecordingReader::joints() const { return state_->rows->layout().joints; }
 std::size_t RecordingReader::backward_steps() const { return state_->backward_steps; }
+std::size_t RecordingReader::repeated_stamps() const { return state_->repeated_stamps; }
+std::size_t RecordingReader::rows_read() const { return state_->data_rows; }
 bool RecordingReader::rows_were_sorted() const { return state_->were_sorted; }
 
 double RecordingReader::fraction_read() const {
   return state_->finished ? 1 : state_->rows->fraction_read();
+}
+
+bool stamps_are_repeated(const RecordingReader& reader) {
+  constexpr std::size_t kFewestRepeated = 8;
+  constexpr double kPartRepeated = 0.01;  // of the rows: fewer are rows that came twice
+  return reader.repeated_stamps() >= kFewestRepeated &&
+         static_cast<double>(reader.repeated_stamps()) >
+             kPartRepeated * static_cast<double>(reader.rows_read());
 }
 
 Recording read_all(RecordingReader& reader) {
@@ -279,6 +295,7 @@ struct Attempt {
   std::exception_ptr error;
   std::size_t backward_steps = 0;
   bool sorted = false;
+  bool stamps_repeat = false;
 };
 
 Attempt read_once(const RecordingInput& input, const ReadOptions& options) {
@@ -292,6 +309,7 @@ Attempt read_once(const RecordingInput& input, const ReadOptions& options) {
   result.notices = reader.notices();
   result.backward_steps = reader.backward_steps();
   result.sorted = reader.rows_were_sorted();
+  result.stamps_repeat = stamps_are_repeated(reader);
   return result;
 }
 
@@ -332,6 +350,10 @@ Recording read_recording(const RecordingInput& input, const ReadOptions& options
     sorting.sort_rows = true;
     Attempt sorted = read_once(input, sorting);
     if (sorted.sorted) result = std::move(sorted);
+  } else if (result.stamps_repeat && input.reopens) {
+    ReadOptions spreading = options;
+    spreading.spread_stamps = true;
+    result = read_once(input, spreading);
   }
   if (!result.error && options.repair_signals && options.torque_required) {
     try {

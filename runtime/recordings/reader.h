@@ -21,6 +21,9 @@ struct ReadOptions {
   /// All rows are read first, and sorted by time within their segment if that makes time regular
   /// (sort_shuffled_rows()). Memory is that of the whole file.
   bool sort_rows = false;
+  /// Rows that share a time with other values are spread evenly up to the next time; else they are
+  /// left out.
+  bool spread_stamps = false;
   /// read_recording() alone: what only the whole signal shows is repaired (repair_signals()). Not
   /// where torque is not required: a trajectory is what somebody wants, jumps and all.
   bool repair_signals = true;
@@ -67,6 +70,10 @@ class RecordingReader {
   /// How often time went backward within a segment, in the rows of the file so far.
   [[nodiscard]] std::size_t backward_steps() const;
 
+  /// How many rows had the time of the row before with other values, and how many rows there were.
+  [[nodiscard]] std::size_t repeated_stamps() const;
+  [[nodiscard]] std::size_t rows_read() const;
+
   /// ReadOptions::sort_rows: rows were not in the order of time, and are now.
   [[nodiscard]] bool rows_were_sorted() const;
 
@@ -89,6 +96,9 @@ struct RecordingInput {
 
 /// The recording in a file.
 RecordingInput recording_file(const std::string& path);
+
+/// Whether so many stamps are repeated that their rows are samples of their own.
+bool stamps_are_repeated(const RecordingReader& reader);
 
 /// Reads a whole recording into memory: rows that are shuffled are sorted, and signals are repaired
 /// (repair_signals()).

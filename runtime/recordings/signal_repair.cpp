@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/recordings/glitches.h"
+#include "runtime/recordings/held_columns.h"
 #include "runtime/recordings/jumps.h"
 #include "runtime/recordings/notice_log.h"
 #include "runtime/recordings/row_repair.h"
@@ -53,7 +54,12 @@ class SignalRepair {
   void run() {
     if (recording_.samples() == 0) return;
     for (Index j = 0; j < recording_.q.cols(); ++j) repair_position(j);
-    for (Index j = 0; j < recording_.tau.cols(); ++j) repair_torque(j);
+    for (Index j = 0; j < recording_.tau.cols(); ++j) {
+      repair_held("tau", recording_.tau, j);
+      repair_torque(j);
+    }
+    for (Index j = 0; j < recording_.dq.cols(); ++j) repair_held("qd", recording_.dq, j);
+    for (Index j = 0; j < recording_.ddq.cols(); ++j) repair_held("qdd", recording_.ddq, j);
     judge_jumps();
     take_out();
   }
@@ -119,6 +125,28 @@ class SignalRepair {
     }
     tell_glitches(fmt::format("tau{}", j + 1), recording_.tau.col(j), glitches);
     tell_stuck(fmt::format("tau{} is one number while the joint moves", j + 1), stuck);
+  }
+
+  /// A column that is slower than the rows: zeros or repetitions between its values.
+  void repair_held(const char* name, Eigen::MatrixXd& matrix, Index j) {
+    std::size_t longest = 0;
+    for (std::size_t run = 1; run < runs(); ++run) {
+      if (count(run) > count(longest)) longest = run;
+    }
+    const HeldColumn held = find_held(matrix.col(j).segment(first(longest), count(longest)));
+    if (held.period < 2) return;
+    for (std::size_t run = 0; run < runs(); ++run) {
+      fill_held(recording_.time.segment(first(run), count(run)), held,
+                matrix.col(j).segment(first(run), count(run)));
+    }
+    tell(first(longest),
+         held.pulsed
+             ? fmt::format("{}{} has a value every {} samples only, and 0 between them: its source "
+                           "is slower; interpolated between the values",
+                           name, j + 1, held.period)
+             : fmt::format("{}{} changes every {} samples only, and is held between: its source "
+                           "is slower; interpolated between the changes",
+                           name, j + 1, held.period));
   }
 
   static std::string times_in_all(Index count) {

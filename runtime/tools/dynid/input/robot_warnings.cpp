@@ -43,6 +43,9 @@ RobotFiles robot_files(const ToolOptions& options) {
     case Command::kDiagnose:
       files.paths.push_back(options.diagnose.controller_model);
       break;
+    case Command::kImport:
+      files.effects = false;
+      break;
     case Command::kFit:
     case Command::kAtlas:
       break;

@@ -21,7 +21,8 @@ namespace dyngen::runtime {
 namespace {
 
 constexpr const char* kFooter =
-    "Recordings: CSV or CSV.gz with a header time,q1..qn,tau1..taun (SI units, joint side).\n"
+    "Recordings: CSV or CSV.gz with a header time,q1..qn,tau1..taun (SI units, joint side);\n"
+    "of any other log 'dynid import' makes one, or --map reads it.\n"
     "Exit codes: 0 done, 1 input wrong, 2 usage, part absent, 3 data cannot support the answer.";
 
 const std::map<std::string, StateMethod>& state_methods() {
@@ -79,6 +80,12 @@ void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
   add_as_recorded(command, options);
 }
 
+void add_map(CLI::App& command, ToolOptions& options) {
+  command.add_option("--map", options.map,
+                     "YAML file that makes recordings of logs as they are (see 'dynid import'); a "
+                     "folder stands for the files in it");
+}
+
 void add_recordings(CLI::App& command, ToolOptions& options, const char* text) {
   command.add_option("recordings", options.recordings, text);
   command.add_option("--list", options.list,
@@ -107,6 +114,7 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   fit->add_option("robot", options.robot, "robot file: its numbers are where the fit begins")
       ->required();
   add_recordings(*fit, options, "recordings, or .qr files of 'dynid accumulate'");
+  add_map(*fit, options);
   fit->add_option("--holdout", options.heldout,
                   "recordings that are not fitted but predicted; may be given again");
   fit->add_option("--holdout-part", options.heldout_part,
@@ -151,6 +159,7 @@ void add_atlas(CLI::App& tool, ToolOptions& options, Words& words) {
   atlas->add_option("robot", options.robot, "robot file; with a trajectory, one with numbers")
       ->required();
   atlas->add_option("recordings", options.recordings, "recordings");
+  add_map(*atlas, options);
   atlas->add_option("--trajectory", options.atlas.trajectory,
                     "a motion that is planned, instead of recordings (CSV)");
   atlas
@@ -173,6 +182,7 @@ void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
   diagnose->add_option("robot", options.robot, "robot file: its numbers are where the fit begins")
       ->required();
   diagnose->add_option("recordings", options.recordings, "recordings");
+  add_map(*diagnose, options);
   diagnose->add_option("--holdout", options.heldout,
                        "recordings that only prove the answer; may be given again. Else a fifth of "
                        "every recording: the last in which all joints move");
@@ -191,6 +201,7 @@ void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
   check->add_option("robot", options.robot, "robot file with numbers")->required();
   add_effects(*check, options);
   add_recordings(*check, options, "recordings");
+  add_map(*check, options);
   check->add_option("--json", options.json, "all results for programs");
   add_motion_options(*check, options, words);
 
@@ -198,6 +209,7 @@ void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
       tool.add_subcommand("accumulate", "sum recordings up in a .qr file that merges with others");
   accumulate->add_option("robot", options.robot, "robot file")->required();
   add_recordings(*accumulate, options, "recordings");
+  add_map(*accumulate, options);
   accumulate->add_option("-o,--output", options.output, "the .qr file")->required();
   accumulate->add_option("--name", options.robot_name,
                          "whose recordings these are; robots of different names stay apart");
@@ -267,6 +279,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   parsed.options.page.command = command_text(argc, argv);
   add_simulate(tool, parsed.options.simulate);
   add_effects(tool, parsed.options.catalogue);
+  add_import(tool, parsed.options.robot, parsed.options.output, parsed.options.import);
   add_excite(tool, parsed.options.robot, parsed.options.output, parsed.options.json,
              parsed.options.page, parsed.options.excite);
   try {
@@ -290,14 +303,16 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                                                    {"excite", Command::kExcite},
                                                    {"atlas", Command::kAtlas},
                                                    {"effects", Command::kEffects},
-                                                   {"diagnose", Command::kDiagnose}};
+                                                   {"diagnose", Command::kDiagnose},
+                                                   {"import", Command::kImport}};
   parsed.options.command = commands.at(name);
   if (parsed.options.command == Command::kSimulate || parsed.options.command == Command::kEffects) {
     return parsed;
   }
-  const std::string message = parsed.options.command == Command::kExcite
-                                  ? parsed.options.excite.usage_error()
-                                  : understand(words, parsed.options);
+  const std::string message =
+      parsed.options.command == Command::kExcite   ? parsed.options.excite.usage_error()
+      : parsed.options.command == Command::kImport ? parsed.options.import.settle(parsed.options.output)
+                                                   : understand(words, parsed.options);
   if (!message.empty()) parsed.exit_code = usage(message);
   return parsed;
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "runtime/estimation/matrix_products.h"
+#include "runtime/import/map_file.h"
 #include "runtime/plots/figure.h"
 #include "runtime/recordings/gzip.h"
 
@@ -52,6 +53,7 @@ void add_common_needs(const ToolOptions& options, Needs& needs) {
   needs.add_if(!options.page.figures.empty(), Part::kGnuplot, "--figures");
   needs.add_files(options.recordings);
   needs.add_files(options.heldout);
+  needs.add_if(!options.map.empty(), Part::kYaml, "--map");
 }
 
 void add_excite_needs(const ToolOptions& options, Needs& needs) {
@@ -94,6 +96,11 @@ Needs needs_of(const ToolOptions& options, int processes) {
       needs.add_files(options.diagnose.reference);
       needs.add_files(options.diagnose.commanded);
       break;
+    case Command::kImport:
+      needs.add_if(!options.import.map.empty(), Part::kYaml, "import");
+      needs.add_files(options.import.logs);
+      needs.add_file(options.output);
+      break;
     case Command::kCheck:
     case Command::kAccumulate:
     case Command::kMerge:
@@ -113,6 +120,7 @@ const std::vector<PartWords>& all_parts() {
       {Part::kNlopt, "NLopt", "libnlopt-dev", "excite"},
       {Part::kBlas, "OpenBLAS", "libopenblas-pthread-dev", "a faster diagnose"},
       {Part::kMpi, "OpenMPI", "libopenmpi-dev", "fit in several processes, by mpirun"},
+      {Part::kYaml, "yaml-cpp", "libyaml-cpp-dev", "import, --map"},
       {Part::kZlib, "zlib", "zlib1g-dev", "recordings and trajectories as .csv.gz"}};
   return parts;
 }
@@ -133,6 +141,8 @@ bool has_part(Part part) {
       return DYNGEN_WITH_MPI;
     case Part::kNlopt:
       return DYNGEN_WITH_NLOPT;
+    case Part::kYaml:
+      return import_maps_available();
     case Part::kZlib:
       return gzip_available();
   }
