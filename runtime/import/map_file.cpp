@@ -543,7 +543,9 @@ ImportMap parse_import_map(const std::string& text, const std::string& name) {
       throw ImportError(fmt::format("{}:1:1: error: found an empty file, expected a map", name));
     }
     if (documents.size() > 1) {
-      throw ImportError(map_error({.name = name}, place_of(documents[1]),
+      ImportMap named;
+      named.name = name;
+      throw ImportError(map_error(named, place_of(documents[1]),
                                   "found a second document in the file, expected one map"));
     }
     return MapFileReader(name).read(documents.front());
