@@ -15,7 +15,7 @@ namespace dyngen::runtime {
 /// Columns of a log that share their rows: a table of text, a topic of a bag, a variable of a .mat
 /// file.
 struct LogTable {
-  std::string name;                  ///< topic, variable or dataset; empty: the log is one table
+  std::string name;  ///< topic, variable or dataset; empty: the log is one table
   /// As the log names them, without a unit in brackets; "1", "2", ... where it has no names.
   std::vector<std::string> columns;
   std::vector<std::string> units;  ///< one for each column, as written; empty: the log does not say
@@ -72,9 +72,9 @@ class RawLog {
   /// What was repaired or left out, in sentences.
   [[nodiscard]] virtual std::vector<std::string> notices() const { return {}; }
 
-  /// Of columns with whole numbers too large for a double, and with dates and times of day (ns since
-  /// 1970 UTC; since midnight where the file has no date). Nothing: values are as written. Known
-  /// once the first rows of the table have been read.
+  /// Of columns with whole numbers too large for a double, and with dates and times of day (ns
+  /// since 1970 UTC; since midnight where the file has no date). Nothing: values are as written.
+  /// Known once the first rows of the table have been read.
   [[nodiscard]] virtual std::optional<ColumnOrigin> origin(std::size_t /*table*/,
                                                            std::size_t /*column*/) const {
     return std::nullopt;

@@ -375,6 +375,17 @@ char separator_of(std::string_view line) {
   return ' ';
 }
 
+char told_separator(std::string_view line) {
+  const std::string_view text = line.substr(0, line.find_last_not_of("\" ") + 1);
+  const std::size_t begin = text.find_first_not_of("\" ");
+  if (begin == text.npos || text.size() - begin < 5) return '\0';
+  std::string word(text.substr(begin, 4));
+  for (char& c : word) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return word == "sep=" && text.size() - begin == 5 ? text[begin + 4] : '\0';
+}
+
 Columns read_header(std::string_view line, std::size_t line_number, char separator, int joints,
                     bool torque_required, NoticeLog& log) {
   return HeaderReader(line, line_number, log).read(separator, joints, torque_required);

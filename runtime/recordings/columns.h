@@ -53,6 +53,9 @@ bool looks_like_header(std::string_view line);
 /// The separator of a line: the first of semicolons, commas, tabs that it has, else blanks.
 char separator_of(std::string_view line);
 
+/// The separator of a line "sep=;", as spreadsheets write it; '\0' if it is none.
+char told_separator(std::string_view line);
+
 /// Reads the header. A name may end with a unit: "q1 [deg]", "time_ms", "tau1 (N m)".
 ///
 /// @param separator        of the fields; '\0': seen from the header

@@ -38,6 +38,9 @@ void LineReader::refill() {
   try {
     const std::size_t got = source_.read(buffer_.data() + end_, buffer_.size() - end_);
     at_end_ = got == 0;
+    if (number_ == 0 && source_.is_utf16()) {
+      log_->add_once("utf16", 1, 1, "the text is UTF-16; read");
+    }
     end_ += got;
   } catch (const std::runtime_error& error) {
     throw recording_error(log_->file(), number_ + 1, 1, error.what());
@@ -60,7 +63,7 @@ void LineReader::take(Line& line, std::size_t stop, std::size_t end_size) {
   }
   if (const std::size_t nul = line.text.find('\0'); nul != line.text.npos) {
     throw recording_error(log_->file(), number_, nul + 1,
-                          "found a NUL byte, expected text (a binary file, or UTF-16?)");
+                          "found a NUL byte, expected text (a binary file?)");
   }
   if (number_ == 1 && line.text.starts_with("\xEF\xBB\xBF")) {
     line.text.remove_prefix(3);

@@ -8,6 +8,7 @@
 
 #include "runtime/recordings/byte_source.h"
 #include "runtime/recordings/notice_log.h"
+#include "runtime/recordings/text_encoding.h"
 
 namespace dyngen::runtime {
 
@@ -18,8 +19,8 @@ struct Line {
   bool terminated = true;  ///< false: the file ends within it
 };
 
-/// Cuts bytes into lines. LF, CR LF and CR end a line; a byte order mark is skipped. Both are
-/// noticed. Memory is bounded by the longest line allowed.
+/// Cuts bytes into lines. LF, CR LF and CR end a line; a byte order mark is skipped; UTF-16 is read
+/// as UTF-8. All are noticed. Memory is bounded by the longest line allowed.
 class LineReader {
  public:
   static constexpr std::size_t kLongestLine = 1 << 20;
@@ -36,7 +37,7 @@ class LineReader {
   void refill();
   void take(Line& line, std::size_t stop, std::size_t end_size);
 
-  ByteSource source_;
+  TextSource source_;
   NoticeLog* log_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  ///< of what is unused in buffer_

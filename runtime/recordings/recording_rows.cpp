@@ -10,18 +10,6 @@
 namespace dyngen::runtime {
 namespace {
 
-/// The separator of a line "sep=;", as spreadsheets write it; '\0' if it is none.
-char told_separator(std::string_view line) {
-  const std::string_view text = line.substr(0, line.find_last_not_of("\" ") + 1);
-  const std::size_t begin = text.find_first_not_of("\" ");
-  if (begin == text.npos || text.size() - begin < 5) return '\0';
-  std::string word(text.substr(begin, 4));
-  for (char& c : word) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return word == "sep=" && text.size() - begin == 5 ? text[begin + 4] : '\0';
-}
-
 /// A comment without what makes it one.
 std::string_view without_marks(std::string_view comment) {
   const std::size_t begin = comment.find_first_not_of("# \t");

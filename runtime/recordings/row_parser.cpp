@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -14,16 +13,6 @@ namespace dyngen::runtime {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-
-/// What programs write for a value that they do not have (lower case, without sign).
-bool means_missing(std::string_view word) {
-  constexpr std::array<std::string_view, 6> kWords = {"", "na", "n/a", "null", "none", "-"};
-  for (const std::string_view known : kWords) {
-    if (word == known) return true;
-  }
-  return word == "nan" || word == "inf" || word == "infinity" || word.starts_with("nan(") ||
-         word.starts_with("1.#");
-}
 
 }  // namespace
 

@@ -12,13 +12,26 @@ endfunction()
 file(WRITE ${WORK}/modules/FindMPI.cmake
   "set(MPI_C_FOUND FALSE)\nset(MPIEXEC_EXECUTABLE mpiexec)\nadd_library(MPI::MPI_C INTERFACE IMPORTED)\n")
 set(nothing -DCMAKE_MODULE_PATH=${WORK}/modules)
-foreach(package IN ITEMS OpenBLAS ZLIB Boost nlohmann_json Ceres NLopt GTest)
+foreach(package IN ITEMS OpenBLAS ZLIB Boost nlohmann_json Ceres NLopt GTest SQLite3 BZip2)
   list(APPEND nothing -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 
+# Of what is found by pkg-config: the generator's libraries alone.
+find_program(pkg_config pkg-config)
+if(NOT pkg_config)
+  message(FATAL_ERROR "this needs pkg-config")
+endif()
+foreach(module IN ITEMS ginac cln)
+  execute_process(COMMAND ${pkg_config} --variable=pcfiledir ${module} OUTPUT_VARIABLE folder
+    OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  file(COPY ${folder}/${module}.pc DESTINATION ${WORK}/pkgconfig)
+endforeach()
+set(ENV{PKG_CONFIG_LIBDIR} ${WORK}/pkgconfig)
+set(ENV{PKG_CONFIG_PATH} "")
 configure_dyngen(text 0 nothing ${nothing})
+unset(ENV{PKG_CONFIG_LIBDIR})
 foreach(package IN ITEMS libopenblas-pthread-dev zlib1g-dev libboost-dev nlohmann-json3-dev libceres-dev libnlopt-dev
-    libopenmpi-dev)
+    libopenmpi-dev libmatio-dev libhdf5-dev libzip-dev libsqlite3-dev liblz4-dev libzstd-dev libbz2-dev)
   expect_text("without packages" "${text}" "left out ${package}: ")
 endforeach()
 expect_text("without packages" "${text}" "left out libgtest-dev libgmock-dev nlohmann-json3-dev: the tests")

@@ -64,7 +64,7 @@ fi
 grep -q "apt-get install nodejs npm" build/bundle.log || fail "node's packages are not named"
 
 for package in libopenblas-pthread-dev zlib1g-dev libboost-dev nlohmann-json3-dev libceres-dev libnlopt-dev libopenmpi-dev \
-  gnuplot-nox nodejs; do
+  libmatio-dev libhdf5-dev libzip-dev libsqlite3-dev liblz4-dev libzstd-dev libbz2-dev gnuplot-nox nodejs; do
   apt-mark showmanual | sort >build/manual.before
   sh cmake/install_packages.sh "$package" >/dev/null
   rm -rf build/configured
@@ -125,12 +125,14 @@ done
 took "what remains" "$step"
 
 step=$(date +%s)
-sh cmake/install_packages.sh libopenblas-pthread-dev zlib1g-dev libboost-dev nlohmann-json3-dev libceres-dev libnlopt-dev \
-  libopenmpi-dev gnuplot-nox >/dev/null
+all="libopenblas-pthread-dev zlib1g-dev libboost-dev nlohmann-json3-dev libceres-dev libnlopt-dev libopenmpi-dev gnuplot-nox
+  libmatio-dev libhdf5-dev libzip-dev libsqlite3-dev liblz4-dev libzstd-dev libbz2-dev"
+# shellcheck disable=SC2086  # one word each
+sh cmake/install_packages.sh $all >/dev/null
 rm -rf build/configured
 configure build/configured -DDYNGEN_BUILD_TESTS=OFF
-expect_parts build/configured.log libopenblas-pthread-dev zlib1g-dev libboost-dev nlohmann-json3-dev libceres-dev \
-  libnlopt-dev libopenmpi-dev gnuplot-nox
+# shellcheck disable=SC2086
+expect_parts build/configured.log $all
 took "configured with all" "$step"
 step=$(date +%s)
 cmake --build build/configured >>build/configured.log 2>&1 || {

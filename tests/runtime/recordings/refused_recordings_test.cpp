@@ -105,7 +105,7 @@ std::vector<Refusal> refusals() {
       {"too many columns", with_line(20, 7, "0.005,5,-5,2.5,7,8,9"),
        "run.csv:7:18: error: found 7 columns, expected 5 as in the header (line 1)"},
       {"a NUL byte", binary,
-       "run.csv:3:4: error: found a NUL byte, expected text (a binary file, or UTF-16?)"},
+       "run.csv:3:4: error: found a NUL byte, expected text (a binary file?)"},
       {"an endless line", joined(plain_lines(10)) + std::string(3 << 20, '1'),
        "run.csv:12:1: error: found a line of more than 1 MB, expected one row a line"},
       {"bad values everywhere", joined(scattered),

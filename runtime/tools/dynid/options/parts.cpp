@@ -114,14 +114,22 @@ Needs needs_of(const ToolOptions& options, int processes) {
 const std::vector<PartWords>& all_parts() {
   static const std::vector<PartWords> parts = {
       {Part::kBoost, "Boost", "libboost-dev", "simulate, diagnose --controller"},
+      {Part::kBzip2, "bzip2", "libbz2-dev", "ROS 1 bags packed with it"},
       {Part::kCeres, "Ceres", "libceres-dev", "fit --consistent"},
       {Part::kGnuplot, "gnuplot", "gnuplot-nox", "--figures, --picture"},
-      {Part::kJson, "nlohmann-json", "nlohmann-json3-dev", "--json, --report, excite --for"},
+      {Part::kHdf5, "HDF5", "libhdf5-dev", "logs in HDF5"},
+      {Part::kZip, "libzip", "libzip-dev", "logs of NumPy in one file (.npz)"},
+      {Part::kLz4, "lz4", "liblz4-dev", "MCAP files and ROS 1 bags packed with it"},
+      {Part::kMatio, "matio", "libmatio-dev", "logs of MATLAB (.mat)"},
+      {Part::kJson, "nlohmann-json", "nlohmann-json3-dev",
+       "--json, --report, excite --for, logs in JSON"},
       {Part::kNlopt, "NLopt", "libnlopt-dev", "excite"},
       {Part::kBlas, "OpenBLAS", "libopenblas-pthread-dev", "a faster diagnose"},
       {Part::kMpi, "OpenMPI", "libopenmpi-dev", "fit in several processes, by mpirun"},
+      {Part::kSqlite, "SQLite", "libsqlite3-dev", "logs of ROS 2 (.db3)"},
       {Part::kYaml, "yaml-cpp", "libyaml-cpp-dev", "import, --map"},
-      {Part::kZlib, "zlib", "zlib1g-dev", "recordings and trajectories as .csv.gz"}};
+      {Part::kZlib, "zlib", "zlib1g-dev", "recordings and trajectories as .csv.gz"},
+      {Part::kZstd, "zstd", "libzstd-dev", "MCAP files packed with it"}};
   return parts;
 }
 
@@ -131,20 +139,34 @@ bool has_part(Part part) {
       return multiplies_by_blas();
     case Part::kBoost:
       return DYNGEN_WITH_BOOST;
+    case Part::kBzip2:
+      return DYNGEN_WITH_BZIP2;
     case Part::kCeres:
       return DYNGEN_WITH_CERES;
     case Part::kGnuplot:
       return can_draw();
+    case Part::kHdf5:
+      return DYNGEN_WITH_HDF5;
     case Part::kJson:
       return DYNGEN_WITH_JSON;
+    case Part::kLz4:
+      return DYNGEN_WITH_LZ4;
+    case Part::kMatio:
+      return DYNGEN_WITH_MATIO;
     case Part::kMpi:
       return DYNGEN_WITH_MPI;
     case Part::kNlopt:
       return DYNGEN_WITH_NLOPT;
+    case Part::kSqlite:
+      return DYNGEN_WITH_SQLITE;
     case Part::kYaml:
       return import_maps_available();
+    case Part::kZip:
+      return DYNGEN_WITH_ZIP;
     case Part::kZlib:
       return gzip_available();
+    case Part::kZstd:
+      return DYNGEN_WITH_ZSTD;
   }
   return false;
 }

@@ -10,7 +10,24 @@
 namespace dyngen::runtime {
 
 /// What dynid can be built or installed without.
-enum class Part { kBlas, kBoost, kCeres, kGnuplot, kJson, kMpi, kNlopt, kYaml, kZlib };
+enum class Part {
+  kBlas,
+  kBoost,
+  kBzip2,
+  kCeres,
+  kGnuplot,
+  kHdf5,
+  kJson,
+  kLz4,
+  kMatio,
+  kMpi,
+  kNlopt,
+  kSqlite,
+  kYaml,
+  kZip,
+  kZlib,
+  kZstd
+};
 
 struct PartWords {
   Part part;
