@@ -82,7 +82,7 @@ class RowChoice {
   std::int64_t segment_ = 0;
 };
 
-class ImportedRows : public SampleRows {
+class ImportedRows : public SampleSource {
  public:
   ImportedRows(const ImportMap& map, std::vector<OpenedLog> logs, const ImportedRobot& robot,
                NoticeLog& log);
@@ -330,7 +330,7 @@ bool ImportedRows::next(RowQueue& rows) {
 
 }  // namespace
 
-std::unique_ptr<SampleRows> imported_rows(const ImportMap& map, std::vector<OpenedLog> logs,
+std::unique_ptr<SampleSource> imported_rows(const ImportMap& map, std::vector<OpenedLog> logs,
                                           const ImportedRobot& robot, NoticeLog& log) {
   return std::make_unique<ImportedRows>(map, std::move(logs), robot, log);
 }

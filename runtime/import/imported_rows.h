@@ -20,7 +20,7 @@ struct ImportedRobot {
 
 /// Samples at the joints, made of logs by a map, in constant memory.
 /// @throws ImportError  what the map asks for is not in the logs; RecordingError
-std::unique_ptr<SampleRows> imported_rows(const ImportMap& map, std::vector<OpenedLog> logs,
+std::unique_ptr<SampleSource> imported_rows(const ImportMap& map, std::vector<OpenedLog> logs,
                                           const ImportedRobot& robot, NoticeLog& log);
 
 /// Files that make one recording: one for each of ImportMap::files, in their order, or one.

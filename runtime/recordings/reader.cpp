@@ -23,7 +23,7 @@
 namespace dyngen::runtime {
 
 struct RecordingReader::State {
-  State(const OpenSampleRows& open_rows, std::string name, std::string place_word,
+  State(const OpenSampleSource& open_rows, std::string name, std::string place_word,
         const ReadOptions& options)
       : log(std::move(name), options.max_notices, std::move(place_word)),
         sort_rows(options.sort_rows),
@@ -46,7 +46,7 @@ struct RecordingReader::State {
   NoticeLog log;
   std::vector<Notice> notices;
   bool sort_rows, were_sorted = false;
-  std::unique_ptr<SampleRows> rows;
+  std::unique_ptr<SampleSource> rows;
   RowQueue all;  ///< every row, if they are to be sorted
   RowQueue out;
   ShortRunFilter filter;
@@ -167,9 +167,9 @@ void RecordingReader::State::take(Recording& chunk, std::size_t count) {
 
 namespace {
 
-OpenSampleRows rows_of_text(ByteSource source, const ReadOptions& options) {
+OpenSampleSource rows_of_text(ByteSource source, const ReadOptions& options) {
   auto held = std::make_shared<ByteSource>(std::move(source));
-  return [held, options](NoticeLog& log) -> std::unique_ptr<SampleRows> {
+  return [held, options](NoticeLog& log) -> std::unique_ptr<SampleSource> {
     return std::make_unique<RecordingRows>(
         std::move(*held), ExpectedColumns{options.joints, options.torque_required}, log);
   };
@@ -193,7 +193,7 @@ RecordingReader::RecordingReader(const std::string& path, ReadOptions options) {
   }
 }
 
-RecordingReader::RecordingReader(const OpenSampleRows& open_rows, const std::string& name,
+RecordingReader::RecordingReader(const OpenSampleSource& open_rows, const std::string& name,
                                  const std::string& place_word, const ReadOptions& options) {
   state_ = std::make_unique<State>(open_rows, name, place_word, options);
 }

@@ -42,7 +42,7 @@ class RecordingReader {
   explicit RecordingReader(const std::string& path, ReadOptions options = {});
 
   /// The same of samples that something else reads. @param place_word  what a place of them is
-  RecordingReader(const OpenSampleRows& open_rows, const std::string& name,
+  RecordingReader(const OpenSampleSource& open_rows, const std::string& name,
                   const std::string& place_word, const ReadOptions& options = {});
 
   /// The same from memory (plain or gzip); `name` stands in messages.

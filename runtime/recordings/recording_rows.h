@@ -21,7 +21,7 @@ struct ExpectedColumns {
 };
 
 /// A file's lines as rows. Blank lines, comments, a line "sep=;" and a row of units are skipped.
-class RecordingRows : public SampleRows {
+class RecordingRows : public SampleSource {
  public:
   /// Reads the header. @throws RecordingError
   RecordingRows(ByteSource source, const ExpectedColumns& expected, NoticeLog& log);

@@ -27,12 +27,12 @@ struct SampleLayout {
 };
 
 /// Samples as they were written, in SI units and at the joints, before anything is repaired.
-class SampleRows {
+class SampleSource {
  public:
-  SampleRows() = default;
-  SampleRows(const SampleRows&) = delete;
-  SampleRows& operator=(const SampleRows&) = delete;
-  virtual ~SampleRows() = default;
+  SampleSource() = default;
+  SampleSource(const SampleSource&) = delete;
+  SampleSource& operator=(const SampleSource&) = delete;
+  virtual ~SampleSource() = default;
 
   [[nodiscard]] virtual const SampleLayout& layout() const = 0;
 
@@ -52,6 +52,6 @@ class SampleRows {
 };
 
 /// Opens samples; what is told of them goes to the log, which outlives them.
-using OpenSampleRows = std::function<std::unique_ptr<SampleRows>(NoticeLog& log)>;
+using OpenSampleSource = std::function<std::unique_ptr<SampleSource>(NoticeLog& log)>;
 
 }  // namespace dyngen::runtime
