@@ -5,16 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
 
+#include "runtime/identification/stretches.h"
 #include "runtime/recordings/clipping.h"
+#include "runtime/recordings/clock.h"
 #include "runtime/recordings/periods.h"
 #include "runtime/recordings/quantisation.h"
 #include "runtime/recordings/reader.h"
+#include "runtime/recordings/signal_repair.h"
 #include "runtime/recordings/time_base.h"
 #include "runtime/signals/interpolation.h"
 
@@ -56,9 +57,17 @@ Recording with_uniform_time(Recording recording, RecordingCondition& condition) 
   condition.jitter = base.jitter;
   if (base.uniform) return recording;
   condition.resampled = true;
-  condition.messages.push_back(base.message +
-                               fmt::format("; resampled to {:.6g} s", base.sample_time));
-  return resample(recording, base.sample_time);
+  ClockChoice clock = choose_clock(recording);
+  if (!clock.rebuilt) {
+    condition.messages.push_back(base.message + fmt::format("; resampled to {:.6g} s; {}",
+                                                            base.sample_time, clock.message));
+    return resample(recording, base.sample_time);
+  }
+  condition.messages.push_back(base.message + "; " + clock.message);
+  recording.time = std::move(clock.time);
+  condition.sample_time = clock.step;
+  // samples that were lost are all that is uneven now
+  return examine_time_base(recording).uniform ? recording : resample(recording, clock.step);
 }
 
 /// None where there are no periods.
@@ -211,37 +220,34 @@ MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
   return source;
 }
 
-/// About how many bytes of text a file holds; 0 if it cannot be read, which its reader will say.
-std::size_t bytes_of_text(const std::string& path) {
-  constexpr std::size_t kPacked = 4;  // times as much text as gzip, at least
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(path, error);
-  if (error) return 0;
-  std::ifstream stream(path, std::ios::binary);
-  const bool packed = stream.get() == 0x1f && stream.get() == 0x8b;
-  return packed ? kPacked * bytes : bytes;
-}
-
 /// What the first part of a large file says of all of it.
-MotionSource stream_of_file(const std::string& path, MotionOptions options) {
+MotionSource stream_of(const RecordingInput& input, MotionOptions options,
+                       std::vector<Notice>& told) {
   constexpr Index kFirstPart = 200000;
-  RecordingReader reader(path);
+  ReadOptions reading;
   Recording first;
+  RecordingReader reader = input.open(reading);
   reader.next(first, kFirstPart);
+  if (stamps_are_repeated(reader) && input.reopens) {
+    reading.spread_stamps = true;
+    reader = input.open(reading);
+    reader.next(first, kFirstPart);
+  }
+  told.insert(told.end(), reader.notices().begin(), reader.notices().end());
   const TimeBase base = examine_time_base(first);
   if (!base.uniform) {
     throw std::invalid_argument(
         fmt::format("{}: {}: expected a uniform time base, since the file is too large to be "
                     "resampled in memory",
-                    path, base.message));
+                    input.name, base.message));
   }
   MotionOptions of_first = options;
   of_first.average_periods = false;
   const MotionSource of_part = motion_in_memory(std::move(first), {}, of_first);
   options.state.cutoff_hz = of_part.cutoff.hz;
-  const auto pieces = [path, state = options.state, sample_time = base.sample_time](
+  const auto pieces = [input, reading, state = options.state, sample_time = base.sample_time](
                           const std::function<void(const StreamPiece&)>& visit) {
-    RecordingReader again(path);
+    RecordingReader again = input.open(reading);
     JointStateStream stream(state, sample_time);
     Recording chunk;
     while (again.next(chunk, kChunk)) {
@@ -250,9 +256,30 @@ MotionSource stream_of_file(const std::string& path, MotionOptions options) {
     for (const StreamPiece& piece : stream.finish()) visit(piece);
   };
   MotionSource source = with_pieces(of_part, pieces);
-  source.name = path;
+  source.name = input.name;
   source.condition.messages.push_back("read piece by piece; periods were not looked for");
   return source;
+}
+
+/// What says most of a recording that is too long for memory.
+MotionSource motion_of_stretches(const RecordingInput& input, const MotionOptions& options,
+                                 std::vector<Notice>& told) {
+  ReadOptions reading;
+  {
+    constexpr Index kSeen = 20000;
+    RecordingReader reader = input.open(reading);
+    Recording first;
+    reader.next(first, kSeen);
+    reading.spread_stamps = stamps_are_repeated(reader) && input.reopens;
+  }
+  Stretches stretches = telling_stretches(input, reading, {}, &told);
+  repair_signals(stretches.recording, told);
+  RecordingCondition condition;
+  condition.repairs = told;
+  condition.stretches = std::move(stretches.times);
+  condition.messages.push_back(stretches.sentence);
+  told.push_back({input.name, 0, 0, stretches.sentence});
+  return motion_in_memory(std::move(stretches.recording), std::move(condition), options);
 }
 
 }  // namespace
@@ -263,13 +290,19 @@ MotionSource motion_of(Recording recording, const MotionOptions& options) {
 
 MotionSource motion_of_file(const std::string& path, const MotionOptions& options,
                             std::vector<Notice>* repairs) {
-  if (bytes_of_text(path) > options.stream_above && options.state.method == StateMethod::kLowPass) {
-    return stream_of_file(path, options);
-  }
-  RecordingCondition condition;
+  return motion_of_input(recording_file(path), options, repairs);
+}
+
+MotionSource motion_of_input(const RecordingInput& input, const MotionOptions& options,
+                             std::vector<Notice>* repairs) {
   std::vector<Notice> own;
   std::vector<Notice>& told = repairs != nullptr ? *repairs : own;
-  Recording recording = read_recording(path, {}, &told);
+  if (input.text_bytes > options.stretches_above) return motion_of_stretches(input, options, told);
+  if (input.text_bytes > options.stream_above && options.state.method == StateMethod::kLowPass) {
+    return stream_of(input, options, told);
+  }
+  RecordingCondition condition;
+  Recording recording = read_recording(input, {}, &told);
   condition.repairs = told;
   return motion_in_memory(std::move(recording), std::move(condition), options);
 }

@@ -3,13 +3,16 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/recordings/notice.h"
+#include "runtime/recordings/reader.h"
 #include "runtime/recordings/recording.h"
 #include "runtime/signals/cutoff.h"
 #include "runtime/signals/joint_state.h"
@@ -31,6 +34,9 @@ struct MotionOptions {
   /// Bytes of text (four times the bytes of a .gz) above which a file is not read into memory but
   /// gone through piece by piece (low-pass method only; periods are not looked for then).
   std::size_t stream_above = 400'000'000;
+  /// Bytes of text above which only those stretches are read into memory that say most
+  /// (telling_stretches()); before stream_above.
+  std::size_t stretches_above = std::numeric_limits<std::size_t>::max();
 };
 
 /// What is known of a recording's quality.
@@ -49,6 +55,8 @@ struct RecordingCondition {
   Eigen::VectorXd period_scatter;  ///< (n) rms over periods of the torque; may be empty
   std::vector<Notice> repairs;     ///< what the reader repaired
   std::vector<std::string> messages;
+  /// Of a recording that is too long for memory: s, first and last sample of what is used.
+  std::vector<std::pair<double, double>> stretches;
 };
 
 /// Another joint state of a recording: behind a low-pass of the caller's, or of the samples of one
@@ -108,6 +116,9 @@ MotionSource motion_of(Recording recording, const MotionOptions& options);
 /// @throws RecordingError; std::invalid_argument; TooLittleDataError
 MotionSource motion_of_file(const std::string& path, const MotionOptions& options,
                             std::vector<Notice>* repairs = nullptr);
+
+MotionSource motion_of_input(const RecordingInput& input, const MotionOptions& options,
+                             std::vector<Notice>* repairs = nullptr);
 
 /// The same recording, other pieces of it; with no other joint state, of which they are not.
 MotionSource with_pieces(

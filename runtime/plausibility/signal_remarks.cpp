@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
+#include "runtime/plausibility/derivative_remarks.h"
+#include "runtime/recordings/held_columns.h"
 #include "runtime/recordings/time_base.h"
-#include "runtime/signals/differences.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -22,8 +23,6 @@ constexpr double kQuickStep = 20e-6;     // s: nor so often
 constexpr double kCounts = 50;           // range of integers that are no angles
 constexpr double kBeyondTorque = 30;     // times taumax: a unit, not a peak
 constexpr double kBeyondLimits = 0.05;   // of the range between limits: calibration, not a mistake
-constexpr double kVelocityScale = 0.05;  // of velocities beside differences of positions
-constexpr double kGoesWith = 0.5;        // correlation below which velocities say nothing
 
 class Remarks {
  public:
@@ -112,110 +111,9 @@ void judge_torques(const JudgedRobot& robot, const Recording& recording, Remarks
   }
 }
 
-/// Of samples a and b: correlation about zero, and the factor that makes b of a.
-struct Fit {
-  double correlation = 0, slope = 0;
-};
-
-Fit compared(const VectorXd& a, const VectorXd& b) {
-  const double aa = a.squaredNorm(), bb = b.squaredNorm(), ab = a.dot(b);
-  if (!(aa > 0 && bb > 0)) return {};
-  return {ab / std::sqrt(aa * bb), ab / aa};
-}
-
-/// Velocities as differences of positions over a few samples, of one run.
-void append_velocities(const Recording& recording, std::size_t run, Index joint,
-                       std::vector<double>& of_positions, std::vector<double>& given) {
-  constexpr Index kHalf = 3;  // samples on either side: noise of positions counts less
-  const Index first = recording.run_starts[run], end = run_end(recording, run);
-  for (Index k = first + kHalf; k + kHalf < end; ++k) {
-    const double time = recording.time[k + kHalf] - recording.time[k - kHalf];
-    of_positions.push_back((recording.q(k + kHalf, joint) - recording.q(k - kHalf, joint)) / time);
-    given.push_back(recording.dq.block(k - kHalf, joint, 2 * kHalf + 1, 1).mean());
-  }
-}
-
-void judge_velocities(const Recording& recording, double sample_time, Remarks& remarks) {
-  if (recording.dq.size() == 0) return;
-  constexpr double kMostLag = 0.05;  // s
-  const Index most = std::min<Index>(static_cast<Index>(kMostLag / sample_time), 100);
-  for (Index j = 0; j < recording.joints(); ++j) {
-    std::vector<double> differences, columns;
-    for (std::size_t run = 0; run < recording.run_starts.size(); ++run) {
-      append_velocities(recording, run, j, differences, columns);
-    }
-    const auto count = static_cast<Index>(columns.size());
-    if (count < 4 * most + 64) continue;
-    const Eigen::Map<const VectorXd> own(differences.data(), count), given(columns.data(), count);
-    if (!(own.cwiseAbs().maxCoeff() > 0)) continue;
-    if (given.cwiseAbs().maxCoeff() == 0) {
-      remarks.add(
-          "velocity", false, j + 1,
-          fmt::format("qd{0} is 0 throughout while q{0} moves: it was not measured", j + 1));
-      continue;
-    }
-    Fit best;
-    Index lag = 0;
-    for (Index shift = -most; shift <= most; ++shift) {
-      const Fit fit = compared(own.segment(most, count - 2 * most),
-                               given.segment(most + shift, count - 2 * most));
-      if (std::abs(fit.correlation) <= std::abs(best.correlation) + 1e-6) continue;
-      best = fit;
-      lag = shift;
-    }
-    const Fit here =
-        compared(own.segment(most, count - 2 * most), given.segment(most, count - 2 * most));
-    if (std::abs(best.correlation) < kGoesWith) {
-      remarks.add("velocity", false, j + 1,
-                  fmt::format("qd{0} does not go with q{0} (correlation {1:.2f}): another joint's, "
-                              "or another unit?",
-                              j + 1, here.correlation));
-      continue;
-    }
-    if (std::abs(best.slope - 1) > kVelocityScale) {
-      remarks.add("velocity", false, j + 1,
-                  fmt::format("qd{0} is {1:.4g} times what q{0} and time say: unit, sign, gear or "
-                              "sampling rate?",
-                              j + 1, best.slope));
-    }
-    // a lag that matters: what is left of velocities is a hundredth of them
-    const double unlike = 1 - here.correlation / best.correlation;
-    if (std::abs(lag) > 1 && unlike > 5e-5) {
-      remarks.add("lag", false, j + 1,
-                  fmt::format("qd{0} {1} q{0} by {2:.3g} ms", j + 1,
-                              lag > 0 ? "lags behind" : "is ahead of",
-                              1e3 * sample_time * static_cast<double>(std::abs(lag))));
-    }
-  }
-}
-
-/// For how many samples a position is held: the length that most stretches of equal values have; 1
-/// where they have none.
-Index held_samples(const VectorXd& q) {
-  constexpr double kRegular =
-      0.7;  // of the stretches, without those that are longer: the joint rests
-  constexpr Index kLongest = 64;
-  std::vector<Index> stretches(kLongest + 1, 0);
-  Index length = 1, all = 0;
-  for (Index k = 1; k < q.size(); ++k) {
-    if (q[k] == q[k - 1]) {
-      ++length;
-      continue;
-    }
-    if (length <= kLongest) {
-      ++stretches[static_cast<std::size_t>(length)];
-      ++all;
-    }
-    length = 1;
-  }
-  const auto most = std::max_element(stretches.begin(), stretches.end());
-  const bool regular = all > 64 && static_cast<double>(*most) > kRegular * static_cast<double>(all);
-  return regular ? most - stretches.begin() : 1;
-}
-
 void judge_held_positions(const Recording& recording, double sample_time, Remarks& remarks) {
   for (Index j = 0; j < recording.joints(); ++j) {
-    const Index held = held_samples(recording.q.col(j));
+    const Index held = find_held(recording.q.col(j)).period;
     if (held < 2) continue;
     remarks.add("lag", false, j + 1,
                 fmt::format("q{} changes every {} samples only (held between them): it lags behind "
@@ -262,7 +160,12 @@ void add_signal_remarks(const JudgedRobot& robot, const MotionSource& source,
     judge_dead_torque(source, recording, own);
     judge_clipped_torque(source, own);
   }
-  judge_velocities(recording, source.sample_time, own);
+  if (!source.condition.stands && recording.samples() > 1) {
+    const double step = recording.time[1] - recording.time[0];  // its time base is uniform
+    for (Remark& remark : derivative_remarks(recording, step)) {
+      remarks.push_back(std::move(remark));
+    }
+  }
   judge_held_positions(recording, source.sample_time, own);
 }
 

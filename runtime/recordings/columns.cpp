@@ -12,14 +12,14 @@
 namespace dyngen::runtime {
 namespace {
 
-enum class Kind { kTime, kQ, kTau, kDq, kDdq, kTauSim, kTemperature, kSegment };
+enum class Kind { kTime, kQ, kTau, kDq, kDdq, kTauSim, kLinkQ, kTemperature, kSegment };
 
 struct Spelling {
   std::string_view word;
   Kind kind;
 };
 
-constexpr std::array<Spelling, 9> kNumbered = {{{"q", Kind::kQ},
+constexpr std::array<Spelling, 10> kNumbered = {{{"q", Kind::kQ},
                                                 {"tau", Kind::kTau},
                                                 {"qd", Kind::kDq},
                                                 {"dq", Kind::kDq},
@@ -27,6 +27,7 @@ constexpr std::array<Spelling, 9> kNumbered = {{{"q", Kind::kQ},
                                                 {"ddq", Kind::kDdq},
                                                 {"tausim", Kind::kTauSim},
                                                 {"tau_sim", Kind::kTauSim},
+                                                {"ql", Kind::kLinkQ},
                                                 {"temp", Kind::kTemperature}}};
 
 constexpr int kMostJoints = 1000;
@@ -71,6 +72,7 @@ Quantity quantity_of(Kind kind) {
     case Kind::kTemperature:
       return Quantity::kTemperature;
     case Kind::kQ:
+    case Kind::kLinkQ:
     case Kind::kSegment:
       break;
   }
@@ -169,7 +171,7 @@ class HeaderReader {
   NoticeLog* log_;
   Columns columns_;
   std::vector<Field> fields_;
-  std::array<Group, 8> groups_;
+  std::array<Group, 9> groups_;
   std::vector<std::string> units_;  ///< per field
 };
 
@@ -284,22 +286,24 @@ Columns HeaderReader::read(char separator, int joints, bool torque_required) {
     }
   }
   check_group(Kind::kQ, "q", joints);
-  columns_.joints = group(Kind::kQ).count();
+  SampleLayout& layout = columns_.layout;
+  layout.joints = group(Kind::kQ).count();
   const auto recorded = [&](Kind kind, std::string_view word) {
     const bool there = !group(kind).fields.empty();
-    if (there) check_group(kind, word, columns_.joints);
+    if (there) check_group(kind, word, layout.joints);
     return there;
   };
-  columns_.tau = recorded(Kind::kTau, "tau");
-  columns_.dq = recorded(Kind::kDq, "qd");
-  columns_.ddq = recorded(Kind::kDdq, "qdd");
-  columns_.tau_sim = recorded(Kind::kTauSim, "tausim");
+  layout.tau = recorded(Kind::kTau, "tau");
+  layout.dq = recorded(Kind::kDq, "qd");
+  layout.ddq = recorded(Kind::kDdq, "qdd");
+  layout.tau_sim = recorded(Kind::kTauSim, "tausim");
+  layout.q_link = recorded(Kind::kLinkQ, "ql");
   check_group(Kind::kTemperature, "temp", 0);
-  columns_.temperatures = group(Kind::kTemperature).count();
+  layout.temperatures = group(Kind::kTemperature).count();
 
   int next = 0;
   for (const Kind kind : {Kind::kTime, Kind::kQ, Kind::kTau, Kind::kDq, Kind::kDdq, Kind::kTauSim,
-                          Kind::kTemperature}) {
+                          Kind::kLinkQ, Kind::kTemperature}) {
     place(kind, next);
   }
   for (const auto& [number, place] : group(Kind::kSegment).fields) {
@@ -313,11 +317,6 @@ Columns HeaderReader::read(char separator, int joints, bool torque_required) {
 }
 
 }  // namespace
-
-std::size_t Columns::width() const {
-  const int groups = 1 + (tau ? 1 : 0) + (dq ? 1 : 0) + (ddq ? 1 : 0) + (tau_sim ? 1 : 0);
-  return static_cast<std::size_t>(1 + groups * joints + temperatures);
-}
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/recordings/notice_log.h"
+#include "runtime/recordings/sample_rows.h"
 #include "runtime/recordings/units.h"
 
 namespace dyngen::runtime {
@@ -20,9 +21,6 @@ struct Separator {
 };
 
 /// What the header says: which field of a line goes where.
-///
-/// The values of a sample stand in one order whatever the file's: time, q, tau, dq, ddq, tau_sim,
-/// temperature; tau (of a trajectory), dq, ddq, tau_sim only if recorded.
 struct Columns {
   static constexpr int kIgnored = -1;
   static constexpr int kSegment = -2;
@@ -33,13 +31,8 @@ struct Columns {
   std::vector<Quantity> quantities;  ///< per field, where target >= 0
   std::vector<UnitConversion> conversions;  ///< per field, to SI
   bool converts = false;                    ///< a conversion changes something
-  int joints = 0;
-  bool tau = false, dq = false, ddq = false, tau_sim = false;
-  int temperatures = 0;
+  SampleLayout layout;
   std::size_t header_line = 0;
-
-  /// Number of values a sample has.
-  [[nodiscard]] std::size_t width() const;
 };
 
 /// A field of a line.

@@ -13,8 +13,9 @@ struct Notice {
   std::size_t line = 0;    ///< from 1; 0 where it speaks of the whole file
   std::size_t column = 0;  ///< from 1, in bytes; 0 where it speaks of the whole line
   std::string message;
+  std::string place_word = "line";  ///< what `line` counts
 
-  /// "run.csv:17:5: warning: ..."
+  /// "run.csv:17:5: warning: ...", "run.db3: message 17: warning: ..."
   [[nodiscard]] std::string text() const;
 };
 

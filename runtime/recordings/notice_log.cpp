@@ -24,8 +24,14 @@ std::string quoted(std::string_view piece) {
   return fmt::format("'{}{}'", text, piece.size() > kLongest ? "..." : "");
 }
 
-NoticeLog::NoticeLog(std::string file, std::size_t max_notices)
-    : file_(std::move(file)), max_notices_(max_notices) {}
+NoticeLog::NoticeLog(std::string file, std::size_t max_notices, std::string place_word)
+    : file_(std::move(file)), place_word_(std::move(place_word)), max_notices_(max_notices) {}
+
+RecordingError NoticeLog::error(std::size_t line, std::size_t column,
+                                std::string_view message) const {
+  if (place_word_ == "line" || line == 0) return recording_error(file_, line, column, message);
+  return RecordingError(fmt::format("{}: {} {}: error: {}", file_, place_word_, line, message));
+}
 
 NoticeLog::Entry* NoticeLog::find(std::string_view kind) {
   const auto same = [&](const Entry& entry) { return entry.kind == kind; };
@@ -39,7 +45,7 @@ void NoticeLog::add(std::string_view kind, std::size_t line, std::size_t column,
     ++entry->more;
     entry->last_line = std::max(entry->last_line, line);
   } else if (entries_.size() < max_notices_) {
-    entries_.push_back({std::string(kind), {file_, line, column, std::move(message)}, 0, line});
+    entries_.push_back({std::string(kind), {file_, line, column, std::move(message), place_word_}, 0, line});
   } else {
     ++left_out_;
   }
@@ -57,11 +63,13 @@ std::vector<Notice> NoticeLog::notices() const {
     all.push_back(entry.first);
     if (entry.more > 0) {
       all.back().message +=
-          fmt::format(" ({} such in all, the last in line {})", entry.more + 1, entry.last_line);
+          fmt::format(" ({} such in all, the last in {} {})", entry.more + 1, place_word_,
+                      entry.last_line);
     }
   }
   if (left_out_ > 0) {
-    all.push_back({file_, 0, 0, fmt::format("{} more notices are left out", left_out_)});
+    all.push_back(
+        {file_, 0, 0, fmt::format("{} more notices are left out", left_out_), place_word_});
   }
   return all;
 }

@@ -21,7 +21,8 @@ std::string quoted(std::string_view piece);
 /// What was repaired in one file. Notices of one kind are summed up in the first of them.
 class NoticeLog {
  public:
-  NoticeLog(std::string file, std::size_t max_notices);
+  /// @param place_word  what a place of the file is: "line", "message" or "row"
+  NoticeLog(std::string file, std::size_t max_notices, std::string place_word = "line");
 
   /// A notice; later ones of the same `kind` only raise its count.
   void add(std::string_view kind, std::size_t line, std::size_t column, std::string message);
@@ -33,6 +34,11 @@ class NoticeLog {
   [[nodiscard]] std::vector<Notice> notices() const;
 
   [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] const std::string& place_word() const { return place_word_; }
+
+  /// "FILE:line:column: error: message", or "FILE: message 17: error: ...".
+  [[nodiscard]] RecordingError error(std::size_t line, std::size_t column,
+                                     std::string_view message) const;
 
  private:
   struct Entry {
@@ -43,7 +49,7 @@ class NoticeLog {
   };
   Entry* find(std::string_view kind);
 
-  std::string file_;
+  std::string file_, place_word_;
   std::size_t max_notices_;
   std::vector<Entry> entries_;
   std::size_t left_out_ = 0;

@@ -334,8 +334,7 @@ Recording average_periods(const Recording& recording, const Periods& periods) {
   mean.file_name = recording.file_name;
   mean.run_starts = {0};
   mean.time = grid.time().head(periods.samples);
-  for (const auto part : {&Recording::q, &Recording::tau, &Recording::dq, &Recording::ddq,
-                          &Recording::tau_sim, &Recording::temperature}) {
+  for (const auto part : kRecordingParts) {
     if ((recording.*part).cols() > 0) mean.*part = mean_period(grid(recording.*part), periods);
   }
   return mean;

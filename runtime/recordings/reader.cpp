@@ -8,6 +8,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -22,16 +23,17 @@
 namespace dyngen::runtime {
 
 struct RecordingReader::State {
-  State(ByteSource source, std::string name, const ReadOptions& options)
-      : log(std::move(name), options.max_notices),
+  State(const OpenSampleSource& open_rows, std::string name, std::string place_word,
+        const ReadOptions& options)
+      : log(std::move(name), options.max_notices, std::move(place_word)),
         sort_rows(options.sort_rows),
-        rows(std::move(source), {options.joints, options.torque_required}, log),
-        all(rows.columns().width()),
-        out(rows.columns().width()),
-        filter(rows.columns().width(), out, log),
-        values(rows.columns().width(), filter, log),
-        time(rows.columns().width(), values, log) {
-    if (sort_rows) rows.segments_come_again();
+        rows(open_rows(log)),
+        all(rows->layout().width()),
+        out(rows->layout().width()),
+        filter(rows->layout().width(), out, log),
+        values(rows->layout().width(), filter, log),
+        time(rows->layout().width(), values, log, options.spread_stamps) {
+    if (sort_rows) rows->segments_come_again();
     notices = log.notices();
   }
 
@@ -44,7 +46,7 @@ struct RecordingReader::State {
   NoticeLog log;
   std::vector<Notice> notices;
   bool sort_rows, were_sorted = false;
-  RecordingRows rows;
+  std::unique_ptr<SampleSource> rows;
   RowQueue all;  ///< every row, if they are to be sorted
   RowQueue out;
   ShortRunFilter filter;
@@ -53,6 +55,7 @@ struct RecordingReader::State {
   std::size_t data_rows = 0;
   std::size_t delivered = 0;
   std::size_t backward_steps = 0;
+  std::size_t repeated_stamps = 0;
   double last_time = std::numeric_limits<double>::quiet_NaN();
   std::int64_t last_segment = 0;
   bool all_read = false;
@@ -70,20 +73,25 @@ bool RecordingReader::State::next_row() {
     all.pop_front();
     return true;
   }
-  if (!rows.next(queue)) return false;
+  if (!rows->next(queue)) return false;
   const double now = queue.time(queue.size() - 1);
   const std::int64_t segment = queue.info(queue.size() - 1).segment;
   if (now < last_time && segment == last_segment) ++backward_steps;
+  if (now == last_time && segment == last_segment && queue.size() > 1) {
+    const double* row = queue.values(queue.size() - 1);
+    const double* before = queue.values(queue.size() - 2);
+    if (!std::equal(row + 1, row + rows->layout().width(), before + 1)) ++repeated_stamps;
+  }
   if (!std::isnan(now)) last_time = now;
   last_segment = segment;
   return true;
 }
 
 void RecordingReader::State::read_and_sort() {
-  while (rows.next(all)) {
+  while (rows->next(all)) {
   }
   all_read = true;
-  were_sorted = sort_shuffled_rows(all, rows.columns().width(), log);
+  were_sorted = sort_shuffled_rows(all, rows->layout().width(), log);
 }
 
 void RecordingReader::State::fill(std::size_t wanted) {
@@ -103,12 +111,12 @@ void RecordingReader::State::finish() {
   values.finish();
   filter.finish();
   if (data_rows == 0) {
-    throw recording_error(log.file(), rows.last_line(), 1,
+    throw log.error(rows->last_place(), 1,
                           "found no rows of data after the header, expected two or more");
   }
   if (delivered + out.size() < 2) {
-    throw recording_error(
-        log.file(), rows.last_line(), 1,
+    throw log.error(
+        rows->last_place(), 1,
         data_rows == 1
             ? "found one row of data, expected two or more"
             : fmt::format("found no run of {} samples among {} rows of data, expected one or more "
@@ -119,10 +127,11 @@ void RecordingReader::State::finish() {
 
 /// Moves the first `count` rows of `out` into the columns of a chunk.
 void RecordingReader::State::take(Recording& chunk, std::size_t count) {
-  const Columns& columns = rows.columns();
+  const SampleLayout& columns = rows->layout();
   const auto samples = static_cast<Eigen::Index>(count);
   const Eigen::Index n = columns.joints;
   chunk.file_name = log.file();
+  chunk.place_word = log.place_word();
   chunk.run_starts.clear();
   chunk.lines.clear();
   chunk.lines.reserve(count);
@@ -135,6 +144,7 @@ void RecordingReader::State::take(Recording& chunk, std::size_t count) {
   shape(chunk.dq, columns.dq, n);
   shape(chunk.ddq, columns.ddq, n);
   shape(chunk.tau_sim, columns.tau_sim, n);
+  shape(chunk.q_link, columns.q_link, n);
   shape(chunk.temperature, columns.temperatures > 0, columns.temperatures);
 
   for (std::size_t i = 0; i < count; ++i) {
@@ -146,13 +156,26 @@ void RecordingReader::State::take(Recording& chunk, std::size_t count) {
     chunk.lines.push_back(static_cast<std::uint32_t>(out.info(0).line));
     chunk.time(row) = *value++;
     for (Eigen::MatrixXd* matrix :
-         {&chunk.q, &chunk.tau, &chunk.dq, &chunk.ddq, &chunk.tau_sim, &chunk.temperature}) {
+         {&chunk.q, &chunk.tau, &chunk.dq, &chunk.ddq, &chunk.tau_sim, &chunk.q_link,
+          &chunk.temperature}) {
       for (Eigen::Index j = 0; j < matrix->cols(); ++j) (*matrix)(row, j) = *value++;
     }
     out.pop_front();
   }
   delivered += count;
 }
+
+namespace {
+
+OpenSampleSource rows_of_text(ByteSource source, const ReadOptions& options) {
+  auto held = std::make_shared<ByteSource>(std::move(source));
+  return [held, options](NoticeLog& log) -> std::unique_ptr<SampleSource> {
+    return std::make_unique<RecordingRows>(
+        std::move(*held), ExpectedColumns{options.joints, options.torque_required}, log);
+  };
+}
+
+}  // namespace
 
 RecordingReader::RecordingReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
 RecordingReader::~RecordingReader() = default;
@@ -161,7 +184,8 @@ RecordingReader& RecordingReader::operator=(RecordingReader&&) noexcept = defaul
 
 RecordingReader::RecordingReader(const std::string& path, ReadOptions options) {
   try {
-    state_ = std::make_unique<State>(ByteSource::from_file(path), path, options);
+    state_ = std::make_unique<State>(rows_of_text(ByteSource::from_file(path), options), path,
+                                     "line", options);
   } catch (const RecordingError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -169,11 +193,16 @@ RecordingReader::RecordingReader(const std::string& path, ReadOptions options) {
   }
 }
 
+RecordingReader::RecordingReader(const OpenSampleSource& open_rows, const std::string& name,
+                                 const std::string& place_word, const ReadOptions& options) {
+  state_ = std::make_unique<State>(open_rows, name, place_word, options);
+}
+
 RecordingReader RecordingReader::from_text(std::string bytes, std::string name,
                                            ReadOptions options) {
   try {
-    return RecordingReader(
-        std::make_unique<State>(ByteSource::from_text(std::move(bytes)), name, options));
+    return RecordingReader(std::make_unique<State>(
+        rows_of_text(ByteSource::from_text(std::move(bytes)), options), name, "line", options));
   } catch (const RecordingError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -201,12 +230,22 @@ bool RecordingReader::next(Recording& chunk, Eigen::Index rows) {
 
 bool RecordingReader::continues_run() const { return state_->continues_run; }
 const std::vector<Notice>& RecordingReader::notices() const { return state_->notices; }
-int RecordingReader::joints() const { return state_->rows.columns().joints; }
+int RecordingReader::joints() const { return state_->rows->layout().joints; }
 std::size_t RecordingReader::backward_steps() const { return state_->backward_steps; }
+std::size_t RecordingReader::repeated_stamps() const { return state_->repeated_stamps; }
+std::size_t RecordingReader::rows_read() const { return state_->data_rows; }
 bool RecordingReader::rows_were_sorted() const { return state_->were_sorted; }
 
 double RecordingReader::fraction_read() const {
-  return state_->finished ? 1 : state_->rows.fraction_read();
+  return state_->finished ? 1 : state_->rows->fraction_read();
+}
+
+bool stamps_are_repeated(const RecordingReader& reader) {
+  constexpr std::size_t kFewestRepeated = 8;
+  constexpr double kPartRepeated = 0.01;  // of the rows: fewer are rows that came twice
+  return reader.repeated_stamps() >= kFewestRepeated &&
+         static_cast<double>(reader.repeated_stamps()) >
+             kPartRepeated * static_cast<double>(reader.rows_read());
 }
 
 Recording read_all(RecordingReader& reader) {
@@ -223,11 +262,9 @@ Recording read_all(RecordingReader& reader) {
   if (chunks.empty()) return all;
 
   all.file_name = chunks.front().file_name;
+  all.place_word = chunks.front().place_word;
   all.time.resize(samples);
-  constexpr std::array<Eigen::MatrixXd Recording::*, 6> kParts = {
-      &Recording::q,   &Recording::tau,     &Recording::dq,
-      &Recording::ddq, &Recording::tau_sim, &Recording::temperature};
-  for (const auto part : kParts) {
+  for (const auto part : kRecordingParts) {
     const Eigen::Index width = (chunks.front().*part).cols();
     (all.*part).resize(width > 0 ? samples : 0, width);
   }
@@ -236,7 +273,7 @@ Recording read_all(RecordingReader& reader) {
     Recording& chunk = chunks[i];
     const Eigen::Index count = chunk.samples();
     all.time.segment(first, count) = chunk.time;
-    for (const auto part : kParts) {
+    for (const auto part : kRecordingParts) {
       if ((all.*part).cols() > 0) (all.*part).middleRows(first, count) = chunk.*part;
     }
     for (std::size_t run = continues[i] && i > 0 ? 1 : 0; run < chunk.run_starts.size(); ++run) {
@@ -258,10 +295,11 @@ struct Attempt {
   std::exception_ptr error;
   std::size_t backward_steps = 0;
   bool sorted = false;
+  bool stamps_repeat = false;
 };
 
-Attempt read_once(const std::string& path, const ReadOptions& options) {
-  RecordingReader reader(path, options);
+Attempt read_once(const RecordingInput& input, const ReadOptions& options) {
+  RecordingReader reader = input.open(options);
   Attempt result;
   try {
     result.recording = read_all(reader);
@@ -271,7 +309,19 @@ Attempt read_once(const std::string& path, const ReadOptions& options) {
   result.notices = reader.notices();
   result.backward_steps = reader.backward_steps();
   result.sorted = reader.rows_were_sorted();
+  result.stamps_repeat = stamps_are_repeated(reader);
   return result;
+}
+
+/// About how many bytes of text a file holds; 0 if it cannot be read, which its reader will say.
+std::size_t bytes_of_text(const std::string& path) {
+  constexpr std::size_t kPacked = 4;  // times as much text as gzip, at least
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  if (error) return 0;
+  std::ifstream stream(path, std::ios::binary);
+  const bool packed = stream.get() == 0x1f && stream.get() == 0x8b;
+  return packed ? kPacked * bytes : bytes;
 }
 
 /// A pipe is not.
@@ -282,14 +332,28 @@ bool can_be_read_again(const std::string& path) {
 
 }  // namespace
 
+RecordingInput recording_file(const std::string& path) {
+  return {path, [path](const ReadOptions& options) { return RecordingReader(path, options); },
+          can_be_read_again(path), bytes_of_text(path)};
+}
+
 Recording read_recording(const std::string& path, const ReadOptions& options,
                          std::vector<Notice>* notices) {
-  Attempt result = read_once(path, options);
-  if (result.backward_steps >= kFewestBackwardSteps && can_be_read_again(path)) {
+  return read_recording(recording_file(path), options, notices);
+}
+
+Recording read_recording(const RecordingInput& input, const ReadOptions& options,
+                         std::vector<Notice>* notices) {
+  Attempt result = read_once(input, options);
+  if (result.backward_steps >= kFewestBackwardSteps && input.reopens) {
     ReadOptions sorting = options;
     sorting.sort_rows = true;
-    Attempt sorted = read_once(path, sorting);
+    Attempt sorted = read_once(input, sorting);
     if (sorted.sorted) result = std::move(sorted);
+  } else if (result.stamps_repeat && input.reopens) {
+    ReadOptions spreading = options;
+    spreading.spread_stamps = true;
+    result = read_once(input, spreading);
   }
   if (!result.error && options.repair_signals && options.torque_required) {
     try {

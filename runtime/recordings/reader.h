@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "runtime/recordings/notice.h"
 #include "runtime/recordings/recording.h"
+#include "runtime/recordings/sample_rows.h"
 
 namespace dyngen::runtime {
 
@@ -19,6 +21,9 @@ struct ReadOptions {
   /// All rows are read first, and sorted by time within their segment if that makes time regular
   /// (sort_shuffled_rows()). Memory is that of the whole file.
   bool sort_rows = false;
+  /// Rows that share a time with other values are spread evenly up to the next time; else they are
+  /// left out.
+  bool spread_stamps = false;
   /// read_recording() alone: what only the whole signal shows is repaired (repair_signals()). Not
   /// where torque is not required: a trajectory is what somebody wants, jumps and all.
   bool repair_signals = true;
@@ -35,6 +40,10 @@ class RecordingReader {
   /// Opens the file and reads its header.
   /// @throws RecordingError
   explicit RecordingReader(const std::string& path, ReadOptions options = {});
+
+  /// The same of samples that something else reads. @param place_word  what a place of them is
+  RecordingReader(const OpenSampleSource& open_rows, const std::string& name,
+                  const std::string& place_word, const ReadOptions& options = {});
 
   /// The same from memory (plain or gzip); `name` stands in messages.
   static RecordingReader from_text(std::string bytes, std::string name, ReadOptions options = {});
@@ -61,6 +70,10 @@ class RecordingReader {
   /// How often time went backward within a segment, in the rows of the file so far.
   [[nodiscard]] std::size_t backward_steps() const;
 
+  /// How many rows had the time of the row before with other values, and how many rows there were.
+  [[nodiscard]] std::size_t repeated_stamps() const;
+  [[nodiscard]] std::size_t rows_read() const;
+
   /// ReadOptions::sort_rows: rows were not in the order of time, and are now.
   [[nodiscard]] bool rows_were_sorted() const;
 
@@ -73,6 +86,20 @@ class RecordingReader {
   std::unique_ptr<State> state_;
 };
 
+/// A recording that can be opened, as a file of its own or as what is made of a log.
+struct RecordingInput {
+  std::string name;
+  std::function<RecordingReader(const ReadOptions& options)> open;
+  bool reopens = true;         ///< it can be read again; a pipe cannot
+  std::size_t text_bytes = 0;  ///< about how long it is as plain text; 0: not known
+};
+
+/// The recording in a file.
+RecordingInput recording_file(const std::string& path);
+
+/// Whether so many stamps are repeated that their rows are samples of their own.
+bool stamps_are_repeated(const RecordingReader& reader);
+
 /// Reads a whole recording into memory: rows that are shuffled are sorted, and signals are repaired
 /// (repair_signals()).
 ///
@@ -80,6 +107,8 @@ class RecordingReader {
 /// refused
 /// @throws RecordingError
 Recording read_recording(const std::string& path, const ReadOptions& options = {},
+                         std::vector<Notice>* notices = nullptr);
+Recording read_recording(const RecordingInput& input, const ReadOptions& options = {},
                          std::vector<Notice>* notices = nullptr);
 
 /// All that is left of a reader, in one piece.

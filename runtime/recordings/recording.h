@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,15 +20,22 @@ struct Recording {
   Eigen::MatrixXd dq;           ///< (N x n) rad/s or m/s; 0 x 0 if not recorded
   Eigen::MatrixXd ddq;          ///< (N x n); 0 x 0 if not recorded
   Eigen::MatrixXd tau_sim;      ///< (N x n) what another simulator says; 0 x 0 if absent
+  Eigen::MatrixXd q_link;       ///< (N x n) behind the gear, where q is the motor's; 0 x 0 if absent
   Eigen::MatrixXd temperature;  ///< (N x any); 0 x 0 if absent
   /// First row of every run; the first is 0. Rows of different runs do not follow each other in
   /// time, so no filter crosses from one to the next.
   std::vector<Eigen::Index> run_starts;
-  /// (N) line of the file that each row stood in, for messages; empty if no row stands for a line
+  /// (N) line (message, row) of the file that each row stood in; empty if no row stands for one
   std::vector<std::uint32_t> lines;
+  std::string place_word = "line";  ///< what `lines` count
 
   [[nodiscard]] Eigen::Index samples() const { return time.size(); }
   [[nodiscard]] int joints() const { return static_cast<int>(q.cols()); }
 };
+
+/// The matrices of a recording, in the order of its values.
+inline constexpr std::array<Eigen::MatrixXd Recording::*, 7> kRecordingParts = {
+    &Recording::q,       &Recording::tau,    &Recording::dq,         &Recording::ddq,
+    &Recording::tau_sim, &Recording::q_link, &Recording::temperature};
 
 }  // namespace dyngen::runtime

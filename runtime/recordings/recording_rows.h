@@ -10,6 +10,7 @@
 #include "runtime/recordings/line_reader.h"
 #include "runtime/recordings/row_parser.h"
 #include "runtime/recordings/row_queue.h"
+#include "runtime/recordings/sample_rows.h"
 
 namespace dyngen::runtime {
 
@@ -20,21 +21,16 @@ struct ExpectedColumns {
 };
 
 /// A file's lines as rows. Blank lines, comments, a line "sep=;" and a row of units are skipped.
-class RecordingRows {
+class RecordingRows : public SampleSource {
  public:
   /// Reads the header. @throws RecordingError
   RecordingRows(ByteSource source, const ExpectedColumns& expected, NoticeLog& log);
 
-  [[nodiscard]] const Columns& columns() const { return columns_; }
-  [[nodiscard]] double fraction_read() const { return lines_.fraction_read(); }
-  [[nodiscard]] std::size_t last_line() const { return line_.number; }
-
-  /// From now on a word of the segment column that comes again is the segment that it was.
-  void segments_come_again() { parser_->segments_come_again(); }
-
-  /// Appends the next row to `rows`; false at the end of the file.
-  /// @throws RecordingError
-  bool next(RowQueue& rows);
+  [[nodiscard]] const SampleLayout& layout() const override { return columns_.layout; }
+  [[nodiscard]] double fraction_read() const override { return lines_.fraction_read(); }
+  [[nodiscard]] std::size_t last_place() const override { return line_.number; }
+  void segments_come_again() override { parser_->segments_come_again(); }
+  bool next(RowQueue& rows) override;
 
  private:
   bool next_line();

@@ -162,16 +162,16 @@ void BadValueRepair::finish() {
   drop_block("no good row follows in its run");
   constexpr std::size_t kFewBadRows = 12, kMostPerCent = 5;
   if (scattered_.rows > kFewBadRows && 100 * scattered_.rows > kMostPerCent * rows_) {
-    throw recording_error(
-        log_->file(), scattered_.first.line, scattered_.first.bad_column,
+    throw log_->error(
+        scattered_.first.line, scattered_.first.bad_column,
         fmt::format("found {}, the first of {} bad rows here and there in {}, expected at most {} "
                     "% of the rows to miss a value or to have one beyond 1e9: delete these rows if "
                     "the rest is to be used",
                     scattered_.first.bad_word, scattered_.rows, rows_, kMostPerCent));
   }
   if (2 * in_blocks_.rows > rows_) {
-    throw recording_error(
-        log_->file(), in_blocks_.first.line, in_blocks_.first.bad_column,
+    throw log_->error(
+        in_blocks_.first.line, in_blocks_.first.bad_column,
         fmt::format("found {}, the first of {} bad rows of {} in blocks, expected at most half of "
                     "the rows to miss a value or to have one beyond 1e9: was this column "
                     "recorded?",

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/recordings/glitches.h"
+#include "runtime/recordings/held_columns.h"
 #include "runtime/recordings/jumps.h"
 #include "runtime/recordings/notice_log.h"
 #include "runtime/recordings/row_repair.h"
@@ -53,7 +54,12 @@ class SignalRepair {
   void run() {
     if (recording_.samples() == 0) return;
     for (Index j = 0; j < recording_.q.cols(); ++j) repair_position(j);
-    for (Index j = 0; j < recording_.tau.cols(); ++j) repair_torque(j);
+    for (Index j = 0; j < recording_.tau.cols(); ++j) {
+      repair_held("tau", recording_.tau, j);
+      repair_torque(j);
+    }
+    for (Index j = 0; j < recording_.dq.cols(); ++j) repair_held("qd", recording_.dq, j);
+    for (Index j = 0; j < recording_.ddq.cols(); ++j) repair_held("qdd", recording_.ddq, j);
     judge_jumps();
     take_out();
   }
@@ -67,7 +73,7 @@ class SignalRepair {
   [[nodiscard]] Index count(std::size_t run) const { return run_end(recording_, run) - first(run); }
 
   void tell(Index row, const std::string& message) {
-    notices_.push_back({recording_.file_name, line(row), 0, message});
+    notices_.push_back({recording_.file_name, line(row), 0, message, recording_.place_word});
   }
 
   /// A step that is small for the column; of a coarse encoder, its count.
@@ -121,6 +127,28 @@ class SignalRepair {
     tell_stuck(fmt::format("tau{} is one number while the joint moves", j + 1), stuck);
   }
 
+  /// A column that is slower than the rows: zeros or repetitions between its values.
+  void repair_held(const char* name, Eigen::MatrixXd& matrix, Index j) {
+    std::size_t longest = 0;
+    for (std::size_t run = 1; run < runs(); ++run) {
+      if (count(run) > count(longest)) longest = run;
+    }
+    const HeldColumn held = find_held(matrix.col(j).segment(first(longest), count(longest)));
+    if (held.period < 2) return;
+    for (std::size_t run = 0; run < runs(); ++run) {
+      fill_held(recording_.time.segment(first(run), count(run)), held,
+                matrix.col(j).segment(first(run), count(run)));
+    }
+    tell(first(longest),
+         held.pulsed
+             ? fmt::format("{}{} has a value every {} samples only, and 0 between them: its source "
+                           "is slower; interpolated between the values",
+                           name, j + 1, held.period)
+             : fmt::format("{}{} changes every {} samples only, and is held between: its source "
+                           "is slower; interpolated between the changes",
+                           name, j + 1, held.period));
+  }
+
   static std::string times_in_all(Index count) {
     return count > 1 ? fmt::format(" ({} such jumps in all)", count) : std::string();
   }
@@ -166,8 +194,8 @@ class SignalRepair {
           one.count == 1 ? "interpolated" : fmt::format("{} samples interpolated", one.count));
     }
     if (glitches.size() > 1) {
-      message += fmt::format(" ({} such in all, the last in line {})", glitches.size(),
-                             line(glitches.back().first));
+      message += fmt::format(" ({} such in all, the last in {} {})", glitches.size(),
+                             recording_.place_word, line(glitches.back().first));
     }
     tell(one.first, message);
   }
@@ -190,8 +218,8 @@ class SignalRepair {
     std::string message = fmt::format("{}: {:.3g} s; {}, and a new run begins after them", what,
                                       duration, left_out(one.count));
     if (stuck.size() > 1) {
-      message += fmt::format(" ({} such in all with {} rows, the last in line {})", stuck.size(),
-                             rows, line(stuck.back().first));
+      message += fmt::format(" ({} such in all with {} rows, the last in {} {})", stuck.size(),
+                             rows, recording_.place_word, line(stuck.back().first));
     }
     tell(one.first, message);
     first_stuck_ = std::min(first_stuck_, line(one.first));
@@ -295,8 +323,7 @@ void SignalRepair::take_out() {
   }
   if (kept.empty()) refuse("found no run that is left where no column is stuck");
   recording_.time = recording_.time(kept).eval();
-  for (const auto part : {&Recording::q, &Recording::tau, &Recording::dq, &Recording::ddq,
-                          &Recording::tau_sim, &Recording::temperature}) {
+  for (const auto part : kRecordingParts) {
     Eigen::MatrixXd& matrix = recording_.*part;
     if (matrix.cols() > 0) matrix = matrix(kept, Eigen::all).eval();
   }

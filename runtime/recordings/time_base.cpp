@@ -184,7 +184,7 @@ Recording resample(const Recording& recording, double sample_time) {
       }
     }
   };
-  for (const auto part : {&Recording::q, &Recording::dq, &Recording::ddq}) {
+  for (const auto part : {&Recording::q, &Recording::dq, &Recording::ddq, &Recording::q_link}) {
     interpolate(part, interpolate_spline);
   }
   for (const auto part : {&Recording::tau, &Recording::tau_sim, &Recording::temperature}) {

@@ -22,8 +22,39 @@ double median(std::array<double, TimeRepair::kLookAhead>& values, std::size_t co
 
 }  // namespace
 
-TimeRepair::TimeRepair(std::size_t width, BadValueRepair& next, NoticeLog& log)
-    : width_(width), next_(&next), log_(&log), ahead_(width), last_(width) {}
+TimeRepair::TimeRepair(std::size_t width, BadValueRepair& next, NoticeLog& log, bool spread_stamps)
+    : width_(width),
+      next_(&next),
+      log_(&log),
+      spread_stamps_(spread_stamps),
+      ahead_(width),
+      last_(width) {}
+
+/// Rows at the front that share a stamp get times of their own, up to the next stamp.
+void TimeRepair::spread_front() {
+  const double stamp = ahead_.time(0);
+  std::size_t count = 1;
+  while (count < ahead_.size() && ahead_.time(count) == stamp &&
+         ahead_.info(count).segment == ahead_.info(0).segment) {
+    ++count;
+  }
+  if (count < 2) return;
+  double step = usual_step_ < kUnknown ? usual_step_ : 0;
+  const bool has_next = count < ahead_.size() &&
+                        ahead_.info(count).segment == ahead_.info(0).segment &&
+                        ahead_.time(count) > stamp;
+  if (has_next) {
+    const double to_next = ahead_.time(count) - stamp;
+    step = step > 0 ? std::min(step, to_next) : to_next;  // a gap is no place for rows
+  }
+  log_->add("repeated stamp", ahead_.info(1).line, 0,
+            fmt::format("found time {} {} times, with other values each time; the rows are spread "
+                        "evenly up to the next time",
+                        stamp, count));
+  for (std::size_t i = 1; i < count; ++i) {
+    ahead_.values(i)[0] = stamp + step * static_cast<double>(i) / static_cast<double>(count);
+  }
+}
 
 void TimeRepair::pushed() {
   if (ahead_.size() > kLookAhead) process_front();
@@ -110,6 +141,7 @@ void TimeRepair::process_backward(double step) {
 }
 
 void TimeRepair::process_front() {
+  if (spread_stamps_) spread_front();
   const RowInfo& info = ahead_.info(0);
   const double time = ahead_.time(0);
   const bool new_segment = in_run_ && info.segment != segment_;

@@ -25,7 +25,9 @@ class TimeRepair {
   /// A usual step above this is hardly meant in seconds.
   static constexpr double kSlowStep = 0.5;
 
-  TimeRepair(std::size_t width, BadValueRepair& next, NoticeLog& log);
+  /// @param spread_stamps  rows that share a stamp are spread evenly up to the next one, not left
+  /// out
+  TimeRepair(std::size_t width, BadValueRepair& next, NoticeLog& log, bool spread_stamps = false);
   /// Takes the row that the caller has put last into queue().
   void pushed();
   void finish();
@@ -33,6 +35,7 @@ class TimeRepair {
 
  private:
   void process_front();
+  void spread_front();
   void process_backward(double step);
   void begin_run(const char* why);
   void accept(bool starts_run);
@@ -45,6 +48,7 @@ class TimeRepair {
   std::size_t width_;
   BadValueRepair* next_;
   NoticeLog* log_;
+  bool spread_stamps_;
   RowQueue ahead_;
   std::vector<double> last_;  ///< values of the last row accepted, as they were
   bool in_run_ = false;

@@ -28,11 +28,12 @@ struct Part {
   bool per_joint;
 };
 
-constexpr std::array<Part, 6> kWrittenParts = {{{"q", &Recording::q, true},
+constexpr std::array<Part, 7> kWrittenParts = {{{"q", &Recording::q, true},
                                                 {"tau", &Recording::tau, true},
                                                 {"qd", &Recording::dq, true},
                                                 {"qdd", &Recording::ddq, true},
                                                 {"tausim", &Recording::tau_sim, true},
+                                                {"ql", &Recording::q_link, true},
                                                 {"temp", &Recording::temperature, false}}};
 
 void check(const Recording& recording, const WriteOptions& options) {
@@ -101,8 +102,7 @@ void append_number(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
-void write_rows(const Recording& recording, OutputFile& file) {
-  const bool segments = recording.run_starts.size() > 1;
+std::string header_of(const Recording& recording, bool segments) {
   std::string text = "time";
   for (const Part& part : kWrittenParts) {
     for (Index j = 0; j < (recording.*part.matrix).cols(); ++j) {
@@ -110,7 +110,13 @@ void write_rows(const Recording& recording, OutputFile& file) {
     }
   }
   text += segments ? ",segment\n" : "\n";
+  return text;
+}
 
+/// @param first_run  number of the first row's run, from 0
+void write_rows(const Recording& recording, bool segments, std::size_t first_run,
+                OutputFile& file) {
+  std::string text;
   std::size_t run = 0;
   for (Index k = 0; k < recording.samples(); ++k) {
     append_number(text, recording.time(k));
@@ -124,7 +130,7 @@ void write_rows(const Recording& recording, OutputFile& file) {
     if (segments) {
       while (run < recording.run_starts.size() && recording.run_starts[run] <= k) ++run;
       text += ',';
-      text += std::to_string(run);
+      text += std::to_string(first_run + run);
     }
     text += '\n';
     constexpr std::size_t kWrittenAtOnce = 1 << 18;
@@ -138,22 +144,74 @@ void write_rows(const Recording& recording, OutputFile& file) {
 
 }  // namespace
 
+struct RecordingWriter::State {
+  std::string path, unfinished;
+  bool segments = true;
+  std::optional<OutputFile> file;
+  std::string header;
+  std::size_t runs = 0;  ///< begun so far
+
+  void remove() {
+    file.reset();
+    std::error_code ignored;
+    if (!unfinished.empty()) std::filesystem::remove(unfinished, ignored);
+    unfinished.clear();
+  }
+  /// Does something with the file; what fails takes it away.
+  template <typename Action>
+  void guarded(Action action) {
+    try {
+      action();
+    } catch (const std::runtime_error& error) {
+      remove();
+      throw RecordingError(fmt::format("{}: error: cannot write the file: {}", path, error.what()));
+    }
+  }
+};
+
+RecordingWriter::RecordingWriter(const std::string& path, bool segments)
+    : state_(std::make_unique<State>()) {
+  state_->path = path;
+  state_->segments = segments;
+  state_->unfinished = path + ".part";
+  state_->guarded([&] { state_->file.emplace(state_->unfinished, path.ends_with(".gz")); });
+}
+
+RecordingWriter::~RecordingWriter() { state_->remove(); }
+
+void RecordingWriter::write(const Recording& chunk, bool continues_run, const WriteOptions& options) {
+  check(chunk, options);
+  const std::string header = header_of(chunk, state_->segments);
+  if (!state_->header.empty() && header != state_->header) {
+    throw std::invalid_argument(fmt::format(
+        "RecordingWriter::write(): found columns {} after {}", header, state_->header));
+  }
+  state_->guarded([&] {
+    if (state_->header.empty()) state_->file->write(header);
+    state_->header = header;
+    const bool continues = continues_run && state_->runs > 0;
+    const std::size_t before = state_->runs - (continues ? 1 : 0);
+    write_rows(chunk, state_->segments, before, *state_->file);
+    state_->runs = before + chunk.run_starts.size();
+  });
+}
+
+void RecordingWriter::finish() {
+  state_->guarded([&] {
+    state_->file->close();
+    std::error_code failure;
+    std::filesystem::rename(state_->unfinished, state_->path, failure);
+    if (failure) throw std::runtime_error(failure.message());
+    state_->unfinished.clear();
+  });
+}
+
 void write_recording(const Recording& recording, const std::string& path,
                      const WriteOptions& options) {
   check(recording, options);
-  const std::string unfinished = path + ".part";
-  try {
-    OutputFile file(unfinished, path.ends_with(".gz"));
-    write_rows(recording, file);
-    file.close();
-    std::error_code failure;
-    std::filesystem::rename(unfinished, path, failure);
-    if (failure) throw std::runtime_error(failure.message());
-  } catch (const std::runtime_error& error) {
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw RecordingError(fmt::format("{}: error: cannot write the file: {}", path, error.what()));
-  }
+  RecordingWriter writer(path, recording.run_starts.size() > 1);
+  writer.write(recording, false, options);
+  writer.finish();
 }
 
 }  // namespace dyngen::runtime

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "runtime/recordings/notice.h"
@@ -10,6 +11,30 @@ namespace dyngen::runtime {
 
 struct WriteOptions {
   bool torque_required = true;
+};
+
+/// Writes a recording piece by piece, as write_recording() does.
+class RecordingWriter {
+ public:
+  /// @param segments  with a column `segment`, the number of the run
+  /// @throws RecordingError if the file cannot be written
+  RecordingWriter(const std::string& path, bool segments);
+  /// Takes an unfinished file away.
+  ~RecordingWriter();
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+  /// @param continues_run  its first row follows the last one of the chunk before
+  /// @throws std::invalid_argument if the sizes do not fit together, or other columns came before
+  /// @throws RecordingError
+  void write(const Recording& chunk, bool continues_run, const WriteOptions& options = {});
+
+  /// The file appears at its place. @throws RecordingError
+  void finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 /// Writes a recording as .csv, or as .csv.gz if the name ends in ".gz".

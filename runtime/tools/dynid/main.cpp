@@ -44,6 +44,8 @@ int run(const ToolOptions& options, ProcessGroup& group) {
       return run_atlas(options);
     case Command::kDiagnose:
       return run_diagnose(options);
+    case Command::kImport:
+      return run_import(options);
     case Command::kEffects:
       return run_effects(options.catalogue);
   }

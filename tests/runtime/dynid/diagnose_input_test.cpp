@@ -157,7 +157,7 @@ TEST(UnexplainedMotion, IsWhatAnotherSimulatorLeaves) {
   const std::string path = test::temporary_path("sim.csv");
   write_recording(recording, path);
   try {
-    unexplained_motion(path, recorded_motion());
+    unexplained_motion(recording_file(path), recorded_motion());
     ADD_FAILURE() << "not refused";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("there are no columns tausim1 .. tausim3"),
@@ -166,7 +166,7 @@ TEST(UnexplainedMotion, IsWhatAnotherSimulatorLeaves) {
   }
   recording.tau_sim = 0.75 * recording.tau;
   write_recording(recording, path);
-  unexplained_motion(path, recorded_motion()).pieces([&](const StreamPiece& piece) {
+  unexplained_motion(recording_file(path), recorded_motion()).pieces([&](const StreamPiece& piece) {
     EXPECT_LT((piece.motion.tau - 0.25 * recording.tau).cwiseAbs().maxCoeff(), 1e-9);
   });
 }

@@ -24,6 +24,7 @@
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/arm_drawing.h"
 #include "runtime/tools/dynid/page/page_output.h"
+#include "runtime/tools/dynid/recordings/inputs.h"
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
@@ -39,7 +40,9 @@ struct DiagnosedMotions {
 };
 
 /// How they are read: whole, and without averages, since what drifts is seen between periods.
+/// One that is too long for memory is read by the stretches that say most.
 ToolOptions reading(ToolOptions options) {
+  options.motion.stretches_above = options.motion.stream_above;
   options.motion.stream_above = std::numeric_limits<std::size_t>::max();
   options.motion.average_periods = false;
   return options;
@@ -49,10 +52,11 @@ ToolOptions reading(ToolOptions options) {
 LoadedRecordings load_unexplained(const std::vector<std::string>& paths, const ToolOptions& options,
                                   ProgressLine& progress) {
   LoadedRecordings loaded;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    progress.show("reading " + paths[i], i, paths.size());
+  const std::vector<RecordingInput> inputs = recording_inputs(paths, options);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    progress.show("reading " + inputs[i].name, i, inputs.size());
     ToldRepairs repairs;
-    loaded.sources.push_back(unexplained_motion(paths[i], options.motion, &repairs.notices));
+    loaded.sources.push_back(unexplained_motion(inputs[i], options.motion, &repairs.notices));
     loaded.lines.push_back(describe(loaded.sources.back(), options, false));
   }
   return loaded;
@@ -68,7 +72,8 @@ DiagnosedMotions read_motions(const std::vector<std::string>& paths, const std::
   for (std::size_t i = 0; i < loaded.sources.size(); ++i) {
     motions.sources.push_back(without_effects(loaded.sources[i], known));
     motions.recorded.push_back(loaded.sources[i]);
-    motions.recordings.push_back({loaded.lines[i].name, use, loaded.lines[i].seconds});
+    motions.recordings.push_back({loaded.lines[i].name, use, loaded.lines[i].seconds,
+                                  loaded.lines[i].condition.stretches});
   }
   return motions;
 }

@@ -84,7 +84,7 @@ std::string diagnosis_json(const DiagnosisReport& report) {
                     {"after", number(shift.after)},
                     {"std", number(shift.stddev)}});
   }
-  const Json json = {{"schema", "dynid.diagnosis/1"},
+  Json json = {{"schema", "dynid.diagnosis/1"},
                      {"robot", report.robot},
                      {"joints", report.joints()},
                      {"verdict", verdict_name(diagnosis.verdict)},
@@ -101,6 +101,12 @@ std::string diagnosis_json(const DiagnosisReport& report) {
                      {"next_experiment",
                       {{"purpose", text_or_null(diagnosis.next.purpose)},
                        {"trajectory", text_or_null(report.trajectory)}}}};
+  // recordings that are too long for memory
+  for (const DiagnosedRecording& own : report.recordings) {
+    for (const auto& [from, to] : own.stretches) {
+      json["stretches"].push_back({{"recording", own.name}, {"t_from", from}, {"t_to", to}});
+    }
+  }
   // names come from files: what is not UTF-8 must not stop the answer
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -37,16 +37,16 @@ std::string objection(const EffectInstance& effect, bool open) {
 
 }  // namespace
 
-MotionSource unexplained_motion(const std::string& path, const MotionOptions& options,
+MotionSource unexplained_motion(const RecordingInput& input, const MotionOptions& options,
                                 std::vector<Notice>* repairs) {
   std::vector<Notice> own;
   std::vector<Notice>& told = repairs == nullptr ? own : *repairs;
-  Recording recording = read_recording(path, {}, &told);
+  Recording recording = read_recording(input, {}, &told);
   if (recording.tau_sim.size() == 0) {
     throw std::invalid_argument(fmt::format(
         "{}: there are no columns tausim1 .. tausim{}: --residual-only explains what another "
         "simulator leaves of the recorded torque, and expects that simulator's torques there",
-        path, recording.joints()));
+        input.name, recording.joints()));
   }
   recording.tau -= recording.tau_sim;
   MotionSource source = motion_of(std::move(recording), options);

@@ -14,7 +14,7 @@ namespace dyngen::runtime {
 /// A recording whose torque is what another simulator leaves: tau - tausim.
 /// @param repairs  what was repaired is appended, if not null; also where an error is thrown
 /// @throws RecordingError; std::invalid_argument  if it has no columns tausim
-MotionSource unexplained_motion(const std::string& path, const MotionOptions& options,
+MotionSource unexplained_motion(const RecordingInput& input, const MotionOptions& options,
                                 std::vector<Notice>* repairs = nullptr);
 
 /// Effects that a robot file has already and that are taken off its recordings as they are written.

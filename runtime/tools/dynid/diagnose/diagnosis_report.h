@@ -31,6 +31,8 @@ struct DiagnosedRecording {
   std::string name;
   std::string use;  ///< "fitted", "held out", "reference"
   double seconds = 0;
+  /// Of a recording that is too long for memory: s, first and last sample of what is used.
+  std::vector<std::pair<double, double>> stretches{};
 };
 
 /// A diagnosis with all that its JSON, its page and its text say.

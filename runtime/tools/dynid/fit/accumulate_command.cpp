@@ -7,6 +7,7 @@
 #include "gen/tool/output_files.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/options/commands.h"
+#include "runtime/tools/dynid/recordings/inputs.h"
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 
@@ -33,9 +34,10 @@ int run_accumulate(const ToolOptions& options) {
   RecordingSummary sum = empty_summary(robot.linear.columns, robot.linear.size());
   // one recording in memory at a time
   std::vector<std::string> left_out;
-  for (std::size_t i = 0; i < options.recordings.size(); ++i) {
+  const std::vector<RecordingInput> inputs = recording_inputs(options.recordings, options);
+  for (const RecordingInput& input : inputs) {
     try {
-      LoadedRecordings one = load_recordings({options.recordings[i]}, options, false, progress);
+      LoadedRecordings one = load_recordings(std::vector{input}, options, false, progress);
       LoadedRecordings none;
       settle_cutoff(&robot.linear, one, none, options, progress);
       judge_recordings(robot, one.sources, options, progress);
@@ -46,7 +48,7 @@ int run_accumulate(const ToolOptions& options) {
       std::cerr << left_out.back() << "; it adds nothing\n";
     }
   }
-  if (left_out.size() == options.recordings.size()) {
+  if (left_out.size() == inputs.size()) {
     std::cerr << "dynid: there are no equations to add up; nothing was written\n";
     return kCannotAnswer;
   }

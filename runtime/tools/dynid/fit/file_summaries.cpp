@@ -13,6 +13,7 @@
 #include "runtime/identification/common_cutoff.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/process/message.h"
+#include "runtime/tools/dynid/recordings/inputs.h"
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 
@@ -41,7 +42,7 @@ MotionSource motion_and_warnings(const std::string& path, const ToolOptions& opt
     for (const Notice& notice : repairs) warnings += notice.text() + "\n";
   };
   try {
-    MotionSource source = motion_of_file(path, options.motion, &repairs);
+    MotionSource source = motion_of_input(recording_input(path, options), options.motion, &repairs);
     add();
     return source;
   } catch (...) {

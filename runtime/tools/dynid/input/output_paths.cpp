@@ -36,6 +36,9 @@ std::vector<NamedPath> inputs_of(const ToolOptions& options) {
   if (options.command == Command::kMerge) return {};
   inputs.add("the robot file", options.robot.path);
   inputs.add("a recording", options.recordings);
+  inputs.add("--map", options.map);
+  inputs.add("the map", options.import.map);
+  inputs.add("a log", options.import.logs);
   inputs.add("--list", options.list);
   inputs.add("--holdout", options.heldout);
   inputs.add("--tracked", options.tracked);

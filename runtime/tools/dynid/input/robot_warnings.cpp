@@ -44,6 +44,9 @@ RobotFiles robot_files(const ToolOptions& options) {
     case Command::kDiagnose:
       files.sources.push_back(options.robot.beside(options.diagnose.controller_model));
       break;
+    case Command::kImport:
+      files.effects = false;
+      break;
     case Command::kFit:
     case Command::kAtlas:
       break;

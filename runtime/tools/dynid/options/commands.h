@@ -23,5 +23,7 @@ int run_simulate(const SimulateOptions& options);
 /// them all. @throws FigureError too
 int run_effects(const EffectsOptions& options);
 int run_excite(const ToolOptions& options);
+/// Makes a recording of logs, says what is in them, or writes a map. @throws ImportError too
+int run_import(const ToolOptions& options);
 
 }  // namespace dyngen::runtime

@@ -22,7 +22,8 @@ namespace dyngen::runtime {
 namespace {
 
 constexpr const char* kFooter =
-    "Recordings: CSV or CSV.gz with a header time,q1..qn,tau1..taun (SI units, joint side).\n"
+    "Recordings: CSV or CSV.gz with a header time,q1..qn,tau1..taun (SI units, joint side);\n"
+    "of any other log 'dynid import' makes one, or --map reads it.\n"
     "Exit codes: 0 done, 1 input wrong, 2 usage, part absent, 3 data cannot support the answer.";
 
 const std::map<std::string, StateMethod>& state_methods() {
@@ -80,6 +81,12 @@ void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
   add_as_recorded(command, options);
 }
 
+void add_map(CLI::App& command, ToolOptions& options) {
+  command.add_option("--map", options.map,
+                     "YAML file that makes recordings of logs as they are (see 'dynid import'); a "
+                     "folder stands for the files in it");
+}
+
 void add_recordings(CLI::App& command, ToolOptions& options, const char* text) {
   command.add_option("recordings", options.recordings, text);
   command.add_option("--list", options.list,
@@ -107,6 +114,7 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* fit = tool.add_subcommand("fit", "identify a robot's parameters from recordings");
   add_robot(*fit, options.robot, "robot: its numbers are where the fit begins");
   add_recordings(*fit, options, "recordings, or .qr files of 'dynid accumulate'");
+  add_map(*fit, options);
   fit->add_option("--holdout", options.heldout,
                   "recordings that are not fitted but predicted; may be given again");
   fit->add_option("--holdout-part", options.heldout_part,
@@ -150,6 +158,7 @@ void add_atlas(CLI::App& tool, ToolOptions& options, Words& words) {
       "atlas", "what a refit hides of every effect, and how small it may be to be found");
   add_robot(*atlas, options.robot, "robot; with a trajectory, one with numbers");
   atlas->add_option("recordings", options.recordings, "recordings");
+  add_map(*atlas, options);
   atlas->add_option("--trajectory", options.atlas.trajectory,
                     "a motion that is planned, instead of recordings (CSV)");
   atlas
@@ -171,6 +180,7 @@ void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
       "diagnose", "where model and recordings differ, which physics was left out, and the proof");
   add_robot(*diagnose, options.robot, "robot: its numbers are where the fit begins");
   diagnose->add_option("recordings", options.recordings, "recordings");
+  add_map(*diagnose, options);
   diagnose->add_option("--holdout", options.heldout,
                        "recordings that only prove the answer; may be given again. Else a fifth of "
                        "every recording: the last in which all joints move");
@@ -189,6 +199,7 @@ void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
   add_robot(*check, options.robot, "robot with numbers");
   add_effects(*check, options);
   add_recordings(*check, options, "recordings");
+  add_map(*check, options);
   check->add_option("--json", options.json, "all results for programs");
   add_motion_options(*check, options, words);
 
@@ -196,6 +207,7 @@ void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
       tool.add_subcommand("accumulate", "sum recordings up in a .qr file that merges with others");
   add_robot(*accumulate, options.robot, "robot");
   add_recordings(*accumulate, options, "recordings");
+  add_map(*accumulate, options);
   accumulate->add_option("-o,--output", options.output, "the .qr file")->required();
   accumulate->add_option("--name", options.robot_name,
                          "whose recordings these are; robots of different names stay apart");
@@ -265,6 +277,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   parsed.options.page.command = command_text(argc, argv);
   add_simulate(tool, parsed.options.simulate);
   add_effects(tool, parsed.options.catalogue);
+  add_import(tool, parsed.options.robot, parsed.options.output, parsed.options.import);
   add_excite(tool, parsed.options.robot, parsed.options.output, parsed.options.json,
              parsed.options.page, parsed.options.excite);
   try {
@@ -288,16 +301,18 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                                                    {"excite", Command::kExcite},
                                                    {"atlas", Command::kAtlas},
                                                    {"effects", Command::kEffects},
-                                                   {"diagnose", Command::kDiagnose}};
+                                                   {"diagnose", Command::kDiagnose},
+                                                   {"import", Command::kImport}};
   parsed.options.command = commands.at(name);
   SimulateOptions& simulate = parsed.options.simulate;
   simulate.plant = simulate.robot.beside(simulate.plant.path);
   if (parsed.options.command == Command::kSimulate || parsed.options.command == Command::kEffects) {
     return parsed;
   }
-  const std::string message = parsed.options.command == Command::kExcite
-                                  ? parsed.options.excite.usage_error()
-                                  : understand(words, parsed.options);
+  const std::string message =
+      parsed.options.command == Command::kExcite   ? parsed.options.excite.usage_error()
+      : parsed.options.command == Command::kImport ? parsed.options.import.settle(parsed.options.output)
+                                                   : understand(words, parsed.options);
   if (!message.empty()) parsed.exit_code = usage(message);
   return parsed;
 }

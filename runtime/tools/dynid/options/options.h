@@ -11,6 +11,7 @@
 #include "runtime/tools/dynid/options/diagnose_options.h"
 #include "runtime/tools/dynid/options/effects_options.h"
 #include "runtime/tools/dynid/options/excite_options.h"
+#include "runtime/tools/dynid/options/import_options.h"
 #include "runtime/tools/dynid/options/page_options.h"
 #include "runtime/tools/dynid/options/simulate_options.h"
 
@@ -25,7 +26,8 @@ enum class Command {
   kExcite,
   kAtlas,
   kEffects,
-  kDiagnose
+  kDiagnose,
+  kImport
 };
 
 /// What dynid atlas is asked for besides a robot, recordings and --effects.
@@ -40,6 +42,7 @@ struct ToolOptions {
   Command command = Command::kFit;
   RobotSource robot;
   std::vector<std::string> recordings;  ///< .csv, .csv.gz; of fit also .qr; of merge .qr
+  std::string map;                      ///< that makes recordings of logs; empty: none
   std::string list;                     ///< a file with one more of them per line; empty: none
   std::vector<std::string> heldout;
   double heldout_part = 0;           ///< the last part of every recording is held out: 0 .. 0.9
@@ -62,6 +65,7 @@ struct ToolOptions {
   AtlasOptions atlas;
   DiagnoseOptions diagnose;
   EffectsOptions catalogue;  ///< of dynid effects
+  ImportOptions import;      ///< of dynid import
 };
 
 /// Reads the command line. @return what to do, or the exit code if there is nothing left to do

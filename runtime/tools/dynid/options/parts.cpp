@@ -9,6 +9,7 @@
 
 #include "gen/xml/xml_document.h"
 #include "runtime/estimation/matrix_products.h"
+#include "runtime/import/map_file.h"
 #include "runtime/plots/figure.h"
 #include "runtime/recordings/gzip.h"
 
@@ -59,6 +60,7 @@ void add_common_needs(const ToolOptions& options, Needs& needs) {
   needs.add_robot(options.robot);
   needs.add_files(options.recordings);
   needs.add_files(options.heldout);
+  needs.add_if(!options.map.empty(), Part::kYaml, "--map");
 }
 
 void add_excite_needs(const ToolOptions& options, Needs& needs) {
@@ -103,6 +105,11 @@ Needs needs_of(const ToolOptions& options, int processes) {
       needs.add_files(options.diagnose.reference);
       needs.add_files(options.diagnose.commanded);
       break;
+    case Command::kImport:
+      needs.add_if(!options.import.map.empty(), Part::kYaml, "import");
+      needs.add_files(options.import.logs);
+      needs.add_file(options.output);
+      break;
     case Command::kCheck:
     case Command::kAccumulate:
     case Command::kMerge:
@@ -130,6 +137,7 @@ const std::vector<PartWords>& all_parts() {
       {Part::kBlas, "OpenBLAS", "libopenblas-pthread-dev", "a faster diagnose"},
       {Part::kMpi, "OpenMPI", "libopenmpi-dev", "fit in several processes, by mpirun"},
       {Part::kSqlite, "SQLite", "libsqlite3-dev", "logs of ROS 2 (.db3)"},
+      {Part::kYaml, "yaml-cpp", "libyaml-cpp-dev", "import, --map"},
       {Part::kZlib, "zlib", "zlib1g-dev", "recordings and trajectories as .csv.gz"},
       {Part::kZstd, "zstd", "libzstd-dev", "MCAP files packed with it"}};
   return parts;
@@ -163,6 +171,8 @@ bool has_part(Part part) {
       return DYNGEN_WITH_NLOPT;
     case Part::kSqlite:
       return DYNGEN_WITH_SQLITE;
+    case Part::kYaml:
+      return import_maps_available();
     case Part::kZip:
       return DYNGEN_WITH_ZIP;
     case Part::kZlib:

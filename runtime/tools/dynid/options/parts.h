@@ -24,6 +24,7 @@ enum class Part {
   kMpi,
   kNlopt,
   kSqlite,
+  kYaml,
   kZip,
   kZlib,
   kZstd

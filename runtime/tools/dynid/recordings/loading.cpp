@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "runtime/identification/common_cutoff.h"
+#include "runtime/tools/dynid/recordings/inputs.h"
 
 namespace dyngen::runtime {
 
@@ -36,12 +37,18 @@ RecordingLine describe(const MotionSource& source, const ToolOptions& options, b
 
 LoadedRecordings load_recordings(const std::vector<std::string>& paths, const ToolOptions& options,
                                  bool heldout, ProgressLine& progress) {
+  return load_recordings(recording_inputs(paths, options), options, heldout, progress);
+}
+
+LoadedRecordings load_recordings(const std::vector<RecordingInput>& inputs,
+                                 const ToolOptions& options, bool heldout,
+                                 ProgressLine& progress) {
   LoadedRecordings loaded;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    progress.show("reading " + paths[i], i, paths.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    progress.show("reading " + inputs[i].name, i, inputs.size());
     ToldRepairs repairs;
     try {
-      loaded.sources.push_back(motion_of_file(paths[i], options.motion, &repairs.notices));
+      loaded.sources.push_back(motion_of_input(inputs[i], options.motion, &repairs.notices));
     } catch (const TooLittleDataError& error) {
       loaded.left_out.emplace_back(error.what());
       continue;

@@ -52,6 +52,9 @@ OpenParameters opened_by(const ToolOptions& options);
 LoadedRecordings load_recordings(const std::vector<std::string>& paths, const ToolOptions& options,
                                  bool heldout, ProgressLine& progress);
 
+LoadedRecordings load_recordings(const std::vector<RecordingInput>& inputs,
+                                 const ToolOptions& options, bool heldout, ProgressLine& progress);
+
 /// One cut-off for all: chosen from those that are fitted, with the model where there is one
 /// (common_cutoff()), else by their spectra alone.
 void settle_cutoff(const LinearModel* model, LoadedRecordings& fitted, LoadedRecordings& heldout,

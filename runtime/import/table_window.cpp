@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/import/table_window.h"
+
+#include <algorithm>
+
+namespace dyngen::runtime {
+
+std::size_t TableWindow::keep_column(std::size_t column) {
+  const auto found = std::find(columns_.begin(), columns_.end(), column);
+  const auto kept = static_cast<std::size_t>(found - columns_.begin());
+  if (found == columns_.end()) columns_.push_back(column);
+  return kept;
+}
+
+void TableWindow::append(const LogRows& rows) {
+  const auto count = static_cast<std::size_t>(rows.values.rows());
+  if (head_ > 0 && head_ >= places_.size() - head_) {
+    const auto rows_gone = static_cast<std::ptrdiff_t>(head_);
+    values_.erase(values_.begin(),
+                  values_.begin() + rows_gone * static_cast<std::ptrdiff_t>(columns_.size()));
+    places_.erase(places_.begin(), places_.begin() + rows_gone);
+    head_ = 0;
+  }
+  const std::size_t begin = values_.size();
+  values_.resize(begin + count * columns_.size());
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const auto column = rows.values.col(static_cast<Eigen::Index>(columns_[c]));
+    for (std::size_t k = 0; k < count; ++k) {
+      values_[begin + k * columns_.size() + c] = column[static_cast<Eigen::Index>(k)];
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    places_.push_back(k < rows.places.size() ? rows.places[k] : end() + 1);
+  }
+}
+
+void TableWindow::release(std::size_t row) {
+  row = std::min(row, end());
+  if (row <= first_) return;
+  head_ += row - first_;
+  first_ = row;
+}
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace dyngen::runtime {
+
+/// What dynid import is asked for.
+struct ImportOptions {
+  std::string map;                 ///< YAML; empty with list or guess
+  std::vector<std::string> files;  ///< the map first, unless list or guess; then the logs
+  std::vector<std::string> logs;
+  bool list = false;   ///< say what is in the logs
+  bool guess = false;  ///< write a map
+
+  /// Sorts the files into map and logs. @return a message about wrong usage, or nothing
+  std::string settle(const std::string& output);
+};
+
+/// The command import. Each outlives the tool.
+void add_import(CLI::App& tool, std::string& robot, std::string& output, ImportOptions& options);
+
+}  // namespace dyngen::runtime

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/import/imported_rows.h"
+#include "runtime/recordings/reader.h"
+#include "runtime/tools/dynid/options/options.h"
+
+namespace dyngen::runtime {
+
+/// What a log's map may ask of the robot: how many joints move, and their names.
+/// @param path  of the robot file; empty: nothing is known  @throws ModelError
+ImportedRobot imported_robot(const std::string& path);
+
+/// Recordings of the command line, as they stand or through --map. Every command opens them here.
+/// @throws ImportError, ModelError
+std::vector<RecordingInput> recording_inputs(const std::vector<std::string>& paths,
+                                             const ToolOptions& options);
+
+/// The same of a path that is one recording: a file, or a folder of files that a map joins.
+RecordingInput recording_input(const std::string& path, const ToolOptions& options);
+
+}  // namespace dyngen::runtime

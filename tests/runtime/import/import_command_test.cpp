@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// dynid import and --map as their users call them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "runtime/recordings/reader.h"
+#include "tests/runtime/dynid/run_dynid.h"
+#include "tests/support/shared_data.h"
+
+namespace dyngen::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using ImportJson = nlohmann::json;
+
+const std::string kArm2 =
+    "name arm2\nnumber_link 2\ndh modified\nsigma 0 0\nal pi/2 0\nd 0 0.5\nth 0 0\nr 0 0\n"
+    "m * *\nmX * *\nmY * *\nmZ * *\nXX * *\nXY * *\nXZ * *\nYY * *\nYZ * *\nZZ * *\nIA * *\n"
+    "Fs * *\nFv * *\noff 0 0\ngx 0\ngy 0\ngz 9.81\nstop\n";
+
+/// What each of the cases must find.
+const std::map<std::string, double> kTruth = {
+    {"ZZR1", 1.2404}, {"MXR1", 1.8},  {"MY1", 0.04}, {"FV1", 1.5}, {"FS1", 3.0}, {"ZZ2", 0.0752},
+    {"MX2", 0.3},     {"MY2", -0.02}, {"IA2", 0.2},  {"FV2", 0.8}, {"FS2", 1.5}};
+
+class ImportCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("import_") + std::to_string(getpid()) + "_" +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+    write("arm2.robot", kArm2);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string made(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(made(name)) << text;
+  }
+
+  /// Base parameters within 5 % of the truth, or what else is wrong.
+  void expect_truth(const std::string& arguments) const {
+    const Outcome outcome =
+        dynid("fit " + made("arm2.robot") + " " + arguments + " --json " + made("fit.json"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.out;
+    const ImportJson fit = ImportJson::parse(content(made("fit.json")));
+    std::map<std::string, ImportJson> found;
+    for (const ImportJson& one : fit.at("parameters")) found[one.at("name")] = one;
+    for (const auto& [name, value] : kTruth) {
+      ASSERT_TRUE(found.contains(name)) << name;
+      const double std = found[name].at("std").is_number() ? found[name].at("std").get<double>() : 0;
+      EXPECT_NEAR(found[name].at("value").get<double>(), value,
+                  std::max(0.05 * std::abs(value), 5 * std))
+          << name << "\n" << outcome.out;
+    }
+  }
+
+  /// A case by --map, and by import.
+  void expect_case(const std::string& name) const {
+    const auto log = shared_data("../cases/" + name + "/run.csv.gz");
+    if (!log) GTEST_SKIP() << skip_sentence("../cases/" + name);
+    const std::string map = std::string(DYNGEN_MAPS) + "/" + name + ".yaml";
+    expect_truth(*log + " --map " + map);
+    const Outcome outcome = dynid("import " + map + " " + *log + " -o " + made("run.csv.gz") +
+                                  " --robot " + made("arm2.robot"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.out;
+    EXPECT_THAT(outcome.out, HasSubstr("samples of 2 joints"));
+    expect_truth(made("run.csv.gz"));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(ImportCommand, ReadsATopicWrittenAsCsv) { expect_case("ros_csv"); }
+TEST_F(ImportCommand, ReadsAControllersTrace) { expect_case("controller_trace"); }
+TEST_F(ImportCommand, ReadsAFileWithoutHeader) { expect_case("headerless"); }
+TEST_F(ImportCommand, ReadsARowOfUnits) { expect_case("units_row"); }
+
+/// 4 s of two joints on the motor side, in the units of examples/maps/currents.yaml.
+std::string motor_log(int rows) {
+  std::string text = "t,motor_angle_1,motor_angle_2,motor_current_1,motor_current_2\n";
+  for (int k = 0; k < rows; ++k) {
+    const double t = 0.002 * k;
+    text += std::to_string(2 * k) + "," + std::to_string(101 * 40 * std::sin(3 * t)) + "," +
+            std::to_string(-50 * 30 * std::cos(2 * t)) + "," + std::to_string(std::sin(t)) + "," +
+            std::to_string(2 * std::cos(t)) + "\n";
+  }
+  return text;
+}
+
+TEST_F(ImportCommand, WritesWhatStandsAtTheJoints) {
+  write("log.csv", motor_log(2000));
+  const Outcome outcome = dynid("import " DYNGEN_MAPS "/currents.yaml " + made("log.csv") + " -o " +
+                                made("run.csv"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out;
+  const runtime::Recording run = runtime::read_recording(made("run.csv"));
+  ASSERT_EQ(run.samples(), 2000);
+  const double deg = std::acos(-1) / 180;
+  EXPECT_NEAR(run.q(500, 0), 40 * deg * std::sin(3), 1e-8);
+  EXPECT_NEAR(run.q(500, 1), 30 * deg * std::cos(2), 1e-8);
+  EXPECT_NEAR(run.tau(500, 0), 0.12 * 101 * std::sin(1), 1e-4);
+  EXPECT_NEAR(run.tau(500, 1), 0.055 * -50 * 2 * std::cos(1), 1e-4);
+}
+
+TEST_F(ImportCommand, JoinsFilesOfOneSignalEach) {
+  std::string angles = "t;e1\n", torques = "some program\nt;m1\n";
+  for (int k = 0; k < 1000; ++k) angles += std::to_string(0.001 * k) + ";" + std::to_string(0.01 * k) + "\n";
+  for (int k = 0; k < 500; ++k) torques += std::to_string(0.002 * k) + ";" + std::to_string(0.1 * k) + "\n";
+  fs::create_directories(folder_ / "day");
+  write("day/enc_1.csv", angles);
+  write("day/drive_1.csv", torques);
+  write("map.yaml",
+        "files: {enc: \"enc*.csv\", drive: {name: \"drive*.csv\", skip: 1}}\n"
+        "time: {column: t, unit: s}\n"
+        "position: {columns: e1, unit: rad, file: enc}\n"
+        "torque: {columns: m1, unit: N m, file: drive}\n");
+  for (const std::string& logs : {made("day"), made("day/drive_1.csv") + " " + made("day/enc_1.csv")}) {
+    const Outcome outcome = dynid("import " + made("map.yaml") + " " + logs + " -o " + made("run.csv"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.out;
+    const runtime::Recording run = runtime::read_recording(made("run.csv"));
+    EXPECT_EQ(run.samples(), 999);
+    EXPECT_NEAR(run.tau(501, 0), 25.05, 1e-6);
+  }
+  const Outcome half =
+      dynid("import " + made("map.yaml") + " " + made("day/enc_1.csv") + " -o " + made("x.csv"));
+  EXPECT_EQ(half.exit_code, 1);
+  EXPECT_THAT(half.out, HasSubstr("map.yaml:1:"));
+  EXPECT_THAT(half.out, HasSubstr("found 0 files for 'drive'"));
+}
+
+TEST_F(ImportCommand, SaysWhereTheMapIsWrong) {
+  write("log.csv", motor_log(50));
+  write("map.yaml", "time: {column: t, unit: ms}\nposition: {colums: q, unit: rad}\n");
+  const Outcome outcome =
+      dynid("import " + made("map.yaml") + " " + made("log.csv") + " -o " + made("run.csv"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("map.yaml:2:12: error: unknown key 'colums' in 'position'; did "
+                                     "you mean 'columns'?"));
+  EXPECT_FALSE(fs::exists(made("run.csv")));
+  const Outcome usage = dynid("import " + made("map.yaml") + " " + made("log.csv"));
+  EXPECT_EQ(usage.exit_code, 2);
+  const Outcome same = dynid("import " + made("map.yaml") + " " + made("log.csv") + " -o " + made("log.csv"));
+  EXPECT_EQ(same.exit_code, 2);
+  EXPECT_THAT(same.out, HasSubstr("are the same file"));
+}
+
+TEST_F(ImportCommand, LeavesNoFileWhereALogIsRefused) {
+  write("log.csv", motor_log(50) + "1,2,oops,4,5\n" + "7,8,9,10,11\n");
+  const Outcome outcome = dynid("import " DYNGEN_MAPS "/currents.yaml " + made("log.csv") + " -o " +
+                                made("run.csv"));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
+  EXPECT_FALSE(fs::exists(made("run.csv")));
+  EXPECT_FALSE(fs::exists(made("run.csv.part")));
+}
+
+TEST_F(ImportCommand, ListsAndGuesses) {
+  write("log.csv", motor_log(3000));
+  const Outcome list = dynid("import --list " + made("log.csv"));
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_THAT(list.out, HasSubstr("motor_current_2"));
+  const Outcome guess = dynid("import --guess " + made("log.csv") + " -o " + made("guess.yaml"));
+  EXPECT_EQ(guess.exit_code, 0) << guess.out;
+  EXPECT_THAT(guess.out, HasSubstr("to be answered in the map before it can be used"));
+  const Outcome refused =
+      dynid("import " + made("guess.yaml") + " " + made("log.csv") + " -o " + made("run.csv"));
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.out, HasSubstr("is a question that was not answered"));
+}
+
+TEST_F(ImportCommand, TellsWhatVelocitiesSay) {
+  std::string text = "time,q1,qd1,tau1\n";
+  for (int k = 0; k < 4000; ++k) {
+    const double t = 0.002 * k;
+    text += std::to_string(t) + "," + std::to_string(std::sin(3 * t)) + "," +
+            std::to_string(2 * 3 * std::cos(3 * t)) + "," + std::to_string(std::cos(3 * t)) + "\n";
+  }
+  write("log.csv", text);
+  write("map.yaml",
+        "time: {column: time, unit: s}\nposition: {columns: q1, unit: rad}\n"
+        "velocity: {columns: qd1, unit: rad/s}\ntorque: {columns: tau1, unit: N m}\n");
+  const Outcome outcome =
+      dynid("import " + made("map.yaml") + " " + made("log.csv") + " -o " + made("run.csv"));
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("qd1 is 2 times what q1 and time say"));
+}
+
+}  // namespace
+}  // namespace dyngen::test

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Logs of real robots, each beside the file that was made of it by hand.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "runtime/import/imported_rows.h"
+#include "runtime/import/map_file.h"
+#include "runtime/recordings/reader.h"
+#include "tests/runtime/dynid/run_dynid.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temporary_path.h"
+
+namespace dyngen::test {
+namespace {
+
+using Eigen::Index;
+using runtime::Recording;
+using testing::HasSubstr;
+
+std::string map_of(const std::string& name) { return std::string(DYNGEN_MAPS) + "/" + name + ".yaml"; }
+
+/// As the log has it, rows repaired but no signals.
+Recording imported_log(const std::string& map_name, const std::string& path, int joints) {
+  const auto map = std::make_shared<const runtime::ImportMap>(runtime::read_import_map(map_of(map_name)));
+  runtime::ReadOptions options;
+  options.repair_signals = false;
+  return runtime::read_recording(runtime::imported_recording(map, {{path}}, {joints, {}}), options);
+}
+
+Recording unrepaired(const std::string& path) {
+  runtime::ReadOptions options;
+  options.repair_signals = false;
+  return runtime::read_recording(path, options);
+}
+
+/// The largest difference, as a part of what the digits of the printed one leave open.
+double worst(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double digits) {
+  double most = 0;
+  for (Index j = 0; j < a.cols(); ++j) {
+    for (Index k = 0; k < a.rows(); ++k) {
+      const double step = std::max(std::abs(b(k, j)), 1e-6) * std::pow(10.0, -digits);
+      most = std::max(most, std::abs(a(k, j) - b(k, j)) / step);
+    }
+  }
+  return most;
+}
+
+TEST(ImportedData, MapsHaveFewLines) {
+  for (const auto& entry : std::filesystem::directory_iterator(DYNGEN_MAPS)) {
+    std::ifstream file(entry.path());
+    int lines = 0;
+    for (std::string line; std::getline(file, line);) lines += line.empty() || line[0] == '#' ? 0 : 1;
+    EXPECT_LE(lines, 15) << entry.path();
+    runtime::read_import_map(entry.path().string());
+  }
+}
+
+TEST(ImportedData, Tx40ComesBackFromItsMotors) {
+  const auto path = shared_data("tx40/tx40.csv");
+  if (!path) GTEST_SKIP() << skip_sentence("tx40/tx40.csv");
+  const Recording joints = unrepaired(*path);
+  Eigen::Matrix<double, 6, 6> K = Eigen::Matrix<double, 6, 6>::Zero();
+  K.diagonal() << 32, 32, 45, -48, 45, 32;
+  K(5, 4) = 32;
+  Eigen::RowVectorXd zero(6);
+  const double right = std::acos(-1) / 2;
+  zero << 0, -right, right, 0, 0, 0;
+  const std::string log = temporary_path("tx40_motors.csv");
+  {
+    std::ofstream file(log);
+    file << "t,qm1,qm2,qm3,qm4,qm5,qm6,taum1,taum2,taum3,taum4,taum5,taum6\n";
+    for (Index k = 0; k < 5000; ++k) {
+      const Eigen::VectorXd q = K * (joints.q.row(k) - zero).transpose();
+      const Eigen::VectorXd tau = K.transpose().fullPivLu().solve(joints.tau.row(k).transpose());
+      file << fmt::format("{:.17g},{:.17g},{:.17g}\n", joints.time[k], fmt::join(q, ","),
+                          fmt::join(tau, ","));
+    }
+  }
+  const Recording made = imported_log("tx40", log, 6);
+  ASSERT_EQ(made.samples(), 5000);
+  EXPECT_LT((made.q - joints.q.topRows(5000)).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT((made.tau - joints.tau.topRows(5000)).cwiseAbs().maxCoeff(), 1e-12);
+  std::filesystem::remove(log);
+}
+
+TEST(ImportedData, Kr300IsTheFirstOfItsTrainingFiles) {
+  const auto log = shared_data("kr300/raw_A.mat"), csv = shared_data("kr300/train_1.csv.gz");
+  if (!log || !csv) GTEST_SKIP() << skip_sentence("kr300/raw_A.mat");
+  Recording made;
+  try {
+    made = imported_log("kr300", *log, 6);
+  } catch (const runtime::RecordingError& error) {
+    if (std::string(error.what()).find("built without") != std::string::npos) GTEST_SKIP() << error.what();
+    throw;
+  }
+  const Recording converted = unrepaired(*csv);
+  ASSERT_EQ(made.samples(), converted.samples());
+  EXPECT_LT((made.time - converted.time).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT(worst(made.q, converted.q, 9), 6);
+  EXPECT_LT(worst(made.tau, converted.tau, 9), 6);
+}
+
+TEST(ImportedData, KinovaIsReadAsItWasRecorded) {
+  const auto log = shared_data("kinova_raw/joint_2_trapez.csv.gz");
+  if (!log) GTEST_SKIP() << skip_sentence("kinova_raw/joint_2_trapez.csv.gz");
+  const Recording made = imported_log("kinova", *log, 7);
+  ASSERT_GT(made.samples(), 1000);
+  EXPECT_EQ(made.time[1], 0.001);
+  EXPECT_EQ(made.q(0, 1), -0.523715);
+  EXPECT_EQ(made.dq(1, 1), 0.00192081);
+  EXPECT_EQ(made.tau(0, 1), 18.9779);
+  EXPECT_EQ(made.temperature(0, 6), 38.2653);
+}
+
+TEST(ImportedData, Ur10IsReadFromItsBag) {
+  const auto log = shared_data("ur10_bag/ur10_exciting_trajectory.db3");
+  if (!log) GTEST_SKIP() << skip_sentence("ur10_bag");
+  Recording made;
+  try {
+    made = imported_log("ur10_bag", *log, 6);
+  } catch (const runtime::RecordingError& error) {
+    if (std::string(error.what()).find("built without") != std::string::npos) GTEST_SKIP() << error.what();
+    throw;
+  }
+  EXPECT_EQ(made.samples(), 3441);
+  EXPECT_NEAR(made.time[1] - made.time[0], 0.008, 1e-9);
+  EXPECT_NEAR(made.q(0, 0), 0.619777, 1e-6);
+  EXPECT_NEAR(made.tau(0, 1), -20.64695, 1e-5);
+}
+
+TEST(ImportedData, TorqueOfTheServoIsThatOfItsDutyCycle) {
+  const auto log = shared_data("xl330/raw_one.json"), other = shared_data("xl330/kp400_sin_sin.csv.gz");
+  if (!log || !other) GTEST_SKIP() << skip_sentence("xl330/raw_one.json");
+  const Recording made = imported_log("xl330", *log, 1);
+  std::ifstream file(*log);
+  const auto entries = nlohmann::json::parse(file).at("entries");
+  ASSERT_GT(made.samples(), 1000);
+  for (const Index k : {Index{0}, Index{7}, Index{500}, Index{1000}}) {
+    const auto& entry = entries[static_cast<std::size_t>(k)];
+    const double volts = entry.at("load").get<double>() / 885 * entry.at("input_volts").get<double>();
+    const double tau = 0.463 * (volts - 0.463 * entry.at("speed").get<double>()) / 3.4;
+    EXPECT_NEAR(made.tau(k, 0), tau, 1e-12) << k;
+    EXPECT_EQ(made.q(k, 0), entry.at("position").get<double>());
+  }
+  // the same numbers make the torque of the converted file: 3 of 885 at 7.3 V
+  const Recording converted = unrepaired(*other);
+  EXPECT_NEAR(converted.tau(0, 0), 0.463 * (3.0 / 885 * 7.3 - 0.463 * converted.dq(0, 0)) / 3.4, 1e-10);
+}
+
+/// No word of what is right: by import with its map.
+void expect_no_remark(const std::string& map, const std::string& name) {
+  const auto log = shared_data(name);
+  if (!log) GTEST_SKIP() << skip_sentence(name);
+  const std::string out = temporary_path("quiet.csv");
+  const Outcome outcome = dynid("import " + map_of(map) + " " + *log + " -o " + out);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+  for (const char* word : {"times what", "lags behind", "is ahead of", "does not go", "swapped",
+                           "samples only", "not measured"}) {
+    EXPECT_THAT(outcome.out, testing::Not(HasSubstr(word))) << name;
+  }
+  std::filesystem::remove(out);
+}
+
+TEST(ImportedData, NothingIsSaidOfKinovasVelocities) {
+  expect_no_remark("kinova", "kinova_raw/joint_2_trapez.csv.gz");
+  expect_no_remark("kinova", "kinova_raw/joint_4_trapez.csv.gz");
+  expect_no_remark("kinova", "kinova_raw/RunTrajectory1.csv.gz");
+}
+TEST(ImportedData, NothingIsSaidOfTheServosVelocities) {
+  expect_no_remark("xl330", "xl330/raw_one.json");
+}
+
+}  // namespace
+}  // namespace dyngen::test
