@@ -21,6 +21,18 @@ std::string upper_case(std::string text) {
   return text;
 }
 
+std::string function_macro(const EmitOptions& options) {
+  return upper_case(options.prefix) + "_FUNCTION";
+}
+
+std::string helper_macro(const EmitOptions& options) {
+  return upper_case(options.prefix) + "_HELPER";
+}
+
+std::string table_macro(const EmitOptions& options) {
+  return upper_case(options.prefix) + "_TABLE";
+}
+
 std::string CSpelling::scalar() const {
   return options_.scalar == Scalar::kDouble ? "double" : "float";
 }

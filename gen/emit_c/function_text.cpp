@@ -54,8 +54,12 @@ std::string argument_legend(const CodeModel& code, const FunctionSpec& spec,
   if (name == "chi") return fmt::format("chi[{}] see enum {}_chi", argument.size(), options.prefix);
   if (name == "gravity") return "gravity[3] m/s^2: acceleration of the base, -g, in frame 0";
   if (name == "wrench") {
-    return "wrench[6] N, N m: on the last link, about its origin, in its frame";
+    return fmt::format("wrench[6] N, N m: on {}, about its origin, in its frame",
+                       code.options.wrench_link > 0
+                           ? fmt::format("link {}", code.options.wrench_link)
+                           : "the last link");
   }
+  if (name == "w") return "w[6] N, N m: on the link, about its origin, in the axes of frame 0";
   if (name == "A") {
     return fmt::format("A[{}] weights, {} x {} row-major", argument.size(), argument.rows,
                        argument.columns);
@@ -126,7 +130,8 @@ std::string function_comment(const CodeModel& code, const RobotFunction& functio
 
 std::string signature(const CodeModel& code, const RobotFunction& function,
                       const EmitOptions& options) {
-  std::string text = fmt::format("void {}_{}(", options.prefix, function.name);
+  std::string text =
+      fmt::format("{} void {}_{}(", function_macro(options), options.prefix, function.name);
   bool first = true;
   for (const Argument& argument : arguments(*function.spec, code)) {
     text += (first ? "" : ", ") + declared(argument, argument.name, options);
