@@ -78,7 +78,7 @@ struct CodeModel {
   /// Input w: force and moment about the origin of some link's frame of the file, in the axes of
   /// frame 0; of the functions that give their torque.
   std::array<GiNaC::ex, 6> load;
-  CodeBodies bodies;  ///< see add_bodies()
+  CodeBodies bodies;               ///< see add_bodies()
   std::vector<GiNaC::ex> weights;  ///< with the option weights: A, row-major
   /// Dynamic parameters, then unknown lengths and gravity components, then parameters of effects.
   std::vector<ChiEntry> chi;

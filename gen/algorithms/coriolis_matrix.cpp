@@ -34,9 +34,8 @@ class CoriolisColumns {
     const std::vector<ex> shifts = origin_shifts(code, form);
     const std::vector<LinkInertia> inertia = write_inertia(trace, code, form, shifts);
     frames_ = write_frames(trace, code, shifts);
-    motions_ = write_chain_motion(trace, code, frames_,
-                                  {.velocity = true, .acceleration = false, .gravity = false},
-                                  form);
+    motions_ = write_chain_motion(
+        trace, code, frames_, {.velocity = true, .acceleration = false, .gravity = false}, form);
     bodies_ = write_standing_composites(trace, code, frames_, inertia).in_axis;
     elements_.assign(code.coordinate_names.size() * code.coordinate_names.size(), 0);
   }
@@ -83,8 +82,8 @@ class CoriolisColumns {
     result.f = {-h[1], h[0], 0};
     result.D = {{{-K[1], -K[3], -K[4]}, {K[0], K[1], K[2]}, {0, 0, 0}}};
     result.F = {-w[2] * h[0], -w[2] * h[1], w[0] * h[0] + w[1] * h[1]};
-    result.N = {w[0] * K[1] + w[1] * K[3] + w[2] * K[4],
-                -w[2] * K[2] - w[0] * K[0] - w[1] * K[1], 0};
+    result.N = {w[0] * K[1] + w[1] * K[3] + w[2] * K[4], -w[2] * K[2] - w[0] * K[0] - w[1] * K[1],
+                0};
     return result;
   }
 

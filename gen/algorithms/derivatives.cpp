@@ -142,8 +142,7 @@ class Derivatives {
     Vector3 twice;
     for (std::size_t k = 0; k < 3; ++k) {
       twice[k] = trace_.assign(
-          fmt::format("W2{}{}_{}", k + 1, frame.parallel ? "A" : "L", link.parent),
-          rates_ * W[k]);
+          fmt::format("W2{}{}_{}", k + 1, frame.parallel ? "A" : "L", link.parent), rates_ * W[k]);
     }
     step.V2 = cross(twice, step.P);
     if (link.type == JointType::kPrismatic) {
@@ -164,7 +163,8 @@ class Derivatives {
           write_rigid_body(trace_, {"A", j}, turned(trace_, j, inertia, frame.from_anchor),
                            motions_[at(j)].axis, rates_));
     } else {
-      add(in_link_[at(j)], write_rigid_body(trace_, {"L", j}, inertia, motions_[at(j)].link, rates_));
+      add(in_link_[at(j)],
+          write_rigid_body(trace_, {"L", j}, inertia, motions_[at(j)].link, rates_));
     }
     const MovingBody in_link = assigned(trace_, {"L", j}, in_link_[at(j)]);
     MovingBody body = in_axis_[at(j)];
@@ -342,8 +342,7 @@ void write_derivatives(Trace& trace, const CodeModel& code, const DerivativeOutp
   derivatives.output(outputs);
 }
 
-void write_half_velocity_derivative(Trace& trace, const CodeModel& code,
-                                    const std::string& array) {
+void write_half_velocity_derivative(Trace& trace, const CodeModel& code, const std::string& array) {
   const RneaForm form = plain_form(code);
   Derivatives derivatives(trace, code, form, 1);
   derivatives.write();

@@ -51,11 +51,9 @@ void write_external_torque(Trace& trace, const CodeModel& code, int link) {
       }
     }
     turned[at(j)].force = assign_vector(
-        trace, "F", j,
-        to_child(trace, fmt::format("FA_{}", j), frame.from_anchor, anchor.force));
+        trace, "F", j, to_child(trace, fmt::format("FA_{}", j), frame.from_anchor, anchor.force));
     turned[at(j)].moment = assign_vector(
-        trace, "N", j,
-        to_child(trace, fmt::format("NA_{}", j), frame.from_anchor, anchor.moment));
+        trace, "N", j, to_child(trace, fmt::format("NA_{}", j), frame.from_anchor, anchor.moment));
   }
   trace.section("joint torques");
   for (std::size_t k = 0; k < torque.size(); ++k) {

@@ -41,9 +41,10 @@ std::vector<std::string> other_joints(const RobotModel& a, const RobotModel& b) 
   for (std::size_t i = 0; i < common; ++i) {
     const JointModel &x = a.joint(joints_a[i]), &y = b.joint(joints_b[i]);
     if (x.type == y.type) continue;
-    reasons.push_back(fmt::format("moving joint {} is {} in the first ({}) and {} in the second "
-                                  "({})",
-                                  i + 1, type_word(x.type), x.name, type_word(y.type), y.name));
+    reasons.push_back(
+        fmt::format("moving joint {} is {} in the first ({}) and {} in the second "
+                    "({})",
+                    i + 1, type_word(x.type), x.name, type_word(y.type), y.name));
   }
   const auto rest = [&](const RobotModel& model, const std::vector<int>& joints,
                         const char* which) {
@@ -231,11 +232,12 @@ class Comparer {
   }
 
   void compare_axes() {
-    const std::vector<int> joints_a = moving_joints(a_.model()), joints_b = moving_joints(b_.model());
+    const std::vector<int> joints_a = moving_joints(a_.model()),
+                           joints_b = moving_joints(b_.model());
     for (std::size_t i = 0; i < joints_a.size(); ++i) {
       const bool slides = a_.model().joint(joints_a[i]).type == JointType::kPrismatic;
-      result_.axes.push_back(axis_difference(axis_frames(a_, joints_a[i]),
-                                             axis_frames(b_, joints_b[i]), slides));
+      result_.axes.push_back(
+          axis_difference(axis_frames(a_, joints_a[i]), axis_frames(b_, joints_b[i]), slides));
     }
   }
 

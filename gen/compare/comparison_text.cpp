@@ -16,7 +16,8 @@ std::string short_name(const std::string& name) {
 
 std::string number_list(const std::vector<double>& values) {
   std::string text;
-  for (const double value : values) text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", value);
+  for (const double value : values)
+    text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", value);
   return text;
 }
 
@@ -32,9 +33,10 @@ std::string ranges_text(const JointNames& names, const Comparison& comparison) {
 
 std::string torques_text(const RobotModel& model, const JointNames& names,
                          const Comparison& comparison) {
-  std::string text = fmt::format("\nLargest torque difference of each joint\n{:<16}{:>12}{:>5}"
-                                 "{:>13}{:>15}{:>15}\n",
-                                 "", "difference", "", "of largest", "first", "second");
+  std::string text = fmt::format(
+      "\nLargest torque difference of each joint\n{:<16}{:>12}{:>5}"
+      "{:>13}{:>15}{:>15}\n",
+      "", "difference", "", "of largest", "first", "second");
   std::vector<bool> slides;
   for (const JointModel& joint : model.joints) {
     if (joint.coordinate >= 0) slides.push_back(joint.type == JointType::kPrismatic);

@@ -12,7 +12,8 @@ namespace {
 
 struct Helper {
   const char* call;
-  const char* text;  ///< {0} is the scalar, {1} the prefix, {2} "f" for float, {3} the macro of helpers
+  const char*
+      text;  ///< {0} is the scalar, {1} the prefix, {2} "f" for float, {3} the macro of helpers
 };
 
 constexpr std::array<Helper, 5> kHelpers = {{

@@ -36,8 +36,8 @@ std::string banner(const CodeModel& code) {
 
 std::string name_table(const std::string& name, const std::vector<std::string>& names,
                        const EmitOptions& options) {
-  std::string text =
-      fmt::format("{} const char *const {}_{}[] = {{\n", table_macro(options), options.prefix, name);
+  std::string text = fmt::format("{} const char *const {}_{}[] = {{\n", table_macro(options),
+                                 options.prefix, name);
   for (const std::string& entry : names) text += fmt::format("    \"{}\",\n", entry);
   return text + "    0};\n";
 }
@@ -81,9 +81,8 @@ std::string folded_enum(const CodeModel& code, const EmitOptions& options) {
 
 std::string chi_values(const CodeModel& code, const EmitOptions& options) {
   const CSpelling spelling(options, code.inputs);
-  std::string text =
-      fmt::format("{} const {} {}_chi_values[] = {{\n", table_macro(options), spelling.scalar(),
-                  options.prefix);
+  std::string text = fmt::format("{} const {} {}_chi_values[] = {{\n", table_macro(options),
+                                 spelling.scalar(), options.prefix);
   if (code.chi.empty()) text += "    0, /* there are none */\n";
   for (const ChiEntry& entry : code.chi) {
     const std::string value =
@@ -102,7 +101,8 @@ constexpr const char* kFunctionMacro = R"(
 #endif
 )";
 
-constexpr const char* kHelperMacros = R"(/* Stands before the functions that only those of the header call. */
+constexpr const char* kHelperMacros =
+    R"(/* Stands before the functions that only those of the header call. */
 #ifndef {0}_HELPER
 #if defined(__CUDACC__) || defined(__HIPCC__)
 #define {0}_HELPER static __host__ __device__

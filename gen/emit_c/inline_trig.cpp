@@ -238,8 +238,8 @@ std::string sincos_function(const EmitOptions& options, std::size_t count) {
     values += (i > 0 ? ", " : "") + fmt::format("x{}", i);
   }
   std::string text = wrap_arguments(
-      fmt::format("{0}_HELPER {0}_NOINLINE void {1}_sincos{2}({3}{1}_pack *s, {1}_pack *c) {{\n", upper,
-                  prefix, count, parameters));
+      fmt::format("{0}_HELPER {0}_NOINLINE void {1}_sincos{2}({3}{1}_pack *s, {1}_pack *c) {{\n",
+                  upper, prefix, count, parameters));
   text += fmt::format("  const {} x[{}] = {{{}}};\n  int i;\n", type, count, values);
   text += fmt::format("#ifdef {}_INLINE_TRIG\n  if ({} < 1e10) {{\n", upper, squares(0, count));
   text += fmt::format("#if {}_PACK == 8\n{}", upper, kernel_calls(prefix, count, 8));

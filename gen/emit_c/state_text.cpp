@@ -12,7 +12,8 @@ namespace {
 
 std::string reset_signature(const EmitOptions& options) {
   return fmt::format("{2} void {0}_reset({0}_state *s, {1} dt)", options.prefix,
-                     options.scalar == Scalar::kDouble ? "double" : "float", function_macro(options));
+                     options.scalar == Scalar::kDouble ? "double" : "float",
+                     function_macro(options));
 }
 
 std::string reset_comment(const EmitOptions& options) {

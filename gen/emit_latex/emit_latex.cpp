@@ -74,9 +74,10 @@ std::string joints_table(const RobotModel& model) {
   const auto component = [&](std::size_t k, const char* name) {
     return latex_length(model.gravity[k], name);
   };
-  return text + fmt::format("The acceleration of the base in frame 0, which stands for gravity, is "
-                            "$({}, {}, {})$ m/s$^2$.\n\n",
-                            component(0, "gx"), component(1, "gy"), component(2, "gz"));
+  return text + fmt::format(
+                    "The acceleration of the base in frame 0, which stands for gravity, is "
+                    "$({}, {}, {})$ m/s$^2$.\n\n",
+                    component(0, "gx"), component(1, "gy"), component(2, "gz"));
 }
 
 /// Equations in groups that TeX can hold.
@@ -106,10 +107,11 @@ class Equations {
 };
 
 std::string parameters_text(const RobotModel& model, const BaseFormulas& formulas) {
-  std::string text = fmt::format("\\section*{{Base parameters}}\n"
-                                 "The torque depends on {} combinations of the parameters of links "
-                                 "and drives.\n",
-                                 formulas.parameters.size());
+  std::string text = fmt::format(
+      "\\section*{{Base parameters}}\n"
+      "The torque depends on {} combinations of the parameters of links "
+      "and drives.\n",
+      formulas.parameters.size());
   if (model.parameters == ParameterMeaning::kBase) {
     text += "The numbers of the robot file are base parameters themselves.\n";
   }
@@ -120,8 +122,9 @@ std::string parameters_text(const RobotModel& model, const BaseFormulas& formula
     }
   }
   if (!formulas.symbolic) {
-    text += "The lengths of this arm are special: with others the set would be larger. The formulas "
-            "hold for these lengths, in numbers.\n";
+    text +=
+        "The lengths of this arm are special: with others the set would be larger. The formulas "
+        "hold for these lengths, in numbers.\n";
   }
   std::string lengths;
   for (const FormulaLength& length : formulas.lengths) {
@@ -177,8 +180,9 @@ std::string program_text(const RobotModel& model, const RobotFunction& id) {
       "recursion as its indices; one that begins with $m$ is minus the quantity.\n\n",
       count.multiplications, count.additions);
   if (model.convention == DhConvention::kStandard) {
-    text += "The program is written in the modified (proximal) frames of the same arm: its lengths "
-            "are those below.\n\n";
+    text +=
+        "The program is written in the modified (proximal) frames of the same arm: its lengths "
+        "are those below.\n\n";
   }
   text += numbers_text(trace, spelling);
   Equations equations(text);
@@ -195,12 +199,12 @@ std::string program_text(const RobotModel& model, const RobotFunction& id) {
   equations.close();
   text += "\\noindent joint torques\n";
   for (const Output& output : trace.outputs()) {
-    equations.add(output.array == "tau"
-                      ? fmt::format("\\tau_{{{}}}", output.index + 1)
-                      : fmt::format("\\mathit{{{}}}_{{{}}}^{{+}}",
-                                    output.array.substr(output.array.rfind('>') + 1),
-                                    output.index + 1),
-                  spelling.terms(output.value));
+    equations.add(
+        output.array == "tau"
+            ? fmt::format("\\tau_{{{}}}", output.index + 1)
+            : fmt::format("\\mathit{{{}}}_{{{}}}^{{+}}",
+                          output.array.substr(output.array.rfind('>') + 1), output.index + 1),
+        spelling.terms(output.value));
   }
   equations.close();
   return text;

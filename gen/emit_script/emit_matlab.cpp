@@ -107,18 +107,18 @@ std::string matlab_function(const CodeModel& code, const RobotFunction& function
                       : fmt::format("  {} = zeros({}, N);\n", array, rows);
     for (const Output& element : function.trace.outputs()) {
       if (element.array != output.array) continue;
-      const std::string place = matrix ? fmt::format("{}, {}", element.index / columns + 1,
-                                                     element.index % columns + 1)
-                                       : fmt::format("{}", element.index + 1);
-      results += wrap_script(fmt::format("  {}({}, :) = {};", array, place,
-                                         body.expression(element.value)),
-                             "      ", " ...");
+      const std::string place =
+          matrix ? fmt::format("{}, {}", element.index / columns + 1, element.index % columns + 1)
+                 : fmt::format("{}", element.index + 1);
+      results += wrap_script(
+          fmt::format("  {}({}, :) = {};", array, place, body.expression(element.value)), "      ",
+          " ...");
     }
   }
   if (outputs > 1) returned = "[" + returned + "]";
-  std::string text = "\n" + wrap_script(fmt::format("function {} = f_{}({})", returned,
-                                                    function.name, parameters),
-                                        "    ", " ...");
+  std::string text =
+      "\n" + wrap_script(fmt::format("function {} = f_{}({})", returned, function.name, parameters),
+                         "    ", " ...");
   text += script_comment(summary_text(code, function), "% ") + script_comment(shapes, "% ");
   text += checks;
   text += sizes.empty() ? "  N = 1;\n" : fmt::format("  N = max([{}]);\n", sizes.substr(2));
@@ -127,15 +127,14 @@ std::string matlab_function(const CodeModel& code, const RobotFunction& function
 
 std::string name_rule(const std::string& name, bool python) {
   static constexpr std::array<std::string_view, 20> kMatlabWords = {
-      "break", "case", "catch",      "classdef", "continue", "else",   "elseif",
-      "end",   "for",  "function",   "global",   "if",       "otherwise",
-      "parfor", "persistent", "return", "spmd",  "switch",   "try",    "while"};
+      "break",      "case",   "catch",    "classdef", "continue", "else",      "elseif",
+      "end",        "for",    "function", "global",   "if",       "otherwise", "parfor",
+      "persistent", "return", "spmd",     "switch",   "try",      "while"};
   static constexpr std::array<std::string_view, 35> kPythonWords = {
-      "False",  "None",     "True",  "and",    "as",     "assert", "async",
-      "await",  "break",    "class", "continue", "def",  "del",    "elif",
-      "else",   "except",   "finally", "for",  "from",   "global", "if",
-      "import", "in",       "is",    "lambda", "nonlocal", "not",  "or",
-      "pass",   "raise",    "return", "try",   "while",  "with",   "yield"};
+      "False", "None",     "True",  "and",    "as",   "assert", "async",  "await",    "break",
+      "class", "continue", "def",   "del",    "elif", "else",   "except", "finally",  "for",
+      "from",  "global",   "if",    "import", "in",   "is",     "lambda", "nonlocal", "not",
+      "or",    "pass",     "raise", "return", "try",  "while",  "with",   "yield"};
   const bool taken =
       python ? std::find(kPythonWords.begin(), kPythonWords.end(), name) != kPythonWords.end()
              : std::find(kMatlabWords.begin(), kMatlabWords.end(), name) != kMatlabWords.end();

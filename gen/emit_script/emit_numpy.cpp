@@ -118,10 +118,9 @@ std::string python_function(const CodeModel& code, const RobotFunction& function
   for (const OutputSpec& output : function.spec->outputs) {
     const std::string shape = output_shape(output, code);
     shapes += fmt::format("{}{} {}", results.empty() ? " -> " : ", ", output.array, shape);
-    std::vector<std::string> values(
-        static_cast<std::size_t>(extent_size(output.rows, code) *
-                                 extent_size(output.columns, code)),
-        "0.0");
+    std::vector<std::string> values(static_cast<std::size_t>(extent_size(output.rows, code) *
+                                                             extent_size(output.columns, code)),
+                                    "0.0");
     for (const Output& element : function.trace.outputs()) {
       if (element.array != output.array) continue;
       values[static_cast<std::size_t>(element.index)] = body.expression(element.value);
@@ -129,12 +128,13 @@ std::string python_function(const CodeModel& code, const RobotFunction& function
     std::string list;
     for (const std::string& value : values) list += (list.empty() ? "" : ", ") + value;
     const std::string array(output.array);
-    results += wrap_script(fmt::format("    {}_out = _stacked({}, [{}]{})", array, shape, list,
-                                       samples),
-                           "        ", "");
+    results +=
+        wrap_script(fmt::format("    {}_out = _stacked({}, [{}]{})", array, shape, list, samples),
+                    "        ", "");
     returned += (returned.empty() ? "" : ", ") + array + "_out";
   }
-  std::string text = wrap_script(fmt::format("\n\ndef {}({}):", function.name, parameters), "    ", "");
+  std::string text =
+      wrap_script(fmt::format("\n\ndef {}({}):", function.name, parameters), "    ", "");
   text += script_comment("\"\"\"" + summary_text(code, function), "    ");
   text += "\n" + script_comment(shapes, "    ") + "    \"\"\"\n";
   return text + checks + body.text("    ") + results + "    return " + returned + "\n";

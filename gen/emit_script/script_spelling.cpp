@@ -55,8 +55,8 @@ std::string ScriptBody::joined(const Form& form) const {
     if (sum && i > 0) text += form.negative[i] ? " - " : " + ";
     if (sum && i == 0 && form.negative[0]) text += "-";
     if (!sum && i > 0) text += quotient ? language_.divide : language_.multiply;
-    const bool brackets = part.kind == Form::Kind::kSum ||
-                          (quotient && i > 0 && part.kind == Form::Kind::kProduct);
+    const bool brackets =
+        part.kind == Form::Kind::kSum || (quotient && i > 0 && part.kind == Form::Kind::kProduct);
     text += brackets ? "(" + this->form(part) + ")" : this->form(part);
   }
   return text;
@@ -89,14 +89,14 @@ std::string ScriptBody::text(const std::string& indent) const {
   std::string text;
   const auto add_constants = [&](const SymbolTable& table) {
     for (const SymbolInfo& info : table.own()) {
-      const bool used = info.kind == SymbolKind::kConstant &&
-                        read_.contains(trace_.symbols().place(info.symbol));
+      const bool used =
+          info.kind == SymbolKind::kConstant && read_.contains(trace_.symbols().place(info.symbol));
       if (!used) continue;
       std::string comment = info.unit;
       const std::string origin = info.comment.starts_with("=") ? "grouped" : info.comment;
       if (!origin.empty()) comment += (comment.empty() ? "" : ", ") + origin;
-      text += fmt::format("{}{} = {}{}{}\n", indent, name(info.symbol), shortest_decimal(info.value),
-                          language_.end_of_statement,
+      text += fmt::format("{}{} = {}{}{}\n", indent, name(info.symbol),
+                          shortest_decimal(info.value), language_.end_of_statement,
                           comment.empty() ? "" : "  " + language_.comment + comment);
     }
   };

@@ -17,11 +17,11 @@ namespace dyngen {
 /// How a language without declarations spells a program. Values are numbers or arrays of one number
 /// per sample.
 struct ScriptLanguage {
-  std::string multiply, divide;                           ///< of elements: " * ", " ./ "
-  std::string comment;                                    ///< begins one: "# "
-  std::string continued;                                  ///< ends a line that goes on
-  std::string end_of_statement;                           ///< ";" or nothing
-  std::size_t most_letters = 0;                           ///< of a name
+  std::string multiply, divide;                              ///< of elements: " * ", " ./ "
+  std::string comment;                                       ///< begins one: "# "
+  std::string continued;                                     ///< ends a line that goes on
+  std::string end_of_statement;                              ///< ";" or nothing
+  std::size_t most_letters = 0;                              ///< of a name
   std::function<std::string(const Argument&, int)> element;  ///< "q[2]", "q(3, :)"
   std::map<std::string, std::string> calls;  ///< by their names in a Form; others are themselves
 };

@@ -90,13 +90,15 @@ double without_minus_zero(double value, int digits) {
 
 std::string pose_table(RobotNumbers& robot, const MotionArrays& motion) {
   constexpr int kDigits = 6, kMatrixDigits = 9;
-  std::string text = fmt::format("\nFrames of the links in frame 0 (m; fixed angles about x, y, z in rad)\n"
-                                 "{:<14}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}\n", "", "x", "y", "z",
-                                 "roll", "pitch", "yaw");
+  std::string text = fmt::format(
+      "\nFrames of the links in frame 0 (m; fixed angles about x, y, z in rad)\n"
+      "{:<14}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}\n",
+      "", "x", "y", "z", "roll", "pitch", "yaw");
   std::vector<double> last;
   for (int j = 1; j <= robot.model().size(); ++j) {
     last = robot.run(fmt::format("fk_{}", j), motion);
-    text += fmt::format("{:<14}", cut_name(fmt::format("{} {}", j, robot.model().joint(j).name), 13));
+    text +=
+        fmt::format("{:<14}", cut_name(fmt::format("{} {}", j, robot.model().joint(j).name), 13));
     for (const std::size_t k : {3U, 7U, 11U}) {
       text += fmt::format("{:>11.6f}", without_minus_zero(last[k], kDigits));
     }
@@ -119,8 +121,8 @@ struct TorqueParts {
   std::vector<TableRow> rows;  ///< the total first
 };
 
-TorqueParts torque_parts(RobotNumbers& robot, const StateRequest& state,
-                         const MotionArrays& motion, const std::vector<double>& M) {
+TorqueParts torque_parts(RobotNumbers& robot, const StateRequest& state, const MotionArrays& motion,
+                         const std::vector<double>& M) {
   const std::size_t n = robot.joints();
   const std::vector<double> zero(n, 0.0);
   TorqueParts parts;

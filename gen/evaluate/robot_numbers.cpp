@@ -58,9 +58,9 @@ std::vector<GivenValue> insert_given(RobotModel& model, const std::vector<GivenV
       continue;
     }
     if (!found->quantity->unknown) {
-      throw ModelError(
-          fmt::format("--eval: error: {} is known: {} gives it as {}; only what is unknown ('*') may be given",
-                      found->name, model.file_name, to_double(found->quantity->value)));
+      throw ModelError(fmt::format(
+          "--eval: error: {} is known: {} gives it as {}; only what is unknown ('*') may be given",
+          found->name, model.file_name, to_double(found->quantity->value)));
     }
     found->quantity->value = value.value;
     found->quantity->unknown = false;
@@ -105,7 +105,7 @@ RobotNumbers::RobotNumbers(const RobotModel& model, const GeneratorOptions& opti
     if (found != others.end()) used[static_cast<std::size_t>(found - others.begin())] = true;
     const bool of_file = std::find(unknown.begin(), unknown.end(), entry.name) != unknown.end();
     if (!entry.value && found == others.end() && !of_file) unknown.push_back(entry.name);
-    chi_.push_back(entry.value              ? to_double(*entry.value)
+    chi_.push_back(entry.value             ? to_double(*entry.value)
                    : found != others.end() ? to_double(found->value)
                                            : 0.0);
   }
@@ -145,8 +145,8 @@ std::vector<double> RobotNumbers::run(const std::string& function, const MotionA
   // a period that no rate reads, since the step is 0
   const std::vector<double> period(n, 1.0);
   const std::vector<InputArray> inputs = {
-      {"q", motion.q},      {"dq", motion.dq},   {"ddq", motion.ddq},   {"chi", chi_},
-      {kStateArray, z},     {kLastArray, last},  {kStepArray, step},    {kPeriodArray, period}};
+      {"q", motion.q},  {"dq", motion.dq},  {"ddq", motion.ddq}, {"chi", chi_},
+      {kStateArray, z}, {kLastArray, last}, {kStepArray, step},  {kPeriodArray, period}};
   std::vector<double> z_after = z, last_after = last, step_after = step;
   std::vector<OutputArray> outputs = {
       {kStateArray, z_after}, {kLastArray, last_after}, {kStepArray, step_after}};

@@ -100,8 +100,8 @@ struct Argument {
 /// True if the function has the argument s: effects with states are in it. It has no batch then.
 bool has_state(const FunctionSpec& spec, const CodeModel& code);
 
-/// The arguments in the order of the C function: s, q, dq, ddq or tau, A, w, gravity, wrench, payload,
-/// chi (or folded), outputs. The one definition of a function's signature.
+/// The arguments in the order of the C function: s, q, dq, ddq or tau, A, w, gravity, wrench,
+/// payload, chi (or folded), outputs. The one definition of a function's signature.
 std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code);
 
 /// The same function over many samples, structure of arrays: the name with this ending.

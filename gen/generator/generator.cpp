@@ -196,8 +196,7 @@ CText generate(const RobotModel& model, const GeneratorOptions& options) {
 }
 
 CText generated_text(const RobotModel& model, const CodeModel& code,
-                     const std::vector<RobotFunction>& functions,
-                     const GeneratorOptions& options) {
+                     const std::vector<RobotFunction>& functions, const GeneratorOptions& options) {
   EmitOptions emit;
   emit.prefix = options.prefix.empty() ? model.name : options.prefix;
   emit.scalar = options.scalar;

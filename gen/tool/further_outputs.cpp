@@ -55,8 +55,8 @@ OutputFile latex_file(const ToolOptions& options, const RobotModel& model) {
   CodeModel code = make_code_model(model, own);
   const std::vector<RobotFunction> functions = write_functions(code, own);
   const SymbolicRobot robot = make_symbolic(model);
-  return {options.latex, emit_latex(model, code, functions.front(),
-                                    base_formulas(model, robot, regroup(robot)))};
+  return {options.latex,
+          emit_latex(model, code, functions.front(), base_formulas(model, robot, regroup(robot)))};
 }
 
 std::string evaluated(const ToolOptions& options, const RobotModel& model, const RobotFile& file) {

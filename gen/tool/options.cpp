@@ -203,10 +203,11 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--drawing", options.drawing,
                  "Draw the arm and the frames of its links (.svg), at zero or what is stated there")
       ->type_name("FILE");
-  app.add_option("--eval", options.eval,
-                 "Print torque and its parts, poses and mass matrix at q=..., and dq=... ddq=... (0 "
-                 "where left out): values for the moving joints, commas between, expressions as in "
-                 "robot files; XX2=... gives a number that the file leaves unknown")
+  app.add_option(
+         "--eval", options.eval,
+         "Print torque and its parts, poses and mass matrix at q=..., and dq=... ddq=... (0 "
+         "where left out): values for the moving joints, commas between, expressions as in "
+         "robot files; XX2=... gives a number that the file leaves unknown")
       ->type_name("q=Q,...");
   app.add_option("--compare", options.compare,
                  "Print where the robot of another file differs: torque, its parts, joint axes")

@@ -13,14 +13,14 @@ inline constexpr int kDone = 0, kInputWrong = 1, kUsage = 2, kOurBug = 70;
 
 /// The command line of dyngen.
 struct ToolOptions {
-  std::string robot;    ///< path of the robot file
-  std::string output;   ///< the C or C++ source; its header stands beside it; empty: none
-  std::string depfile;  ///< empty: none
-  std::string drawing;  ///< the arm's picture, SVG; empty: none
-  std::string latex;    ///< the equations; empty: none
-  std::string numpy;    ///< the functions as a Python module; empty: none
-  std::string matlab;   ///< the functions as a MATLAB function file; empty: none
-  std::string compare;  ///< another robot file; empty: none
+  std::string robot;              ///< path of the robot file
+  std::string output;             ///< the C or C++ source; its header stands beside it; empty: none
+  std::string depfile;            ///< empty: none
+  std::string drawing;            ///< the arm's picture, SVG; empty: none
+  std::string latex;              ///< the equations; empty: none
+  std::string numpy;              ///< the functions as a Python module; empty: none
+  std::string matlab;             ///< the functions as a MATLAB function file; empty: none
+  std::string compare;            ///< another robot file; empty: none
   std::vector<std::string> eval;  ///< words of a state; empty: none is evaluated
   std::string wrench;             ///< the link of the argument wrench as it was written
   std::vector<std::string> effect_folders;  ///< in the order of the command line

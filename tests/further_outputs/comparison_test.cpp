@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // --compare: what is the same is said to be, and what differs is found by its name.
+#include "gen/compare/comparison.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <sstream>
 
-#include "gen/compare/comparison.h"
 #include "tests/support/body_robots.h"
 #include "tests/support/model_bridge.h"
 
@@ -39,7 +40,8 @@ TEST(Comparison, OfARobotWithItselfFindsNothing) {
     const ComparedRobot robot = file_robot(path);
     const Comparison comparison = compare_robots(robot, robot);
     EXPECT_TRUE(comparison.same_torques && comparison.same_axes && comparison.same_frame) << path;
-    EXPECT_THAT(comparison_text(robot, robot, comparison), HasSubstr("The two are the same to 1e-10"));
+    EXPECT_THAT(comparison_text(robot, robot, comparison),
+                HasSubstr("The two are the same to 1e-10"));
   }
 }
 
@@ -65,8 +67,8 @@ TEST(Comparison, OfTheSameArmInOtherFramesFindsNothing) {
 TEST(Comparison, NamesThePartThatDiffers) {
   const ComparedRobot robot = file_robot("robots/puma560.robot");
   const Comparison friction = compare_robots(robot, changed(robot, [](RobotModel& model) {
-    model.joints[2].chi[index(Chi::kFV)].value += 1;
-  }));
+                                               model.joints[2].chi[index(Chi::kFV)].value += 1;
+                                             }));
   EXPECT_FALSE(friction.same_torques);
   EXPECT_FALSE(part(friction, "friction").same);
   EXPECT_EQ(part(friction, "friction").joint, 2);
@@ -74,15 +76,16 @@ TEST(Comparison, NamesThePartThatDiffers) {
   EXPECT_TRUE(part(friction, "mass matrix").same);
   EXPECT_TRUE(friction.same_axes);
 
-  const Comparison gravity = compare_robots(
-      robot, changed(robot, [](RobotModel& model) { model.gravity[2].value = 9; }));
+  const Comparison gravity =
+      compare_robots(robot, changed(robot, [](RobotModel& model) { model.gravity[2].value = 9; }));
   EXPECT_FALSE(part(gravity, "gravity").same);
   EXPECT_TRUE(part(gravity, "mass matrix").same);
   EXPECT_TRUE(part(gravity, "friction").same);
 
   const Comparison rotor = compare_robots(robot, changed(robot, [](RobotModel& model) {
-    model.joints[4].chi[index(Chi::kIA)].value += GiNaC::numeric(1, 10);
-  }));
+                                            model.joints[4].chi[index(Chi::kIA)].value +=
+                                                GiNaC::numeric(1, 10);
+                                          }));
   EXPECT_FALSE(part(rotor, "mass matrix").same);
   EXPECT_EQ(part(rotor, "mass matrix").joint, 4);
   EXPECT_TRUE(part(rotor, "Coriolis").same);
@@ -92,8 +95,8 @@ TEST(Comparison, NamesThePartThatDiffers) {
 
 TEST(Comparison, FindsOtherGeometryAndTheStateOfTheWorstTorque) {
   const ComparedRobot robot = file_robot("robots/puma560.robot");
-  const ComparedRobot longer = changed(
-      robot, [](RobotModel& model) { model.joints[2].d.value += GiNaC::numeric(1, 1000); });
+  const ComparedRobot longer =
+      changed(robot, [](RobotModel& model) { model.joints[2].d.value += GiNaC::numeric(1, 1000); });
   const Comparison comparison = compare_robots(robot, longer);
   EXPECT_FALSE(comparison.same_torques);
   EXPECT_FALSE(comparison.same_axes);
@@ -108,7 +111,8 @@ TEST(Comparison, FindsOtherGeometryAndTheStateOfTheWorstTorque) {
   EXPECT_NEAR(b.run("id", motion)[1], worst.second, 1e-9);
   EXPECT_NEAR(std::abs(worst.first - worst.second), worst.difference, 1e-12);
   const std::string text = comparison_text(robot, longer, comparison);
-  EXPECT_THAT(text, HasSubstr("The two differ in: torques, joint axes, the frame of the last link."));
+  EXPECT_THAT(text,
+              HasSubstr("The two differ in: torques, joint axes, the frame of the last link."));
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // --eval: how a state is read, and its numbers against the judge.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -57,11 +56,12 @@ TEST(StateWords, TakeExpressionsInOneWordOrSeveral) {
 
 TEST(StateWords, RefuseWhatIsWrongByPlace) {
   const RobotModel model = parse_model(kArm);
+  EXPECT_THAT(message_of({"q=1"}, model), HasSubstr("--eval:1:1: error: 'q' has 1 value"));
   EXPECT_THAT(message_of({"q=1"}, model),
-              HasSubstr("--eval:1:1: error: 'q' has 1 value"));
-  EXPECT_THAT(message_of({"q=1"}, model), HasSubstr("one for each moving joint of arm: waist slide"));
+              HasSubstr("one for each moving joint of arm: waist slide"));
   EXPECT_THAT(message_of({"q=1,2,3"}, model), HasSubstr("'q' has 3 values"));
-  EXPECT_THAT(message_of({"q=1,2", "dq=1"}, model), HasSubstr("--eval:1:7: error: 'dq' has 1 value"));
+  EXPECT_THAT(message_of({"q=1,2", "dq=1"}, model),
+              HasSubstr("--eval:1:7: error: 'dq' has 1 value"));
   EXPECT_THAT(message_of({"q=1,foo"}, model), HasSubstr("--eval:1:5: error: unknown"));
   EXPECT_THAT(message_of({"q=1,2", "q=1,2"}, model), HasSubstr("'q' stands twice"));
   EXPECT_THAT(message_of({"1,2"}, model), HasSubstr("belongs to no name"));
@@ -140,8 +140,8 @@ TEST(EvaluationText, PartsAddUpToTheTorqueAndFitTheTerminal) {
   sample.ddq = state.ddq;
   const std::vector<double> expected = judge(model, numeric_robot(model), "id", sample);
   std::vector<double> sum(2, 0.0);
-  for (const char* part : {"rigid inertia", "Coriolis", "gravity", "rotor inertia", "viscous",
-                           "Coulomb", "offset"}) {
+  for (const char* part :
+       {"rigid inertia", "Coriolis", "gravity", "rotor inertia", "viscous", "Coulomb", "offset"}) {
     const std::vector<double> values = row_of(text, part);
     ASSERT_EQ(values.size(), 2U) << part << "\n" << text;
     for (std::size_t i = 0; i < 2; ++i) sum[i] += values[i];

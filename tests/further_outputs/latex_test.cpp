@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -64,8 +64,7 @@ std::string fault(const std::string& text) {
       math = !math;
       subscript = false;
     }
-    const bool in_math =
-        math || (!open.empty() && open.back() == "align*");
+    const bool in_math = math || (!open.empty() && open.back() == "align*");
     if (c == '_' && !in_math) return "'_' outside of a formula: " + text.substr(i - 20, 40);
     if (c == '_') {
       if (subscript) return "two subscripts: " + text.substr(i - 20, 40);
@@ -113,21 +112,22 @@ TEST_P(Latex, CompilesWithPdflatex) {
   std::ifstream log(folder / "out.txt");
   std::ostringstream words;
   words << log.rdbuf();
-  EXPECT_EQ(code, 0) << words.str().substr(words.str().size() > 3000 ? words.str().size() - 3000 : 0);
+  EXPECT_EQ(code, 0) << words.str().substr(words.str().size() > 3000 ? words.str().size() - 3000
+                                                                     : 0);
   EXPECT_TRUE(std::filesystem::exists(folder / "robot.pdf"));
   std::filesystem::remove_all(folder);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Robots, Latex,
-    testing::Values("robots/planar2r.robot", "robots/puma560.robot", "robots/scara.robot",
-                    "tests/robots/puma560_corke_std.robot", "tests/robots/odd_angles.robot",
-                    "tests/robots/rp.robot"),
-    [](const auto& entry) {
-      const std::string path = entry.param;
-      const std::size_t begin = path.rfind('/') + 1;
-      return path.substr(begin, path.rfind('.') - begin);
-    });
+INSTANTIATE_TEST_SUITE_P(Robots, Latex,
+                         testing::Values("robots/planar2r.robot", "robots/puma560.robot",
+                                         "robots/scara.robot",
+                                         "tests/robots/puma560_corke_std.robot",
+                                         "tests/robots/odd_angles.robot", "tests/robots/rp.robot"),
+                         [](const auto& entry) {
+                           const std::string path = entry.param;
+                           const std::size_t begin = path.rfind('/') + 1;
+                           return path.substr(begin, path.rfind('.') - begin);
+                         });
 
 TEST(LatexSpelling, OfNamesNumbersAndFormulas) {
   EXPECT_EQ(latex_name("W1_3"), "W_{1,3}");

@@ -144,8 +144,8 @@ class Scripts : public testing::TestWithParam<ScriptCase> {
         folder_(temporary_path("scripts")) {
     std::filesystem::create_directories(folder_);
     samples_ = random_samples(model_.coordinate_count, 4, 5);
-    const auto weights = static_cast<std::size_t>(model_.coordinate_count) *
-                         evaluated_.code().beta.size();
+    const auto weights =
+        static_cast<std::size_t>(model_.coordinate_count) * evaluated_.code().beta.size();
     for (std::size_t k = 0; k < samples_.size(); ++k) {
       for (std::size_t i = 0; i < weights; ++i) {
         samples_[k].weights.push_back(0.01 * static_cast<double>(i * (k + 1)));
@@ -199,8 +199,7 @@ class Scripts : public testing::TestWithParam<ScriptCase> {
   }
 
   void run(const std::string& command) const {
-    const std::string line =
-        "cd '" + folder_.string() + "' && " + command + " > words.txt 2>&1";
+    const std::string line = "cd '" + folder_.string() + "' && " + command + " > words.txt 2>&1";
     const int code = std::system(line.c_str());
     std::ostringstream words;
     words << std::ifstream(folder_ / "words.txt").rdbuf();

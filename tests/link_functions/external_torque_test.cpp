@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The torque of a wrench on any link against the judge's virtual work, and the argument wrench on
 // any link against it.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
@@ -80,8 +79,7 @@ double wrench_error(const RobotModel& model, const RobotModel& values, Generator
     for (const MotionSample& sample : random_samples(model.coordinate_count, samples, 6)) {
       const auto link = static_cast<std::size_t>(j - 1);
       const auto loaded = [&](const std::vector<double>& q) {
-        const Transform<long double> T =
-            forward_kinematics(robot, joint_values(values, q))[link];
+        const Transform<long double> T = forward_kinematics(robot, joint_values(values, q))[link];
         std::vector<long double> w(6, 0.0L);
         for (std::size_t k = 0; k < 6; ++k) {
           for (std::size_t i = 0; i < 3; ++i) {
@@ -116,17 +114,18 @@ TEST_P(ExternalTorque, IsWhatTheWrenchOfThatLinkTakesOff) {
   EXPECT_LT(wrench_error(model, with_random_values(model, 4), {}, 3), kTolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Robots, ExternalTorque,
-    testing::Values("robots/planar2r.robot", "robots/puma560.robot", "robots/panda.robot",
-                    "robots/stanford.robot", "robots/scara.robot",
-                    "tests/robots/puma560_corke_std.robot", "tests/robots/odd_angles.robot",
-                    "tests/robots/flip3r.robot", "tests/robots/rp.robot"),
-    [](const auto& entry) {
-      const std::string path = entry.param;
-      const std::size_t begin = path.rfind('/') + 1;
-      return path.substr(begin, path.rfind('.') - begin);
-    });
+INSTANTIATE_TEST_SUITE_P(Robots, ExternalTorque,
+                         testing::Values("robots/planar2r.robot", "robots/puma560.robot",
+                                         "robots/panda.robot", "robots/stanford.robot",
+                                         "robots/scara.robot",
+                                         "tests/robots/puma560_corke_std.robot",
+                                         "tests/robots/odd_angles.robot",
+                                         "tests/robots/flip3r.robot", "tests/robots/rp.robot"),
+                         [](const auto& entry) {
+                           const std::string path = entry.param;
+                           const std::size_t begin = path.rfind('/') + 1;
+                           return path.substr(begin, path.rfind('.') - begin);
+                         });
 
 TEST(ExternalTorqueOfRandomRobots, IsTheWorkOfTheWrench) {
   std::vector<NamedRobot> robots = random_chains();

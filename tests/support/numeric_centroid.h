@@ -21,10 +21,10 @@ std::vector<long double> mass_matrix_rate(const RobotModel& model, const Numeric
                                           const MotionSample& sample);
 
 struct NumericCentroid {
-  long double mass = 0;                  ///< kg
-  std::array<long double, 3> center{};   ///< m, in frame 0
-  std::vector<long double> jacobian;     ///< 3 x coordinates, row-major
-  std::array<long double, 6> momentum{}; ///< linear, angular about the origin of frame 0
+  long double mass = 0;                   ///< kg
+  std::array<long double, 3> center{};    ///< m, in frame 0
+  std::vector<long double> jacobian;      ///< 3 x coordinates, row-major
+  std::array<long double, 6> momentum{};  ///< linear, angular about the origin of frame 0
 };
 
 /// From poses of the links and their differences, link by link.
