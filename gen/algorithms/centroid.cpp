@@ -31,19 +31,19 @@ std::vector<LinkInertia> bodies_of_links(const CodeModel& code) {
   return result;
 }
 
-struct Robot {
+struct CentroidRobot {
   std::vector<LinkFrame> frames;
   StandingComposites bodies;
 };
 
-Robot write_robot(Trace& trace, const CodeModel& code) {
-  Robot robot;
+CentroidRobot write_robot(Trace& trace, const CodeModel& code) {
+  CentroidRobot robot;
   robot.frames = write_frames(trace, code);
   robot.bodies = write_standing_composites(trace, code, robot.frames, bodies_of_links(code));
   return robot;
 }
 
-ex write_inverse_mass(Trace& trace, const Robot& robot) {
+ex write_inverse_mass(Trace& trace, const CentroidRobot& robot) {
   trace.section("one over the mass of all links");
   return trace.assign("MI", GiNaC::pow(robot.bodies.robot.m, -1));
 }
@@ -59,7 +59,7 @@ std::vector<int> all_links(const CodeModel& code) {
 std::string why_no_centroid(const CodeModel& code) { return code.bodies.why_absent; }
 
 void write_center_of_mass(Trace& trace, const CodeModel& code) {
-  const Robot robot = write_robot(trace, code);
+  const CentroidRobot robot = write_robot(trace, code);
   const ex inverse = write_inverse_mass(trace, robot);
   for (std::size_t k = 0; k < 3; ++k) {
     trace.output("p", static_cast<int>(k), robot.bodies.robot.h[k] * inverse);
@@ -68,7 +68,7 @@ void write_center_of_mass(Trace& trace, const CodeModel& code) {
 }
 
 void write_center_of_mass_jacobian(Trace& trace, const CodeModel& code) {
-  const Robot robot = write_robot(trace, code);
+  const CentroidRobot robot = write_robot(trace, code);
   const ex inverse = write_inverse_mass(trace, robot);
   const std::vector<Axes> axes = write_axes(trace, robot.frames, all_links(code));
   trace.section("velocity of the centre of mass per joint rate");
@@ -105,7 +105,7 @@ void write_momentum(Trace& trace, const CodeModel& code) {
       }
     }
   };
-  const Robot robot = write_robot(trace, code);
+  const CentroidRobot robot = write_robot(trace, code);
   std::vector<Momentum> in_axis(robot.frames.size()), in_link(robot.frames.size());
   for (int j = code.size(); j >= 1; --j) {
     trace.section(fmt::format("momentum that joints {} and beyond give, about O{}", j, j));

@@ -13,7 +13,7 @@ namespace dyngen {
 namespace {
 
 using GiNaC::ex;
-using Body = std::array<ex, kInertialCount>;
+using BodyValues = std::array<ex, kInertialCount>;
 
 constexpr const char* kKeepStandard = "--no-regroup keeps the parameters of each body";
 
@@ -28,14 +28,14 @@ std::string unknown_parameter(const ex& value, const SymbolicRobot& robot) {
 /// The bodies in the numbers of the file; lengths that are known at run time only are read from
 /// chi. @return why there are none; empty if there are
 std::string numbers_of_bodies(const CodeModel& code, const SymbolicRobot& robot,
-                              std::vector<Body>& bodies) {
+                              std::vector<BodyValues>& bodies) {
   GiNaC::exmap lengths;
   for (const FileSymbol& length : robot.geometry) {
     const SymbolInfo* entry = code.inputs.find_name(length.name);
     if (entry != nullptr) lengths[length.symbol] = entry->symbol;
   }
   for (const SymbolicLink& link : robot.links) {
-    Body body;
+    BodyValues body;
     for (std::size_t k = 0; k < kInertialCount; ++k) {
       const ex value = with_known_values(link.chi[k], robot);
       const std::string unknown = unknown_parameter(value, robot);
@@ -51,9 +51,9 @@ std::string numbers_of_bodies(const CodeModel& code, const SymbolicRobot& robot,
 }
 
 /// A body on the last link, from the argument's frame to the link's.
-void add_payload_to(Body& body, const CodeModel& code) {
+void add_payload_to(BodyValues& body, const CodeModel& code) {
   const CodeLink& last = code.links.back();
-  Body payload;
+  BodyValues payload;
   for (std::size_t k = 0; k < kInertialCount; ++k) {
     payload[k] = code.inputs.find_name(fmt::format("payload_{}", kChiNames[k]))->symbol;
   }
@@ -62,7 +62,7 @@ void add_payload_to(Body& body, const CodeModel& code) {
 }
 
 /// Why the parameters are not those of bodies with mass; empty if they may be.
-std::string why_no_masses(const std::vector<Body>& bodies) {
+std::string why_no_masses(const std::vector<BodyValues>& bodies) {
   ex total = 0;
   for (std::size_t j = 0; j < bodies.size(); ++j) {
     const ex& mass = bodies[j][index(Chi::kM)];
@@ -88,7 +88,7 @@ void add_bodies(CodeModel& code, const SymbolicRobot& robot, bool regrouped,
         "the numbers of the robot file are base parameters, sums over several bodies";
   } else if (!regrouped) {
     for (const CodeLink& link : code.links) {
-      Body body;
+      BodyValues body;
       std::copy_n(link.chi.begin(), kInertialCount, body.begin());
       bodies.links.push_back(std::move(body));
     }

@@ -17,10 +17,10 @@ namespace dyngen {
 namespace {
 
 // Where a file says nothing.
-constexpr double kTurn = std::numbers::pi;  // rad, either way
-constexpr double kStroke = 1.0;             // m, either way
-constexpr double kSpeed = 2.0;              // rad/s, m/s
-constexpr double kRise = 5.0;               // rad/s^2, m/s^2
+constexpr double kFreeTurn = std::numbers::pi;  // rad, either way
+constexpr double kFreeStroke = 1.0;             // m, either way
+constexpr double kFreeSpeed = 2.0;              // rad/s, m/s
+constexpr double kFreeRise = 5.0;               // rad/s^2, m/s^2
 
 std::vector<int> moving_joints(const RobotModel& model) {
   std::vector<int> joints;
@@ -81,7 +81,7 @@ void find_ranges(const ComparedRobot& a, const ComparedRobot& b, Comparison& res
   const std::vector<int> joints_a = moving_joints(a.model), joints_b = moving_joints(b.model);
   for (std::size_t i = 0; i < joints_a.size(); ++i) {
     const JointModel &x = a.model.joint(joints_a[i]), &y = b.model.joint(joints_b[i]);
-    const double reach = x.type == JointType::kPrismatic ? kStroke : kTurn;
+    const double reach = x.type == JointType::kPrismatic ? kFreeStroke : kFreeTurn;
     const auto number = [](const std::optional<GiNaC::ex>& value, double otherwise) {
       return value ? to_double(*value) : otherwise;
     };
@@ -93,8 +93,8 @@ void find_ranges(const ComparedRobot& a, const ComparedRobot& b, Comparison& res
       range.q_max = std::max(number(x.qmax, reach), range.q_min);
       result.clipped.push_back(x.name);
     }
-    range.dq = smaller_limit(a, joints_a[i], b, joints_b[i], RowKey::kVmax, kSpeed);
-    range.ddq = smaller_limit(a, joints_a[i], b, joints_b[i], RowKey::kAmax, kRise);
+    range.dq = smaller_limit(a, joints_a[i], b, joints_b[i], RowKey::kVmax, kFreeSpeed);
+    range.ddq = smaller_limit(a, joints_a[i], b, joints_b[i], RowKey::kAmax, kFreeRise);
     result.ranges.push_back(range);
   }
 }

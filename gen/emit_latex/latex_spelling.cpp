@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-
+#include "gen/robot_file/characters.h"
 #include "gen/symbols/exact.h"
 
 namespace dyngen {
@@ -12,9 +11,6 @@ namespace {
 
 // Characters of a formula that fit on a line of the page, as printed_length() counts them.
 constexpr std::size_t kLineCharacters = 78;
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 /// About how many characters a formula has on paper: commands, braces and spaces have none.
 std::size_t printed_length(std::string_view latex) {

@@ -6,12 +6,14 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gen/algorithms/code_effects.h"
 #include "gen/diagnostic/assert.h"
 #include "gen/drawing/arm_drawing.h"
 #include "gen/effect_code/checked_robot.h"
+#include "gen/evaluate/state_words.h"
 #include "gen/explain/explain.h"
 #include "gen/generator/generator.h"
 #include "gen/model/robot_model.h"
