@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "gen/algorithms/code_model.h"
@@ -67,10 +68,10 @@ std::string why_no_masses(const std::vector<BodyValues>& bodies) {
   for (std::size_t j = 0; j < bodies.size(); ++j) {
     const ex& mass = bodies[j][index(Chi::kM)];
     total += mass;
-    const bool empty = std::all_of(bodies[j].begin(), bodies[j].end(),
-                                   [](const ex& value) { return value.is_zero(); });
-    if (mass.is_zero() && !empty) {
-      return fmt::format("link {} has first moments or inertia, and no mass", j + 1);
+    const auto moments = bodies[j].begin() + static_cast<std::ptrdiff_t>(index(Chi::kMX));
+    const bool any = std::any_of(moments, moments + 3, [](const ex& v) { return !v.is_zero(); });
+    if (mass.is_zero() && any) {
+      return fmt::format("link {} has first moments and no mass", j + 1);
     }
   }
   return total.expand().is_zero() ? "the mass of the whole robot is 0" : "";

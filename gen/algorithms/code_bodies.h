@@ -25,7 +25,7 @@ struct CodeBodies {
 
 /// Gives a model its bodies, or the reason why it has none: the numbers of the file are base
 /// parameters, the functions read base parameters, a body's parameter is unknown, a link has
-/// inertia without mass, or the whole robot has no mass. A payload is part of the last link.
+/// first moments without mass, or the whole robot has no mass. A payload is part of the last link.
 /// @param robot      before regrouping
 /// @param regrouped  the links of the model hold base parameters
 void add_bodies(CodeModel& code, const SymbolicRobot& robot, bool regrouped,

@@ -36,8 +36,7 @@ std::string banner(const CodeModel& code) {
 
 std::string name_table(const std::string& name, const std::vector<std::string>& names,
                        const EmitOptions& options) {
-  std::string text = fmt::format("{} const char *const {}_{}[] = {{\n", table_macro(options),
-                                 options.prefix, name);
+  std::string text = table_begin("char *const", name, options);
   for (const std::string& entry : names) text += fmt::format("    \"{}\",\n", entry);
   return text + "    0};\n";
 }
@@ -81,8 +80,7 @@ std::string folded_enum(const CodeModel& code, const EmitOptions& options) {
 
 std::string chi_values(const CodeModel& code, const EmitOptions& options) {
   const CSpelling spelling(options, code.inputs);
-  std::string text = fmt::format("{} const {} {}_chi_values[] = {{\n", table_macro(options),
-                                 spelling.scalar(), options.prefix);
+  std::string text = table_begin(spelling.scalar(), "chi_values", options);
   if (code.chi.empty()) text += "    0, /* there are none */\n";
   for (const ChiEntry& entry : code.chi) {
     const std::string value =
@@ -102,9 +100,14 @@ constexpr const char* kFunctionMacro = R"(
 )";
 
 constexpr const char* kHelperMacros =
-    R"(/* Stands before the functions that only those of the header call. */
+    R"(/* CUDA or HIP reads this. */
+#if defined(__CUDACC__) || defined(__CUDA__) || defined(__HIPCC__) || defined(__HIP__)
+#define {0}_DEVICE
+#endif
+
+/* Stands before the functions that only those of the header call. */
 #ifndef {0}_HELPER
-#if defined(__CUDACC__) || defined(__HIPCC__)
+#ifdef {0}_DEVICE
 #define {0}_HELPER static __host__ __device__
 #else
 #define {0}_HELPER static
@@ -115,8 +118,6 @@ constexpr const char* kHelperMacros =
 #ifndef {0}_TABLE
 #if defined(__GNUC__)
 #define {0}_TABLE __attribute__((weak))
-#elif defined(_MSC_VER)
-#define {0}_TABLE __declspec(selectany)
 #else
 #define {0}_TABLE
 #endif

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "gen/algorithms/centroid.h"
 #include "gen/emit_c/body_text.h"
 #include "gen/emit_c/c_spelling.h"
 
@@ -93,10 +94,24 @@ std::string effects_text(const CodeModel& code, const FunctionSpec& spec) {
   return text;
 }
 
+/// Links that count as having no mass in a function of the bodies, though they have inertia.
+std::string massless_text(const CodeModel& code, const FunctionSpec& spec) {
+  if (spec.why_absent != why_no_centroid) return {};
+  std::string links;
+  for (std::size_t j = 0; j < code.bodies.links.size(); ++j) {
+    const auto& body = code.bodies.links[j];
+    const bool any =
+        std::any_of(body.begin(), body.end(), [](const auto& v) { return !v.is_zero(); });
+    if (any && body[index(Chi::kM)].is_zero()) links += fmt::format(" {}", j + 1);
+  }
+  return links.empty() ? "" : fmt::format(" Without mass in the robot file: links{}.", links);
+}
+
 }  // namespace
 
 std::string summary_text(const CodeModel& code, const RobotFunction& function) {
-  std::string text = std::string(function.spec->summary) + effects_text(code, *function.spec);
+  std::string text = std::string(function.spec->summary) + effects_text(code, *function.spec) +
+                     massless_text(code, *function.spec);
   if (!function.spec->of_link()) return text;
   const int link = parse_function_name(function.name).link;
   return text + fmt::format(" The link: {}.", link == 0 ? code.size() : link);

@@ -12,8 +12,7 @@ namespace {
 // {0} is the prefix, {1} the prefix in capitals, {2} the scalar.
 constexpr const char* kPack =
     R"(/* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined(__CUDACC__) && \
-    !defined(__HIPCC__)
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined({1}_DEVICE)
 #define {1}_VECTORS
 #if defined(__AVX512F__)
 #define {1}_PACK 8

@@ -66,8 +66,7 @@ std::string state_declarations(const CodeModel& code, const EmitOptions& options
 
 std::string state_definitions(const CodeModel& code, const EmitOptions& options) {
   const CSpelling spelling(options, code.inputs);
-  std::string text = fmt::format("{} const char *const {}_state_names[] = {{\n",
-                                 table_macro(options), options.prefix);
+  std::string text = table_begin("char *const", "state_names", options);
   for (const CodeState& state : code.memory.states)
     text += fmt::format("    \"{}\",\n", state.name);
   text += "    0};\n\n" + reset_comment(options) + reset_signature(options) + " {\n";

@@ -10,10 +10,10 @@
 namespace dyngen {
 
 /// A LaTeX document (pdflatex, amsmath) of a robot: its table of joints, the base parameters with
-/// their formulas, and its inverse dynamics as the straight-line program that the C function is,
-/// with parameters as symbols.
+/// their formulas, and its inverse dynamics as the straight-line program of the recursion, with
+/// parameters as symbols.
 /// @param code      with parameters read from chi
-/// @param id        its function id
+/// @param id        its function id, of write_plain_function()
 /// @param formulas  of the model
 std::string emit_latex(const RobotModel& model, const CodeModel& code, const RobotFunction& id,
                        const BaseFormulas& formulas);

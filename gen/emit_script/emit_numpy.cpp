@@ -40,6 +40,7 @@ const ScriptLanguage& python() {
 }
 
 constexpr const char* kPythonHelpers = R"py(
+
 def _given(name, value, shape, shared=False):
     """The value as an array whose first axes have this shape; one axis of elements then."""
     value = np.asarray(value)

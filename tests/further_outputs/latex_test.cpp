@@ -24,10 +24,10 @@ std::string document(const std::string& path) {
   GeneratorOptions options;
   options.functions = {"id"};
   options.parameters = ParameterMode::kRuntime;
-  CodeModel code = make_code_model(model, options);
-  const std::vector<RobotFunction> functions = write_functions(code, with_short_search(options));
+  const CodeModel code = make_code_model(model, options);
+  const RobotFunction id = write_plain_function(parse_function_name("id"), code);
   const SymbolicRobot robot = make_symbolic(model);
-  return emit_latex(model, code, functions.front(), base_formulas(model, robot, regroup(robot)));
+  return emit_latex(model, code, id, base_formulas(model, robot, regroup(robot)));
 }
 
 /// What is wrong with the text as LaTeX; empty if nothing is found.

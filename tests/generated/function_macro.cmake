@@ -71,6 +71,7 @@ file(WRITE ${WORK}/kernel.cu [[
 __global__ void kernel(const double *q, const double *chi, double *tau) {
   arm_state state;
   arm_reset(&state, 0.001);
+  arm_id(&state, q, q, q, tau);
   puma560_id(q, q, q, chi, tau);
   puma560_mass_matrix(q, chi, tau);
   puma560_gravity_batch(4, q, chi, tau);
@@ -93,12 +94,20 @@ foreach(compiler IN LISTS COMPILERS)
 #define __host__ __attribute__((host))
 #define __device__ __attribute__((device))
 #define __global__ __attribute__((global))
-__host__ __device__ double sin(double);
-__host__ __device__ double cos(double);
+__device__ double sin(double);
+__device__ double cos(double);
+__device__ double fabs(double);
+__device__ double exp(double);
+__device__ double expm1(double);
+__device__ double tanh(double);
+__device__ double sqrt(double);
+__device__ double log(double);
+__device__ double pow(double, double);
+__device__ void *memcpy(void *, const void *, __SIZE_TYPE__);
 ]])
   foreach(side IN ITEMS --cuda-host-only --cuda-device-only)
     run(text 0 ${compiler} -xcuda ${side} --cuda-gpu-arch=sm_60 -nocudalib -nocudainc -fsyntax-only
-      -std=c++17 -include standing_in.h "-DPUMA560_FUNCTION=__host__ __device__"
+      -Wno-unknown-cuda-version -std=c++17 -include standing_in.h "-DPUMA560_FUNCTION=__host__ __device__"
       "-DARM_FUNCTION=__host__ __device__" kernel.cu)
   endforeach()
 endforeach()

@@ -176,14 +176,21 @@ TEST(Centroid, IsRefusedWithAReason) {
   EXPECT_EQ(refusal(unknown, standard), "");
 
   const RobotModel partly = parse_model(
-      "name arm\nnumber_link 2\nsigma 0 0\nal 0 0\nd 0 0.5\nm 2 0\nmX 0.4 0\nZZ 0.1 0.2\n"
+      "name arm\nnumber_link 2\nsigma 0 0\nal 0 0\nd 0 0.5\nm 2 0\nmX 0.4 0.1\nZZ 0.1 0.2\n"
       "gz 9.81\nstop\n");
-  EXPECT_NE(refusal(partly, {}).find("link 2 has first moments or inertia, and no mass"),
-            std::string::npos);
+  EXPECT_NE(refusal(partly, {}).find("link 2 has first moments and no mass"), std::string::npos);
 
   const RobotModel nothing =
       parse_model("name arm\nnumber_link 2\nsigma 0 0\nal 0 0\nd 0 0.5\nIA 1 1\ngz 9.81\nstop\n");
   EXPECT_NE(refusal(nothing, {}).find("the mass of the whole robot is 0"), std::string::npos);
+}
+
+TEST(Centroid, SaysWhichLinksHaveNoMass) {
+  GeneratorOptions options;
+  options.functions = {"com"};
+  const CText text = generate(read_model("robots/puma560.robot"), with_short_search(options));
+  EXPECT_NE(text.header.find("Without mass in the robot file: links 1."), std::string::npos)
+      << text.header;
 }
 
 TEST(Centroid, IsLeftOutWithoutAWordWhereNobodyAskedForIt) {
