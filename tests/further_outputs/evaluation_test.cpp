@@ -26,7 +26,7 @@ using testing::HasSubstr;
 const char* const kArm =
     "name arm\nnumber_link 3\nsigma 0 2 1\nal 0 pi/2 0\nd 0 0.5 0\nr 0 0 0.1\nm 2 3 1\n"
     "mX 0.4 0.6 0.1\nZZ 0.1 0.2 0.3\nIA 0.5 0 0.25\nFv 1 0 2\nFs 3 0 4\noff 0.5 0 -0.5\n"
-    "qmin -1 0 -0.5\nqmax 1 0 0.5\nvmax 2 0 2\namax 5 0 5\ntaumax 20 0 100\n"
+    "qmin -1 0 -0.5\nqmax 1 0 0.5\nvmax 2 1 2\namax 5 1 5\ntaumax 20 1 100\n"
     "joints waist plate slide\ngz 9.81\nstop\n";
 
 std::string message_of(const std::vector<std::string>& words, const RobotModel& model) {

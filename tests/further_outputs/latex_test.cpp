@@ -65,9 +65,10 @@ std::string fault(const std::string& text) {
       subscript = false;
     }
     const bool in_math = math || (!open.empty() && open.back() == "align*");
-    if (c == '_' && !in_math) return "'_' outside of a formula: " + text.substr(i - 20, 40);
+    if (c == '_' && !in_math)
+      return "'_' outside of a formula: " + text.substr(i > 20 ? i - 20 : 0, 40);
     if (c == '_') {
-      if (subscript) return "two subscripts: " + text.substr(i - 20, 40);
+      if (subscript) return "two subscripts: " + text.substr(i > 20 ? i - 20 : 0, 40);
       subscript = true;
       std::size_t depth = 0;
       do {

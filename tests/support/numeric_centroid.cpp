@@ -13,7 +13,7 @@ using Real = long double;
 using Vector = Eigen::Matrix<Real, 3, 1>;
 using Matrix = Eigen::Matrix<Real, 3, 3>;
 
-constexpr Real kMassStep = 1e-3L, kPoseStep = 1e-4L;
+constexpr Real kMassStep = 1e-4L, kPoseStep = 1e-4L;
 
 /// d f / d x at 0, f of any vector type: (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h.
 template <typename Function>

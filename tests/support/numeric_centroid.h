@@ -12,7 +12,7 @@
 namespace dyngen::test {
 
 /// Coriolis matrix of the Christoffel symbols over the coordinates, row-major: from differences of
-/// the judge's mass matrix. Steps of 1e-3 of fourth order: truncation some 1e-13 of it.
+/// the judge's mass matrix. Steps of 1e-4 of fourth order: truncation and rounding some 1e-15 of it.
 std::vector<long double> christoffel_matrix(const RobotModel& model, const NumericRobot& robot,
                                             const MotionSample& sample);
 
