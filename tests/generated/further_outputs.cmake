@@ -29,7 +29,7 @@ refuse(2 "too few values" ARGUMENTS ${puma} --eval q=0.1 SAYS "--eval:1:1: error
 refuse(2 "a value that is none" ARGUMENTS ${planar} --eval q=0.1,foo SAYS "--eval:1:7: error: unknown" "'foo'")
 refuse(2 "no q" ARGUMENTS ${planar} --eval dq=1,2 SAYS "q is missing")
 file(WRITE ${WORK}/open.robot "number_link 2\nd 0 0.5\nm 1 *\nZZ 1 1\nmX 1 *\ngy 9.81\nstop\n")
-refuse(1 "unknown numbers" ARGUMENTS open.robot --eval q=0,0 SAYS "open.robot: error: M2" "MX2" "unknown")
+refuse(1 "unknown numbers" ARGUMENTS open.robot --eval q=0,0 SAYS "open.robot: error: MX2, M2 are unknown" "--eval as in MX2=0.1")
 run(text 0 ${DYNGEN} open.robot --eval q=0,0 M2=2 mX2=0.5)
 expect_text("given numbers" "${text}" "Torque and its parts")
 refuse(1 "a number that stands for nothing" ARGUMENTS open.robot --eval q=0,0 M2=2 mX2=0.5 ZZ9=1 SAYS "'ZZ9'")
