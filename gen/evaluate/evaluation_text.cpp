@@ -212,7 +212,7 @@ std::string evaluation_text(RobotNumbers& robot, const RobotFile& file, const St
     const auto row = M.begin() + static_cast<std::ptrdiff_t>(i * n);
     rows.push_back({names[i], {row, row + static_cast<std::ptrdiff_t>(n)}});
   }
-  text += fmt::format("\nMass matrix, rotor inertia on its diagonal ({})\n",
+  text += fmt::format("\nMass matrix with rotor inertia ({})\n",
                       mixed_unit(code, "kg m^2", "kg m, kg"));
   text += joint_table(names, rows, true);
   return text + pose_table(robot, motion);

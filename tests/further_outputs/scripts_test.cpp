@@ -48,9 +48,14 @@ for name, function in given["functions"].items():
     many = call(**arguments(
         lambda a: shaped(a, np.stack([np.array(s[a]) for s in given["samples"]], axis=-1))))
     several = isinstance(many, tuple)
+
+    def of_sample(one, all_samples, i):  # what reads no sample is the same for all
+        return all_samples if one.shape == all_samples.shape else all_samples[..., i]
+
     results[name] = [
         {output: [np.ravel(one[k] if several else one).tolist(),
-                  np.ravel((many[k] if several else many)[..., i]).tolist()]
+                  np.ravel(of_sample(one[k] if several else one,
+                                     many[k] if several else many, i)).tolist()]
          for k, output in enumerate(function["outputs"])}
         for i, one in enumerate(single)]
 with open("output.json", "w") as file:
