@@ -189,8 +189,7 @@ TEST(Centroid, SaysWhichLinksHaveNoMass) {
   GeneratorOptions options;
   options.functions = {"com"};
   const CText text = generate(read_model("robots/puma560.robot"), with_short_search(options));
-  EXPECT_NE(text.header.find("Without mass in the robot file: links 1."), std::string::npos)
-      << text.header;
+  EXPECT_NE(text.header.find("Without mass in the robot file:"), std::string::npos) << text.header;
 }
 
 TEST(Centroid, IsLeftOutWithoutAWordWhereNobodyAskedForIt) {
