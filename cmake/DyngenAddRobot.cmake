@@ -10,6 +10,7 @@ dyngen_add_robot(<target> ROBOT file   # .robot, URDF, MJCF or SYMORO's .par
   [TRIG inline|libm]              # sines and cosines; default: inline
   [GRAVITY file|runtime]          # default: file
   [WRENCH] [PAYLOAD]              # arguments of the functions: a wrench, a body on the last link
+  [WRENCH_LINK number|name]       # the link of the wrench, which is then an argument
   [NO_REGROUP]                    # keep the standard parameters
   [EFFECTS dir ...]               # folders of more effects, files NAME.effect
   [FOLD]                          # with PARAMETERS runtime: functions read what <prefix>_fold makes of chi
@@ -36,7 +37,8 @@ cmake_policy(VERSION 3.20...3.25)
 
 function(dyngen_add_robot target)
   set(flags WRENCH PAYLOAD NO_REGROUP FOLD CPP_WRAPPER)
-  set(one_value ROBOT BASE TIP ROUND_ANGLES PREFIX PARAMETERS SCALAR TRIG GRAVITY OUTPUT_DIR GENERATOR CHECKED_IN)
+  set(one_value ROBOT BASE TIP ROUND_ANGLES PREFIX PARAMETERS SCALAR TRIG GRAVITY WRENCH_LINK OUTPUT_DIR
+    GENERATOR CHECKED_IN)
   cmake_parse_arguments(PARSE_ARGV 1 arg "${flags}" "${one_value}" "FUNCTIONS;EFFECTS")
   set(where "dyngen_add_robot(${target})")
 
@@ -155,6 +157,10 @@ function(dyngen_add_robot target)
         list(APPEND options --${option})
       endif()
     endforeach()
+    if(DEFINED arg_WRENCH_LINK)
+      list(REMOVE_ITEM options --wrench)
+      list(APPEND options "--wrench=${arg_WRENCH_LINK}")
+    endif()
     foreach(folder IN LISTS effects)
       list(APPEND options --effects "${folder}")
     endforeach()

@@ -104,16 +104,16 @@ void add_wrench(CodeModel& code) {
     w[k] = add_input(code.inputs, "wrench", static_cast<int>(k), std::to_string(k + 1),
                      k < 3 ? "N" : "N m");
   }
-  const CodeLink& last = code.links.back();
-  const ex s = add_constant(code.inputs, "SAt", exact_sin(last.tip_alpha), "", "");
-  const ex c = add_constant(code.inputs, "CAt", exact_cos(last.tip_alpha), "", "");
+  const CodeLink& link = code.link(code.wrench_link());
+  const ex s = add_constant(code.inputs, "SAt", exact_sin(link.tip_alpha), "", "");
+  const ex c = add_constant(code.inputs, "CAt", exact_cos(link.tip_alpha), "", "");
   const ex y = c * w[1] - s * w[2], z = s * w[1] + c * w[2];
   code.wrench = {w[0],
                  y,
                  z,
                  w[3],
-                 (c * w[4] - s * w[5] - last.tip_d * z).expand(),
-                 (s * w[4] + c * w[5] + last.tip_d * y).expand()};
+                 (c * w[4] - s * w[5] - link.tip_d * z).expand(),
+                 (s * w[4] + c * w[5] + link.tip_d * y).expand()};
 }
 
 /// One weight for each element of the regressor in base parameters.
@@ -258,6 +258,10 @@ CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedP
   if (options.wrench) add_wrench(code);
   if (options.weights) add_weights(code);
   add_effects(code, effects, robot);
+  for (std::size_t k = 0; k < code.load.size(); ++k) {
+    code.load[k] = add_input(code.inputs, "w", static_cast<int>(k), std::to_string(k + 1),
+                             k < 3 ? "N" : "N m");
+  }
   return code;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gen/algorithms/code_bodies.h"
 #include "gen/algorithms/code_effects.h"
 #include "gen/algorithms/link_form.h"
 #include "gen/base_parameters/base_parameters.h"
@@ -27,7 +28,8 @@ enum class ParameterMode {
 struct CodeOptions {
   ParameterMode parameters = ParameterMode::kBaked;
   bool gravity = false;  ///< gravity[3]: the base's acceleration -g in frame 0, m/s^2
-  bool wrench = false;   ///< wrench[6]: on the last link
+  bool wrench = false;   ///< wrench[6]: on a link
+  int wrench_link = 0;   ///< the link; 0: the last one
   bool payload = false;  ///< payload[10]: a body on the last link
   bool weights = false;  ///< A[n x nbeta]: weights of the base regressor's elements
   bool fold = false;     ///< folded[] in place of chi[], and a function that computes it of chi
@@ -70,9 +72,13 @@ struct CodeModel {
   SymbolTable inputs;           ///< q, dq, ddq, chi, and the named numbers of the file
   std::vector<CodeLink> links;  ///< links[j - 1] is link j
   std::array<GiNaC::ex, 3> gravity;
-  /// Force and moment about the last link's origin that its environment applies, in its frame.
+  /// Force and moment about the origin of wrench_link() that its environment applies, in its frame.
   /// The argument speaks of the file's frame, this of the link's frame here.
   std::array<GiNaC::ex, 6> wrench;
+  /// Input w: force and moment about the origin of some link's frame of the file, in the axes of
+  /// frame 0; of the functions that give their torque.
+  std::array<GiNaC::ex, 6> load;
+  CodeBodies bodies;               ///< see add_bodies()
   std::vector<GiNaC::ex> weights;  ///< with the option weights: A, row-major
   /// Dynamic parameters, then unknown lengths and gravity components, then parameters of effects.
   std::vector<ChiEntry> chi;
@@ -95,6 +101,10 @@ struct CodeModel {
   [[nodiscard]] bool folds() const { return options.fold && takes_chi; }
 
   [[nodiscard]] int size() const { return static_cast<int>(links.size()); }
+  /// The link that the wrench acts on.
+  [[nodiscard]] int wrench_link() const {
+    return options.wrench_link > 0 ? options.wrench_link : size();
+  }
   [[nodiscard]] const CodeLink& link(int j) const { return links[static_cast<std::size_t>(j - 1)]; }
 };
 

@@ -38,8 +38,9 @@ struct AxisMotion {
 
 class Derivatives {
  public:
-  Derivatives(Trace& trace, const CodeModel& code, const RneaForm& form)
-      : trace_(trace), code_(code), form_(form) {
+  /// @param rates  2; with 1 the derivatives by velocities are half as large, and no others exist
+  Derivatives(Trace& trace, const CodeModel& code, const RneaForm& form, int rates = 2)
+      : trace_(trace), code_(code), form_(form), rates_(rates) {
     trace_.section("parameters of the links");
     const std::vector<ex> shifts = origin_shifts(code, form);
     inertia_ = write_inertia(trace, code, form, shifts);
@@ -54,7 +55,7 @@ class Derivatives {
     position_.assign(n * n, 0);
     velocity_.assign(n * n, 0);
     acceleration_.assign(n * n, 0);
-    add_wrench(-shifts.back());
+    add_wrench(-shifts[at(code.wrench_link())]);
   }
 
   void write() {
@@ -63,6 +64,9 @@ class Derivatives {
     for (int i = code_.size(); i >= 1; --i) {
       if (code_.link(i).coordinate >= 0) write_joint(i);
     }
+  }
+
+  void add_drives() {
     for (const CodeLink& link : code_.links) {
       if (link.coordinate < 0) continue;
       element(velocity_, link.coordinate, link.coordinate) += link.chi[index(Chi::kFV)];
@@ -92,10 +96,10 @@ class Derivatives {
     return matrix[at(row) * code_.coordinate_names.size() + at(column)];
   }
 
-  /// The last link's environment; the origin stands at -z of the file's.
+  /// The environment of the link that feels it; the origin stands at -z of the file's.
   void add_wrench(const ex& z) {
     const auto& w = code_.wrench;
-    MovingBody& last = in_link_.back();
+    MovingBody& last = in_link_[at(code_.wrench_link())];
     last.f = {-w[0], -w[1], -w[2]};
     const Vector3 lever = cross({0, 0, z}, last.f);
     for (std::size_t k = 0; k < 3; ++k) last.n[k] = lever[k] - w[k + 3];
@@ -116,8 +120,8 @@ class Derivatives {
         assign_vector(trace_, "UZ", j, to_child(trace_, fmt::format("UA_{}", j), fixed, column));
     axis.x = own.W[0];
     axis.y = own.W[1];
-    axis.x2 = assign("W21", j, 2 * own.W[0]);
-    axis.y2 = assign("W22", j, 2 * own.W[1]);
+    axis.x2 = assign("W21", j, rates_ * own.W[0]);
+    axis.y2 = assign("W22", j, rates_ * own.W[1]);
     axis.VPx = own.VP[0];
     axis.VPy = own.VP[1];
     write_step(j);
@@ -138,11 +142,11 @@ class Derivatives {
     Vector3 twice;
     for (std::size_t k = 0; k < 3; ++k) {
       twice[k] = trace_.assign(
-          fmt::format("W2{}{}_{}", k + 1, frame.parallel ? "A" : "L", link.parent), 2 * W[k]);
+          fmt::format("W2{}{}_{}", k + 1, frame.parallel ? "A" : "L", link.parent), rates_ * W[k]);
     }
     step.V2 = cross(twice, step.P);
     if (link.type == JointType::kPrismatic) {
-      const ex slide = assign("DQ2", j, 2 * link.dq);
+      const ex slide = assign("DQ2", j, rates_ * link.dq);
       step.V2[1] -= slide * frame.rotation.sin_alpha;
       step.V2[2] += slide * frame.rotation.cos_alpha;
     }
@@ -157,9 +161,10 @@ class Derivatives {
     if (own_in_axis) {
       add(in_axis_[at(j)],
           write_rigid_body(trace_, {"A", j}, turned(trace_, j, inertia, frame.from_anchor),
-                           motions_[at(j)].axis));
+                           motions_[at(j)].axis, rates_));
     } else {
-      add(in_link_[at(j)], write_rigid_body(trace_, {"L", j}, inertia, motions_[at(j)].link));
+      add(in_link_[at(j)],
+          write_rigid_body(trace_, {"L", j}, inertia, motions_[at(j)].link, rates_));
     }
     const MovingBody in_link = assigned(trace_, {"L", j}, in_link_[at(j)]);
     MovingBody body = in_axis_[at(j)];
@@ -310,6 +315,7 @@ class Derivatives {
   Trace& trace_;
   const CodeModel& code_;
   const RneaForm& form_;
+  int rates_ = 2;  ///< how many times velocities stand in what is called twice a velocity
   std::vector<LinkInertia> inertia_;
   std::vector<LinkFrame> frames_;
   std::vector<ChainMotion> motions_;
@@ -332,7 +338,15 @@ void write_derivatives(Trace& trace, const CodeModel& code, const DerivativeOutp
   const RneaForm form = plain_form(code);
   Derivatives derivatives(trace, code, form);
   derivatives.write();
+  derivatives.add_drives();
   derivatives.output(outputs);
+}
+
+void write_half_velocity_derivative(Trace& trace, const CodeModel& code, const std::string& array) {
+  const RneaForm form = plain_form(code);
+  Derivatives derivatives(trace, code, form, 1);
+  derivatives.write();
+  derivatives.output({.velocity = array});
 }
 
 }  // namespace dyngen

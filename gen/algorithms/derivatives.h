@@ -30,4 +30,8 @@ struct DerivativeOutputs {
 /// everything meets in axes that stand on the joint but do not turn with it.
 void write_derivatives(Trace& trace, const CodeModel& code, const DerivativeOutputs& outputs);
 
+/// Writes half of the derivative of the Coriolis torque by the velocities: n x n, row-major. It is
+/// the Coriolis matrix in Christoffel form.
+void write_half_velocity_derivative(Trace& trace, const CodeModel& code, const std::string& array);
+
 }  // namespace dyngen

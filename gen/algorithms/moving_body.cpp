@@ -92,14 +92,19 @@ Tensor euler_tensor(Trace& trace, const BodyName& name, const LinkInertia& inert
 
 }  // namespace
 
-MovingBody write_rigid_body(Trace& trace, const BodyName& name, const LinkInertia& inertia,
-                            const LinkMotion& motion) {
+MovingBody write_standing_body(Trace& trace, const BodyName& name, const LinkInertia& inertia) {
   MovingBody body;
   body.K = euler_tensor(trace, name, inertia);
   body.h = inertia.MS;
   body.m = inertia.M;
+  return body;
+}
+
+MovingBody write_rigid_body(Trace& trace, const BodyName& name, const LinkInertia& inertia,
+                            const LinkMotion& motion, int rates) {
+  MovingBody body = write_standing_body(trace, name, inertia);
   Vector3 twice;  // the angular velocity
-  for (std::size_t k = 0; k < 3; ++k) twice[k] = 2 * motion.W[k];
+  for (std::size_t k = 0; k < 3; ++k) twice[k] = rates * motion.W[k];
   twice = assign_vector(trace, name.mark + "W2", name.link, twice);
   const Matrix3 K = full(body.K);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -155,6 +160,20 @@ MovingBody turned_about_z(Trace& trace, const BodyName& name, const FrameRotatio
 MovingBody turned_about_x(Trace& trace, const BodyName& name, const FrameRotation& rotation,
                           const MovingBody& body) {
   return turned(trace, name, {1, 2}, rotation.sin_alpha, rotation.cos_alpha, body);
+}
+
+Matrix3 turned_about_z(Trace& trace, const std::string& name, const FrameRotation& rotation,
+                       const Matrix3& tensor) {
+  Matrix3 result = tensor;
+  turn(trace, name, {0, 1}, rotation.sin_angle, rotation.cos_angle, result);
+  return result;
+}
+
+Matrix3 turned_about_x(Trace& trace, const std::string& name, const FrameRotation& rotation,
+                       const Matrix3& tensor) {
+  Matrix3 result = tensor;
+  turn(trace, name, {1, 2}, rotation.sin_alpha, rotation.cos_alpha, result);
+  return result;
 }
 
 MovingBody moved(const PointStep& step, const MovingBody& body) {

@@ -38,8 +38,12 @@ struct BodyName {
 };
 
 /// A rigid body that turns about O, which moves as the motion says.
+/// @param rates  how many times v stands in G and p
 MovingBody write_rigid_body(Trace& trace, const BodyName& name, const LinkInertia& inertia,
-                            const LinkMotion& motion);
+                            const LinkMotion& motion, int rates = 2);
+
+/// A rigid body at rest: K, h and m alone.
+MovingBody write_standing_body(Trace& trace, const BodyName& name, const LinkInertia& inertia);
 
 void add(MovingBody& sum, const MovingBody& more);
 
@@ -52,6 +56,12 @@ MovingBody turned_about_z(Trace& trace, const BodyName& name, const FrameRotatio
 /// The same about x, by the rotation's alpha.
 MovingBody turned_about_x(Trace& trace, const BodyName& name, const FrameRotation& rotation,
                           const MovingBody& body);
+
+/// R A R^T, the same turns of any tensor. @param name  begins the names of help variables
+Matrix3 turned_about_z(Trace& trace, const std::string& name, const FrameRotation& rotation,
+                       const Matrix3& tensor);
+Matrix3 turned_about_x(Trace& trace, const std::string& name, const FrameRotation& rotation,
+                       const Matrix3& tensor);
 
 /// About the point that sees the present one at step.P.
 MovingBody moved(const PointStep& step, const MovingBody& body);

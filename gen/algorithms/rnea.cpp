@@ -49,9 +49,9 @@ class Backward {
         link_(code.links.size() + 1),
         axis_(code.links.size() + 1) {}
 
-  /// Acts on the last link, about a point z on its axis from its origin.
-  void add_wrench(const Vector3& force, const Vector3& moment, const ex& z) {
-    link_.back().add(force, sum(moment, cross({0, 0, z}, force)));
+  /// Acts on a link, about a point z on its axis from its origin.
+  void add_wrench(int link, const Vector3& force, const Vector3& moment, const ex& z) {
+    link_[static_cast<std::size_t>(link)].add(force, sum(moment, cross({0, 0, z}, force)));
   }
 
   /// @return force and moment of link j on its joint along the axis
@@ -167,7 +167,9 @@ void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, con
   Backward backward(trace, code, frames, motions, inertia, form);
   if (terms.wrench) {
     const auto& w = code.wrench;
-    backward.add_wrench({-w[0], -w[1], -w[2]}, {-w[3], -w[4], -w[5]}, -shifts.back());
+    const int link = code.wrench_link();
+    backward.add_wrench(link, {-w[0], -w[1], -w[2]}, {-w[3], -w[4], -w[5]},
+                        -shifts[static_cast<std::size_t>(link)]);
   }
   std::vector<ex> torque(code.links.size() + 1), load(code.coordinate_names.size());
   for (int j = code.size(); j >= 1; --j) {

@@ -50,7 +50,7 @@ std::string lanes_function(const CodeModel& code, const RobotFunction& function,
     }
   }
   std::string text = wrap_arguments(
-      fmt::format("static {}_NOINLINE void {}_{}_lanes(size_t n{}) {{\n",
+      fmt::format("{0}_HELPER {0}_NOINLINE void {1}_{2}_lanes(size_t n{3}) {{\n",
                   upper_case(options.prefix), options.prefix, function.name, parameters));
   const bool reads_rows = std::any_of(all.begin(), all.end(), [&](const Argument& argument) {
     const bool used = argument.output || body.reads(argument.name);
@@ -71,7 +71,8 @@ std::string lanes_function(const CodeModel& code, const RobotFunction& function,
 
 std::string batch_signature(const CodeModel& code, const RobotFunction& function,
                             const EmitOptions& options) {
-  std::string text = fmt::format("void {}_{}_batch(size_t n", options.prefix, function.name);
+  std::string text = fmt::format("{} void {}_{}_batch(size_t n", function_macro(options),
+                                 options.prefix, function.name);
   for (const Argument& argument : arguments(*function.spec, code)) {
     text += ", " + declared(argument, argument.name, options);
   }

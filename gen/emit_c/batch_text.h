@@ -7,7 +7,7 @@
 
 namespace dyngen {
 
-/// "void P_id_batch(size_t n, const double *q, ..., double *tau)", on one line.
+/// "P_FUNCTION void P_id_batch(size_t n, const double *q, ..., double *tau)", on one line.
 std::string batch_signature(const CodeModel& code, const RobotFunction& function,
                             const EmitOptions& options);
 

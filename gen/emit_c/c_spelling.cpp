@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "gen/emit_c/c_spelling.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <sstream>
@@ -19,6 +21,22 @@ std::string upper_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
+}
+
+std::string function_macro(const EmitOptions& options) {
+  return upper_case(options.prefix) + "_FUNCTION";
+}
+
+std::string helper_macro(const EmitOptions& options) {
+  return upper_case(options.prefix) + "_HELPER";
+}
+
+std::string table_begin(const std::string& type, const std::string& name,
+                        const EmitOptions& options) {
+  // C++ takes an attribute of a constant in a declaration that says extern, and C wants no extern
+  // in a definition
+  const std::string table = fmt::format("const {} {}_{}[]", type, options.prefix, name);
+  return fmt::format("extern {}_TABLE {};\n{} = {{\n", upper_case(options.prefix), table, table);
 }
 
 std::string CSpelling::scalar() const {

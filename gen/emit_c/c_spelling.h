@@ -44,6 +44,15 @@ class CSpelling {
 /// "PUMA560" of "puma560".
 std::string upper_case(std::string text);
 
+/// "PUMA560_FUNCTION": stands before every function that others may call; the user says what it is.
+std::string function_macro(const EmitOptions& options);
+/// "PUMA560_HELPER": stands before every function that only these call.
+std::string helper_macro(const EmitOptions& options);
+/// How a table begins: what PUMA560_TABLE says, then "const char *const puma560_joint_names[] = {".
+/// @param type  of its elements, const
+std::string table_begin(const std::string& type, const std::string& name,
+                        const EmitOptions& options);
+
 /// "const double *q": how a function declares an argument. @param array  its name as an array
 std::string declared(const Argument& argument, const std::string& array,
                      const EmitOptions& options);

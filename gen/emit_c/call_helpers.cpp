@@ -5,39 +5,42 @@
 
 #include <array>
 
+#include "gen/emit_c/c_spelling.h"
+
 namespace dyngen {
 namespace {
 
 struct Helper {
   const char* call;
-  const char* text;  ///< {0} is the scalar, {1} the prefix, {2} "f" for float
+  const char*
+      text;  ///< {0} is the scalar, {1} the prefix, {2} "f" for float, {3} the macro of helpers
 };
 
 constexpr std::array<Helper, 5> kHelpers = {{
     {"sign", R"(/* -1, 0 or 1 */
-static {0} {1}_sign({0} x) {{
+{3} {0} {1}_sign({0} x) {{
   return ({0})((x > 0) - (x < 0));
 }}
 
 )"},
-    {"min", R"(static {0} {1}_min({0} x, {0} y) {{
+    {"min", R"({3} {0} {1}_min({0} x, {0} y) {{
   return x < y ? x : y;
 }}
 
 )"},
-    {"max", R"(static {0} {1}_max({0} x, {0} y) {{
+    {"max", R"({3} {0} {1}_max({0} x, {0} y) {{
   return x > y ? x : y;
 }}
 
 )"},
     {"phi", R"(/* (1 - exp(-x)) / x, 1 at 0 */
-static {0} {1}_phi({0} x) {{
+{3} {0} {1}_phi({0} x) {{
   return x == 0 ? 1 : -expm1{2}(-x) / x;
 }}
 
 )"},
     {"dphi", R"(/* The derivative of (1 - exp(-x)) / x; its series near 0 */
-static {0} {1}_dphi({0} x) {{
+{3} {0} {1}_dphi({0} x) {{
   {0} sum = 0;
   int k;
   if (x < -1 || x > 1) return (exp{2}(-x) + expm1{2}(-x) / x) / x;
@@ -70,7 +73,7 @@ std::string call_helpers(const std::set<std::string>& calls, const EmitOptions& 
     const bool by_lanes = (call == "phi" || call == "dphi") && calls.contains(call + "_lanes");
     if (!calls.contains(call) && !by_lanes) continue;
     text += fmt::format(fmt::runtime(helper.text), single ? "float" : "double", options.prefix,
-                        single ? "f" : "");
+                        single ? "f" : "", helper_macro(options));
   }
   return text;
 }

@@ -34,8 +34,9 @@ std::string banner(const CodeModel& code) {
       std::filesystem::path(code.file_name).filename().string());
 }
 
-std::string name_table(const std::string& name, const std::vector<std::string>& names) {
-  std::string text = fmt::format("const char *const {}[] = {{\n", name);
+std::string name_table(const std::string& name, const std::vector<std::string>& names,
+                       const EmitOptions& options) {
+  std::string text = table_begin("char *const", name, options);
   for (const std::string& entry : names) text += fmt::format("    \"{}\",\n", entry);
   return text + "    0};\n";
 }
@@ -79,8 +80,7 @@ std::string folded_enum(const CodeModel& code, const EmitOptions& options) {
 
 std::string chi_values(const CodeModel& code, const EmitOptions& options) {
   const CSpelling spelling(options, code.inputs);
-  std::string text =
-      fmt::format("const {} {}_chi_values[] = {{\n", spelling.scalar(), options.prefix);
+  std::string text = table_begin(spelling.scalar(), "chi_values", options);
   if (code.chi.empty()) text += "    0, /* there are none */\n";
   for (const ChiEntry& entry : code.chi) {
     const std::string value =
@@ -89,6 +89,41 @@ std::string chi_values(const CodeModel& code, const EmitOptions& options) {
   }
   return text + "};\n";
 }
+
+// {0} is the prefix in capitals.
+constexpr const char* kFunctionMacro = R"(
+/* Stands before every function: nothing, or what the user defines: `__host__ __device__` where they
+ * run in CUDA or HIP, `static inline` where the source is included in place of this header. */
+#ifndef {0}_FUNCTION
+#define {0}_FUNCTION
+#endif
+)";
+
+constexpr const char* kHelperMacros =
+    R"(/* CUDA or HIP reads this. */
+#if defined(__CUDACC__) || defined(__CUDA__) || defined(__HIPCC__) || defined(__HIP__)
+#define {0}_DEVICE
+#endif
+
+/* Stands before the functions that only those of the header call. */
+#ifndef {0}_HELPER
+#ifdef {0}_DEVICE
+#define {0}_HELPER static __host__ __device__
+#else
+#define {0}_HELPER static
+#endif
+#endif
+
+/* Stands before the tables: one of each, though several sources of a program include this one. */
+#ifndef {0}_TABLE
+#if defined(__GNUC__)
+#define {0}_TABLE __attribute__((weak))
+#else
+#define {0}_TABLE
+#endif
+#endif
+
+)";
 
 /// The static functions that the emitted ones call.
 std::string helpers(const CodeModel& code, const std::vector<RobotFunction>& functions,
@@ -137,6 +172,7 @@ std::string make_header(const CodeModel& code, const std::vector<RobotFunction>&
       upper, code.coordinate_names.size(), code.chi.size(), code.beta.size());
   text += chi_enum(code, options);
   text += folded_enum(code, options);
+  text += fmt::format(kFunctionMacro, upper);
   text += fmt::format(
       "\n/* Names, each table ends with a null pointer. */\n"
       "extern const char *const {0}_joint_names[];\nextern const char *const {0}_chi_names[];\n"
@@ -169,9 +205,10 @@ std::string make_source(const CodeModel& code, const std::vector<RobotFunction>&
   text += fmt::format("#include \"{}\"\n\n#include <math.h>\n", options.header_name);
   const auto batch = [](const RobotFunction& function) { return function.batch; };
   text += std::any_of(functions.begin(), functions.end(), batch) ? "#include <string.h>\n\n" : "\n";
-  text += name_table(options.prefix + "_joint_names", code.coordinate_names) + "\n";
-  text += name_table(options.prefix + "_chi_names", chi_names(code)) + "\n";
-  text += name_table(options.prefix + "_beta_names", code.beta) + "\n";
+  text += fmt::format(kHelperMacros, upper_case(options.prefix));
+  text += name_table("joint_names", code.coordinate_names, options) + "\n";
+  text += name_table("chi_names", chi_names(code), options) + "\n";
+  text += name_table("beta_names", code.beta, options) + "\n";
   if (code.takes_chi || !code.chi.empty()) text += chi_values(code, options) + "\n";
   if (any_has_state(code, functions)) text += state_definitions(code, options) + "\n";
   text += helpers(code, functions, options);

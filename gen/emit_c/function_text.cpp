@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "gen/algorithms/centroid.h"
 #include "gen/emit_c/body_text.h"
 #include "gen/emit_c/c_spelling.h"
 
@@ -54,8 +55,12 @@ std::string argument_legend(const CodeModel& code, const FunctionSpec& spec,
   if (name == "chi") return fmt::format("chi[{}] see enum {}_chi", argument.size(), options.prefix);
   if (name == "gravity") return "gravity[3] m/s^2: acceleration of the base, -g, in frame 0";
   if (name == "wrench") {
-    return "wrench[6] N, N m: on the last link, about its origin, in its frame";
+    return fmt::format("wrench[6] N, N m: on {}, about its origin, in its frame",
+                       code.options.wrench_link > 0
+                           ? fmt::format("link {}", code.options.wrench_link)
+                           : "the last link");
   }
+  if (name == "w") return "w[6] N, N m: on the link, about its origin, in the axes of frame 0";
   if (name == "A") {
     return fmt::format("A[{}] weights, {} x {} row-major", argument.size(), argument.rows,
                        argument.columns);
@@ -89,10 +94,24 @@ std::string effects_text(const CodeModel& code, const FunctionSpec& spec) {
   return text;
 }
 
+/// Links that count as having no mass in a function of the bodies, though they have inertia.
+std::string massless_text(const CodeModel& code, const FunctionSpec& spec) {
+  if (spec.why_absent != why_no_centroid) return {};
+  std::string links;
+  for (std::size_t j = 0; j < code.bodies.links.size(); ++j) {
+    const auto& body = code.bodies.links[j];
+    const bool any =
+        std::any_of(body.begin(), body.end(), [](const auto& v) { return !v.is_zero(); });
+    if (any && body[index(Chi::kM)].is_zero()) links += fmt::format(" {}", j + 1);
+  }
+  return links.empty() ? "" : fmt::format(" Without mass in the robot file: links{}.", links);
+}
+
 }  // namespace
 
 std::string summary_text(const CodeModel& code, const RobotFunction& function) {
-  std::string text = std::string(function.spec->summary) + effects_text(code, *function.spec);
+  std::string text = std::string(function.spec->summary) + effects_text(code, *function.spec) +
+                     massless_text(code, *function.spec);
   if (!function.spec->of_link()) return text;
   const int link = parse_function_name(function.name).link;
   return text + fmt::format(" The link: {}.", link == 0 ? code.size() : link);
@@ -126,7 +145,8 @@ std::string function_comment(const CodeModel& code, const RobotFunction& functio
 
 std::string signature(const CodeModel& code, const RobotFunction& function,
                       const EmitOptions& options) {
-  std::string text = fmt::format("void {}_{}(", options.prefix, function.name);
+  std::string text =
+      fmt::format("{} void {}_{}(", function_macro(options), options.prefix, function.name);
   bool first = true;
   for (const Argument& argument : arguments(*function.spec, code)) {
     text += (first ? "" : ", ") + declared(argument, argument.name, options);

@@ -14,7 +14,7 @@ std::string summary_text(const CodeModel& code, const RobotFunction& function);
 std::string function_comment(const CodeModel& code, const RobotFunction& function,
                              const EmitOptions& options);
 
-/// "void P_id(const double *q, ..., double *tau)", on one line.
+/// "P_FUNCTION void P_id(const double *q, ..., double *tau)", on one line.
 std::string signature(const CodeModel& code, const RobotFunction& function,
                       const EmitOptions& options);
 

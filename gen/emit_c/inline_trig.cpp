@@ -136,7 +136,7 @@ std::string kernels(const std::string& prefix, bool single) {
     }
     if (registers == 2) text += "\n";
     const std::string signature = wrap_arguments(fmt::format(
-        "static {1}_INLINE void {0}_sincos_kernel{2}(const {0}_pack *angle, {0}_pack *sine, "
+        "{1}_HELPER {1}_INLINE void {0}_sincos_kernel{2}(const {0}_pack *angle, {0}_pack *sine, "
         "{0}_pack *cosine) {{",
         prefix, upper, registers));
     text += fmt::format(kKernel, signature, statements);
@@ -174,7 +174,7 @@ std::string kernel_calls(const std::string& prefix, std::size_t count, std::size
 // computes the sines of one register.
 constexpr const char* kLanes =
     R"(/* Sines and cosines of n angles of each sample. */
-static {1}_NOINLINE void {0}_sincos_lanes(int n, const {0}_lanes *x, {0}_lanes *s, {0}_lanes *c) {{
+{1}_HELPER {1}_NOINLINE void {0}_sincos_lanes(int n, const {0}_lanes *x, {0}_lanes *s, {0}_lanes *c) {{
   int i, k;
 #ifdef {1}_INLINE_TRIG
   {0}_lanes size = {{0}};
@@ -238,8 +238,8 @@ std::string sincos_function(const EmitOptions& options, std::size_t count) {
     values += (i > 0 ? ", " : "") + fmt::format("x{}", i);
   }
   std::string text = wrap_arguments(
-      fmt::format("static {0}_NOINLINE void {1}_sincos{2}({3}{1}_pack *s, {1}_pack *c) {{\n", upper,
-                  prefix, count, parameters));
+      fmt::format("{0}_HELPER {0}_NOINLINE void {1}_sincos{2}({3}{1}_pack *s, {1}_pack *c) {{\n",
+                  upper, prefix, count, parameters));
   text += fmt::format("  const {} x[{}] = {{{}}};\n  int i;\n", type, count, values);
   text += fmt::format("#ifdef {}_INLINE_TRIG\n  if ({} < 1e10) {{\n", upper, squares(0, count));
   text += fmt::format("#if {}_PACK == 8\n{}", upper, kernel_calls(prefix, count, 8));

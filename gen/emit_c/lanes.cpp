@@ -12,7 +12,7 @@ namespace {
 // {0} is the prefix, {1} the prefix in capitals, {2} the scalar.
 constexpr const char* kPack =
     R"(/* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined({1}_DEVICE)
 #define {1}_VECTORS
 #if defined(__AVX512F__)
 #define {1}_PACK 8
@@ -58,26 +58,26 @@ constexpr const char* kLoadAndStore = R"(#ifdef {1}_VECTORS
 #define {1}_LANE(x, k) x
 #endif
 
-static {1}_INLINE {0}_lanes {0}_load(const {2} *from) {{
+{1}_HELPER {1}_INLINE {0}_lanes {0}_load(const {2} *from) {{
   {0}_lanes x;
   memcpy(&x, from, sizeof x);
   return x;
 }}
 
-static {1}_INLINE void {0}_store({2} *to, {0}_lanes x) {{
+{1}_HELPER {1}_INLINE void {0}_store({2} *to, {0}_lanes x) {{
   memcpy(to, &x, sizeof x);
 }}
 
 /* Rows of the last samples, count of them: as many as there are lanes, copies of the last one, and
  * back. */
-static {1}_NOINLINE void {0}_fill_up(size_t count, size_t n, size_t rows, const {2} *from, {2} *to) {{
+{1}_HELPER {1}_NOINLINE void {0}_fill_up(size_t count, size_t n, size_t rows, const {2} *from, {2} *to) {{
   size_t i, k;
   for (i = 0; i < rows; ++i) {{
     for (k = 0; k < {1}_LANES; ++k) to[i * {1}_LANES + k] = from[i * n + (k < count ? k : count - 1)];
   }}
 }}
 
-static {1}_NOINLINE void {0}_take(size_t count, size_t n, size_t rows, const {2} *from, {2} *to) {{
+{1}_HELPER {1}_NOINLINE void {0}_take(size_t count, size_t n, size_t rows, const {2} *from, {2} *to) {{
   size_t i, k;
   for (i = 0; i < rows; ++i) {{
     for (k = 0; k < count; ++k) to[i * n + k] = from[i * {1}_LANES + k];
@@ -87,7 +87,7 @@ static {1}_NOINLINE void {0}_take(size_t count, size_t n, size_t rows, const {2}
 
 constexpr const char* kSign = R"(
 /* -1, 0 or 1 */
-static {1}_INLINE {0}_lanes {0}_sign_lanes({0}_lanes x) {{
+{1}_HELPER {1}_INLINE {0}_lanes {0}_sign_lanes({0}_lanes x) {{
 #ifdef {1}_VECTORS
   const {0}_lanes zero = {{0}};
   const {0}_bits one = ({0}_bits)(zero + 1);
@@ -100,7 +100,7 @@ static {1}_INLINE {0}_lanes {0}_sign_lanes({0}_lanes x) {{
 
 /// The smaller or the larger. {3} is its name, {4} the comparison under which it is the first.
 constexpr const char* kChoice = R"(
-static {1}_INLINE {0}_lanes {0}_{3}_lanes({0}_lanes x, {0}_lanes y) {{
+{1}_HELPER {1}_INLINE {0}_lanes {0}_{3}_lanes({0}_lanes x, {0}_lanes y) {{
 #ifdef {1}_VECTORS
   const {0}_bits first = ({0}_bits)(x {4} y);
   return ({0}_lanes)((first & ({0}_bits)x) | (~first & ({0}_bits)y));
@@ -111,7 +111,7 @@ static {1}_INLINE {0}_lanes {0}_{3}_lanes({0}_lanes x, {0}_lanes y) {{
 )";
 
 constexpr const char* kAbsolute = R"(
-static {1}_INLINE {0}_lanes {0}_abs_lanes({0}_lanes x) {{
+{1}_HELPER {1}_INLINE {0}_lanes {0}_abs_lanes({0}_lanes x) {{
 #ifdef {1}_VECTORS
   const {0}_bits below = ({0}_bits)(x < -x);
   return ({0}_lanes)((below & ({0}_bits)-x) | (~below & ({0}_bits)x));
@@ -123,7 +123,7 @@ static {1}_INLINE {0}_lanes {0}_abs_lanes({0}_lanes x) {{
 
 /// One sample after the other. {3} is the name, {4} the parameters, {5} the call of one sample.
 constexpr const char* kEach = R"(
-static {1}_INLINE {0}_lanes {0}_{3}_lanes({4}) {{
+{1}_HELPER {1}_INLINE {0}_lanes {0}_{3}_lanes({4}) {{
   {0}_lanes result = x;
   int k;
   for (k = 0; k < {1}_LANES; ++k) {1}_LANE(result, k) = {5};
@@ -132,7 +132,7 @@ static {1}_INLINE {0}_lanes {0}_{3}_lanes({4}) {{
 )";
 
 constexpr const char* kSpread = R"(
-static {1}_INLINE {0}_lanes {0}_spread({2} x) {{
+{1}_HELPER {1}_INLINE {0}_lanes {0}_spread({2} x) {{
   const {0}_lanes zero = {{0}};
   return zero + x;
 }}

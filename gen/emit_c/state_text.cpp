@@ -11,8 +11,9 @@ namespace dyngen {
 namespace {
 
 std::string reset_signature(const EmitOptions& options) {
-  return fmt::format("void {0}_reset({0}_state *s, {1} dt)", options.prefix,
-                     options.scalar == Scalar::kDouble ? "double" : "float");
+  return fmt::format("{2} void {0}_reset({0}_state *s, {1} dt)", options.prefix,
+                     options.scalar == Scalar::kDouble ? "double" : "float",
+                     function_macro(options));
 }
 
 std::string reset_comment(const EmitOptions& options) {
@@ -65,7 +66,7 @@ std::string state_declarations(const CodeModel& code, const EmitOptions& options
 
 std::string state_definitions(const CodeModel& code, const EmitOptions& options) {
   const CSpelling spelling(options, code.inputs);
-  std::string text = fmt::format("const char *const {}_state_names[] = {{\n", options.prefix);
+  std::string text = table_begin("char *const", "state_names", options);
   for (const CodeState& state : code.memory.states)
     text += fmt::format("    \"{}\",\n", state.name);
   text += "    0};\n\n" + reset_comment(options) + reset_signature(options) + " {\n";

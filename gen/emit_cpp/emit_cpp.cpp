@@ -98,7 +98,10 @@ std::string input_type(const Argument& argument, const CodeModel& code) {
   if (argument.name == "chi") return "Chi";
   if (argument.name == "folded") return "Folded";
   const int joints = extent_size(Extent::kJoints, code);
-  if (!argument.shared && argument.size() == joints && argument.name != "wrench") return "Vector";
+  if (!argument.shared && argument.size() == joints && argument.name != "wrench" &&
+      argument.name != "w") {
+    return "Vector";
+  }
   return fmt::format("Matrix<{}>", argument.size());
 }
 

@@ -9,8 +9,8 @@
 
 #include "gen/base_parameters/base_parameters.h"
 #include "gen/explain/arm_text.h"
+#include "gen/explain/base_formulas.h"
 #include "gen/explain/bodies_text.h"
-#include "gen/explain/grouping_text.h"
 #include "gen/explain/place_text.h"
 #include "gen/explain/text.h"
 #include "gen/explain/visibility.h"
@@ -19,63 +19,31 @@
 namespace dyngen {
 namespace {
 
-/// The robot with a symbol for every length that is not zero, so that formulas show it.
-RobotModel with_symbolic_lengths(RobotModel model) {
-  for (JointModel& joint : model.joints) {
-    for (Quantity* length : {&joint.d, &joint.r}) {
-      if (!length->known_zero()) length->unknown = true;
-    }
-  }
-  return model;
-}
-
-bool same_set(const Regrouping& a, const Regrouping& b) {
-  return std::equal(
-      a.parameters.begin(), a.parameters.end(), b.parameters.begin(), b.parameters.end(),
-      [](const GroupedParameter& x, const GroupedParameter& y) { return x.column == y.column; });
-}
-
-std::string value_text(const GroupedParameter& parameter, const SymbolicRobot& robot) {
-  const GiNaC::ex value = with_known_values(parameter.value, robot);
-  const bool revolute = robot.link(parameter.column.link).type != JointType::kPrismatic;
-  const std::string_view unit = chi_unit(parameter.column.kind, revolute);
-  if (!is_number(value)) return fmt::format("[{}]", unit);
-  return fmt::format("[{:.6g} {}]", to_double(value), unit);
+std::string value_text(const BaseFormula& parameter) {
+  if (!parameter.value) return fmt::format("[{}]", parameter.unit);
+  return fmt::format("[{:.6g} {}]", *parameter.value, parameter.unit);
 }
 
 /// "d3 = 0.4318 m": the lengths in the formulas.
-std::string lengths_text(const RobotModel& model) {
+std::string lengths_text(const std::vector<FormulaLength>& lengths) {
   std::string text;
-  const auto add = [&](const char* name, int j, const Quantity& length) {
-    if (length.known_zero()) return;
-    text +=
-        fmt::format("{}{}{} = {}", text.empty() ? "" : ", ", name, j,
-                    length.unknown ? "run-time" : fmt::format("{:.6g} m", to_double(length.value)));
-  };
-  for (int j = 1; j <= model.size(); ++j) {
-    add("d", j, model.joint(j).d);
-    add("r", j, model.joint(j).r);
+  for (const FormulaLength& length : lengths) {
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", length.name,
+                        length.value ? fmt::format("{:.6g} m", *length.value) : "run-time");
   }
   return text;
 }
 
 std::string base_text(const RobotModel& model, const SymbolicRobot& robot, const Regrouping& base) {
-  // the same set with lengths as symbols, if the geometry is not a special one
-  const SymbolicRobot general = make_symbolic(with_symbolic_lengths(model));
-  const Regrouping formulas = regroup(general);
-  const bool symbolic = same_set(base, formulas);
+  const BaseFormulas formulas = base_formulas(model, robot, base);
   std::string text = fmt::format("\nBase parameters: {}\n", base.parameters.size());
-  for (std::size_t i = 0; i < base.parameters.size(); ++i) {
-    const GroupedParameter& parameter = base.parameters[i];
-    const std::string formula = symbolic ? grouping_formula(formulas.parameters[i].value, general)
-                                         : grouping_formula(parameter.value, robot);
-    const std::string name = parameter.name();
-    text += fill_lines(fmt::format("  {} = ", name), formula + " " + value_text(parameter, robot),
-                       name.size() + 5);
+  for (const BaseFormula& parameter : formulas.parameters) {
+    text += fill_lines(fmt::format("  {} = ", parameter.name),
+                       parameter.formula + " " + value_text(parameter), parameter.name.size() + 5);
   }
-  const std::string lengths = lengths_text(model);
-  if (symbolic && !lengths.empty()) text += fill_lines("  with ", lengths, 6);
-  if (!symbolic) {
+  const std::string lengths = lengths_text(formulas.lengths);
+  if (!lengths.empty()) text += fill_lines("  with ", lengths, 6);
+  if (!formulas.symbolic) {
     text +=
         fill_lines("  ",
                    "The lengths of this arm are special: with others the set would be larger. The "

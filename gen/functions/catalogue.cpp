@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <charconv>
 
+#include "gen/algorithms/centroid.h"
+#include "gen/algorithms/coriolis_matrix.h"
 #include "gen/algorithms/derivatives.h"
 #include "gen/algorithms/energy.h"
+#include "gen/algorithms/external_torque.h"
 #include "gen/algorithms/forward_dynamics.h"
 #include "gen/algorithms/friction.h"
 #include "gen/algorithms/gravity.h"
@@ -138,6 +141,19 @@ const std::vector<FunctionSpec>& function_catalogue() {
        "M = M(q): the inertia matrix of the joints, rotor inertia on its diagonal; by composite "
        "bodies.",
        [](Trace& trace, const CodeModel& code) { write_mass_matrix(trace, code, "M"); }},
+      {"coriolis_matrix",
+       {"q", "dq"},
+       {joint_square("C", "torque per rad/s or m/s")},
+       {.payload = true},
+       "C = C(q, dq): Coriolis matrix of the Christoffel symbols: C dq = c(q, dq), and dM/dt - 2 C "
+       "is skew.",
+       write_coriolis_matrix},
+      {"coriolis_matrix_fast",
+       {"q", "dq"},
+       {joint_square("C", "torque per rad/s or m/s")},
+       {.payload = true},
+       "Another matrix with C dq = c(q, dq), of fewer operations; dM/dt - 2 C is not skew.",
+       write_coriolis_matrix_fast},
       {.name = "fd",
        .inputs = {"q", "dq", "tau"},
        .outputs = {{.array = "ddq", .unit = "rad/s^2 (m/s^2 where a joint slides)"}},
@@ -228,6 +244,40 @@ const std::vector<FunctionSpec>& function_catalogue() {
                   "in the axes of frame 0.",
        .write_of_link = write_jacobian,
        .effects = EffectPart::kNone},
+      {.name = "external_torque",
+       .inputs = {"q"},
+       .outputs = {joint_torque()},
+       .reads = {.load = true},
+       .summary = "tau = J^T w: the torque that a wrench on the link puts on the joints, J the "
+                  "Jacobian of its frame.",
+       .write_of_link = write_external_torque,
+       .effects = EffectPart::kNone},
+      {.name = "com",
+       .inputs = {"q"},
+       .outputs = {{.array = "p", .rows = Extent::kThree, .unit = "m"},
+                   {.array = "mass", .rows = Extent::kOne, .unit = "kg"}},
+       .reads = {.payload = true},
+       .summary = "p: centre of mass of all links in frame 0; mass: theirs together.",
+       .write = write_center_of_mass,
+       .why_absent = why_no_centroid,
+       .effects = EffectPart::kNone},
+      {.name = "com_jacobian",
+       .inputs = {"q"},
+       .outputs = {{"J", Extent::kThree, Extent::kJoints, "m, 1 (m/s per joint rate)"}},
+       .reads = {.payload = true},
+       .summary = "v = J dq: velocity of the centre of mass of all links, in the axes of frame 0.",
+       .write = write_center_of_mass_jacobian,
+       .why_absent = why_no_centroid,
+       .effects = EffectPart::kNone},
+      {.name = "momentum",
+       .inputs = {"q", "dq"},
+       .outputs = {{.array = "h", .rows = Extent::kSix, .unit = "kg m/s, kg m^2/s"}},
+       .reads = {.payload = true},
+       .summary = "h: momentum of all links, then their angular momentum about the origin of frame "
+                  "0, in its axes; without the spin of the rotors.",
+       .write = write_momentum,
+       .why_absent = why_no_centroid,
+       .effects = EffectPart::kNone},
   };
   return kCatalogue;
 }
@@ -295,6 +345,7 @@ std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code)
   if (reads.weights) {
     result.push_back({.name = "A", .rows = joints, .columns = extent_size(Extent::kBeta, code)});
   }
+  if (reads.load) add("w", 6, false);
   if (code.options.gravity && reads.gravity) add("gravity", 3, true);
   if (code.options.wrench && reads.wrench) add("wrench", 6, false);
   if (code.options.payload && reads.payload) add("payload", kInertialCount, true);

@@ -28,6 +28,7 @@ struct ExtraInputs {
   bool wrench = false;   ///< wrench[6]
   bool payload = false;  ///< payload[10]
   bool weights = false;  ///< A[n x nbeta], wherever there are any
+  bool load = false;     ///< w[6]: force and moment in the axes of frame 0
 };
 
 /// What a function has to do with the effects of a robot.
@@ -99,8 +100,8 @@ struct Argument {
 /// True if the function has the argument s: effects with states are in it. It has no batch then.
 bool has_state(const FunctionSpec& spec, const CodeModel& code);
 
-/// The arguments in the order of the C function: s, q, dq, ddq or tau, A, gravity, wrench, payload,
-/// chi (or folded), outputs. The one definition of a function's signature.
+/// The arguments in the order of the C function: s, q, dq, ddq or tau, A, w, gravity, wrench,
+/// payload, chi (or folded), outputs. The one definition of a function's signature.
 std::vector<Argument> arguments(const FunctionSpec& spec, const CodeModel& code);
 
 /// The same function over many samples, structure of arrays: the name with this ending.

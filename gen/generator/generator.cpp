@@ -132,6 +132,10 @@ void GeneratorOptions::validate() const {
 
 void GeneratorOptions::validate(const RobotModel& model) const {
   validate();
+  if (wrench && wrench_link > model.size()) {
+    throw std::invalid_argument(fmt::format("--wrench: {} has no link {}; expected 1 to {}",
+                                            model.name, wrench_link, model.size()));
+  }
   for (const std::string& text : functions) {
     const FunctionName name = parse_function_name(without_batch(text));
     if (name.link <= model.size()) continue;
@@ -153,14 +157,17 @@ std::vector<BoundEffect> bound_effects(const RobotModel& model, const GeneratorO
 CodeModel make_code_model(const RobotModel& model, const GeneratorOptions& options) {
   const SymbolicRobot robot = make_symbolic(model, options);
   const Regrouping base = regroup(robot);
-  return make_code_model(options.regroup ? base : keep_standard(robot), base.parameters,
-                         {.parameters = options.parameters,
-                          .gravity = options.gravity,
-                          .wrench = options.wrench,
-                          .payload = options.payload,
-                          .weights = asks_for_weights(options),
-                          .fold = options.fold},
-                         bound_effects(model, options));
+  CodeModel code = make_code_model(options.regroup ? base : keep_standard(robot), base.parameters,
+                                   {.parameters = options.parameters,
+                                    .gravity = options.gravity,
+                                    .wrench = options.wrench,
+                                    .wrench_link = options.wrench_link,
+                                    .payload = options.payload,
+                                    .weights = asks_for_weights(options),
+                                    .fold = options.fold},
+                                   bound_effects(model, options));
+  add_bodies(code, robot, options.regroup, model.parameters);
+  return code;
 }
 
 std::vector<RobotFunction> write_functions(CodeModel& code, const GeneratorOptions& options) {
@@ -184,12 +191,17 @@ std::vector<RobotFunction> write_functions(CodeModel& code, const GeneratorOptio
 CText generate(const RobotModel& model, const GeneratorOptions& options) {
   options.validate(model);
   CodeModel code = make_code_model(model, options);
+  const std::vector<RobotFunction> functions = write_functions(code, options);
+  return generated_text(model, code, functions, options);
+}
+
+CText generated_text(const RobotModel& model, const CodeModel& code,
+                     const std::vector<RobotFunction>& functions, const GeneratorOptions& options) {
   EmitOptions emit;
   emit.prefix = options.prefix.empty() ? model.name : options.prefix;
   emit.scalar = options.scalar;
   emit.trig = options.trig;
   emit.header_name = options.header_name.empty() ? emit.prefix + ".h" : options.header_name;
-  const std::vector<RobotFunction> functions = write_functions(code, options);
   CText text = emit_c(code, functions, emit);
   if (options.cpp_wrapper) text.wrapper = emit_cpp(code, functions, emit);
   return text;

@@ -29,7 +29,8 @@ struct GeneratorOptions {
   ParameterMode parameters = ParameterMode::kBaked;
   bool regroup = true;       ///< use base parameters
   bool gravity = false;      ///< gravity is an argument; the file's is ignored
-  bool wrench = false;       ///< a wrench on the last link is an argument
+  bool wrench = false;       ///< a wrench on a link is an argument
+  int wrench_link = 0;       ///< the link; 0: the last one
   bool payload = false;      ///< the parameters of a body on the last link are an argument
   bool fold = false;         ///< what parameters alone give is worked out in a function of its own
   bool cpp_wrapper = false;  ///< a C++ header too
@@ -68,6 +69,10 @@ std::vector<RobotFunction> write_functions(CodeModel& code, const GeneratorOptio
 /// The whole road from the checked robot to C text. @throws std::invalid_argument  as
 /// validate()
 CText generate(const RobotModel& model, const GeneratorOptions& options);
+
+/// The C text of functions that were written with these options.
+CText generated_text(const RobotModel& model, const CodeModel& code,
+                     const std::vector<RobotFunction>& functions, const GeneratorOptions& options);
 
 /// Operation counts of the functions beside the general bounds 105n - 92 and 94n - 86
 /// (Khalil and Kleinfinger 1987), as a table to read.

@@ -53,7 +53,9 @@ class Folding {
       output.node = term.factors[0];
       output.negative = output.negative != term.negative;
     }
-    return to_trace(network, trace);
+    Trace result = to_trace(network, trace);
+    result.drop_dead_code();  // terms that cancel when they are multiplied out leave theirs behind
+    return result;
   }
 
   Trace fold(const SearchOptions& options) {

@@ -6,20 +6,24 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gen/algorithms/code_effects.h"
 #include "gen/diagnostic/assert.h"
 #include "gen/drawing/arm_drawing.h"
 #include "gen/effect_code/checked_robot.h"
+#include "gen/evaluate/state_words.h"
 #include "gen/explain/explain.h"
 #include "gen/generator/generator.h"
 #include "gen/model/robot_model.h"
 #include "gen/robot_output/robot_tree.h"
 #include "gen/tool/fitted_lines.h"
+#include "gen/tool/further_outputs.h"
 #include "gen/tool/options.h"
 #include "gen/tool/output_files.h"
 #include "gen/tool/progress_line.h"
+#include "gen/tool/wrench_words.h"
 
 namespace dyngen {
 namespace {
@@ -59,9 +63,12 @@ void print(const std::string& text) {
 }
 
 /// What is asked for does not go with this robot.
-bool report_misuse(const GeneratorOptions& options, const RobotModel& model) {
+bool report_misuse(ToolOptions& options, const RobotModel& model) {
   try {
-    options.validate(model);
+    GeneratorOptions& generator = options.generator;
+    if (generator.wrench) generator.wrench_link = wrench_link(options.wrench, model);
+    generator.validate(model);
+    if (!options.eval.empty()) read_state(options.eval, model);
     return false;
   } catch (const std::invalid_argument& error) {
     std::cerr << "dyngen: " << error.what() << "\n";
@@ -95,9 +102,30 @@ GeneratorOptions telling(GeneratorOptions options, ProgressLine& line, Missing& 
   return options;
 }
 
-CText generated_text(const RobotModel& model, const GeneratorOptions& options, Missing& missing) {
+/// The files that hold the functions: C, and scripts.
+std::vector<OutputFile> function_files(const ToolOptions& tool, const RobotModel& model,
+                                       Missing& missing) {
+  if (tool.output.empty() && tool.numpy.empty() && tool.matlab.empty()) return {};
   ProgressLine line("dyngen");
-  return generate(model, telling(options, line, missing));
+  ToolOptions options = tool;
+  options.generator = telling(tool.generator, line, missing);
+  CodeModel code = make_code_model(model, options.generator);
+  const std::vector<RobotFunction> functions = write_functions(code, options.generator);
+  std::vector<OutputFile> files;
+  if (!options.output.empty()) {
+    const CText text = generated_text(model, code, functions, options.generator);
+    files = {{options.output, text.source}, {options.header(), text.header}};
+    if (options.generator.cpp_wrapper) files.push_back({options.wrapper(), text.wrapper});
+    if (!options.depfile.empty()) {
+      std::vector<std::string> targets;
+      for (const OutputFile& written : files) targets.push_back(written.path);
+      files.push_back({options.depfile, depfile_text(targets, dependencies(options))});
+    }
+  }
+  for (OutputFile& script : script_files(options, code, functions)) {
+    files.push_back(std::move(script));
+  }
+  return files;
 }
 
 std::string counted(const RobotModel& model, const GeneratorOptions& options, Missing& missing) {
@@ -119,21 +147,12 @@ std::string told(WrittenRobot written, const RobotFile& file) {
 int run(ToolOptions options) {
   const CheckedRobot robot = read_checked_robot(options.robot, options.effect_folders);
   const RobotModel model = build_model(robot.file);
-  if (report_misuse(options.generator, model)) return kUsage;
+  if (report_misuse(options, model)) return kUsage;
   options.generator.catalogue = robot.catalogue;
   print_warnings(robot, model, options.generator);
   Missing missing;
-  std::vector<OutputFile> files;
-  if (!options.output.empty()) {
-    const CText text = generated_text(model, options.generator, missing);
-    files = {{options.output, text.source}, {options.header(), text.header}};
-    if (options.generator.cpp_wrapper) files.push_back({options.wrapper(), text.wrapper});
-    if (!options.depfile.empty()) {
-      std::vector<std::string> targets;
-      for (const OutputFile& written : files) targets.push_back(written.path);
-      files.push_back({options.depfile, depfile_text(targets, dependencies(options))});
-    }
-  }
+  std::vector<OutputFile> files = function_files(options, model, missing);
+  if (!options.latex.empty()) files.push_back(latex_file(options, model));
   if (!options.drawing.empty()) files.push_back({options.drawing, arm_drawing(model)});
   if (!options.to_robot.empty()) files.push_back({options.to_robot, robot.file.text});
   if (!options.to_urdf.empty()) {
@@ -144,6 +163,8 @@ int run(ToolOptions options) {
   }
   write_files(files);
   if (options.explain) print(explain(model));
+  if (!options.eval.empty()) print(evaluated(options, model, robot.file));
+  if (!options.compare.empty()) print(compared(options, model, robot.file));
   if (options.count) print(counted(model, options.generator, missing));
   std::cerr << missing_text(missing, options.robot.path);
   return kDone;

@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "gen/emit_script/emit_matlab.h"
 #include "gen/tool/output_files.h"
 #include "gen/tool/robot_options.h"
 #include "gen/tool/usage_hint.h"
+#include "gen/tool/wrench_words.h"
 
 namespace dyngen {
 namespace {
@@ -35,10 +37,16 @@ Value meaning(const std::string& option, const std::string& word,
 /// No file may be written over another one of the same call.
 void check_paths(const ToolOptions& options) {
   std::vector<std::pair<std::string, std::string>> files = {{"the robot file", options.robot.path}};
+  if (!options.compare.empty() && !is_same_file(options.compare, options.robot.path)) {
+    files.emplace_back("the robot file of --compare", options.compare);
+  }
   if (!options.drawing.empty()) files.emplace_back("--drawing", options.drawing);
   if (!options.to_robot.empty()) files.emplace_back("--to-robot", options.to_robot);
   if (!options.to_urdf.empty()) files.emplace_back("--to-urdf", options.to_urdf);
   if (!options.to_mjcf.empty()) files.emplace_back("--to-mjcf", options.to_mjcf);
+  if (!options.latex.empty()) files.emplace_back("--latex", options.latex);
+  if (!options.numpy.empty()) files.emplace_back("--numpy", options.numpy);
+  if (!options.matlab.empty()) files.emplace_back("--matlab", options.matlab);
   if (!options.output.empty()) {
     files.emplace_back("-o", options.output);
     files.emplace_back("the header", options.header());
@@ -59,20 +67,45 @@ void check_paths(const ToolOptions& options) {
   }
 }
 
-void check_ending(const std::string& option, const std::string& path, const std::string& ending) {
-  if (path.empty() || std::filesystem::path(path).extension().string() == ending) return;
-  throw std::invalid_argument(option + ": expected a file name that ends in " + ending +
-                              ", found '" + path + "'");
+/// An output file has the ending of its kind, and a name that its language can call.
+void check_ending(const char* option, const std::string& path, const char* ending,
+                  std::string (*why_no_name)(const std::string&) = nullptr) {
+  if (path.empty()) return;
+  const std::filesystem::path file(path);
+  if (file.extension().string() != ending) {
+    throw std::invalid_argument(std::string(option) + ": '" + path + "': expected a file name in " +
+                                ending);
+  }
+  const std::string reason = why_no_name == nullptr ? "" : why_no_name(file.stem().string());
+  if (!reason.empty()) throw std::invalid_argument(std::string(option) + ": " + reason);
+}
+
+bool has_work(const ToolOptions& options) {
+  return !options.output.empty() || !options.drawing.empty() || options.count || options.explain ||
+         !options.latex.empty() || !options.numpy.empty() || !options.matlab.empty() ||
+         !options.compare.empty() || !options.eval.empty() || !options.to_robot.empty() ||
+         !options.to_urdf.empty() || !options.to_mjcf.empty();
 }
 
 void check(ToolOptions& options) {
-  const bool writes = !options.output.empty() || !options.drawing.empty() ||
-                      !options.to_robot.empty() || !options.to_urdf.empty() ||
-                      !options.to_mjcf.empty();
-  if (!writes && !options.count && !options.explain) {
-    throw std::invalid_argument(
-        "nothing to do: give -o FILE, --count, --explain, --drawing FILE or --to-robot FILE");
+  if (options.robot.empty()) {  // among the words of a state
+    for (auto word = options.eval.begin(); word != options.eval.end(); ++word) {
+      if (word->find('=') != std::string::npos || !std::filesystem::exists(*word)) continue;
+      options.robot.path = *word;
+      options.eval.erase(word);
+      break;
+    }
   }
+  if (options.robot.empty()) throw std::invalid_argument("robot is required");
+  if (!has_work(options)) {
+    throw std::invalid_argument(
+        "nothing to do: give -o FILE, --count, --explain, --drawing FILE, --eval q=..., --compare "
+        "FILE, --latex FILE, --numpy FILE, --matlab FILE, --to-robot FILE, --to-urdf FILE or "
+        "--to-mjcf FILE");
+  }
+  check_ending("--latex", options.latex, ".tex");
+  check_ending("--numpy", options.numpy, ".py", why_no_python_name);
+  check_ending("--matlab", options.matlab, ".m", why_no_matlab_name);
   check_ending("--to-robot", options.to_robot, ".robot");
   check_ending("--to-urdf", options.to_urdf, ".urdf");
   check_ending("--to-mjcf", options.to_mjcf, ".xml");
@@ -113,7 +146,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   ToolOptions& options = parsed.options;
   CLI::App app("dyngen: a robot file in, its dynamics as straight-line C out", "dyngen");
   app.set_version_flag("--version", "dyngen " DYNGEN_VERSION);
-  add_robot(app, options.robot, "Robot");
+  add_robot(app, options.robot, "Robot")->required(false);  // it may stand among words of --eval
   app.add_option("-o,--output", options.output,
                  "C or C++ source to write; the header is written beside it")
       ->type_name("FILE");
@@ -151,9 +184,9 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                  "file: the file's (default); runtime: an argument gravity[3], m/s^2: the "
                  "acceleration of the base, -g, in frame 0")
       ->type_name("file|runtime");
-  app.add_flag("--wrench", options.generator.wrench,
+  app.add_flag("--wrench", options.wrench,
                "An argument wrench[6]: force (N) and moment (N m) about its origin that act on the "
-               "last link, in its frame");
+               "last link, in its frame; --wrench LINK: on this link, by number or joint name");
   app.add_flag("--payload", options.generator.payload,
                "An argument payload[10]: XX XY XZ YY YZ ZZ MX MY MZ M of a body on the last link, "
                "in its frame");
@@ -185,13 +218,32 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--to-urdf", options.to_urdf, "Write the robot as URDF (.urdf)")
       ->type_name("FILE");
   app.add_option("--to-mjcf", options.to_mjcf, "Write the robot as MJCF (.xml)")->type_name("FILE");
+  app.add_option(
+         "--eval", options.eval,
+         "Print torque and its parts, poses and mass matrix at q=..., and dq=... ddq=... (0 "
+         "where left out): values for the moving joints, commas between, expressions as in "
+         "robot files; XX2=... gives a number that the file leaves unknown")
+      ->type_name("q=Q,...");
+  app.add_option("--compare", options.compare,
+                 "Print where the robot of another file differs: torque, its parts, joint axes")
+      ->type_name("FILE");
+  app.add_option("--latex", options.latex,
+                 "Write table of joints, base parameters and equations as LaTeX (.tex)")
+      ->type_name("FILE");
+  app.add_option("--numpy", options.numpy, "Write the functions as a Python module (.py)")
+      ->type_name("FILE");
+  app.add_option("--matlab", options.matlab,
+                 "Write the functions as a MATLAB or Octave function file (.m)")
+      ->type_name("FILE");
   app.footer(
       "Examples:\n"
       "  dyngen arm.robot -o arm.c\n"
       "  dyngen panda.urdf --tip link8 -o panda.c\n"
       "  dyngen arm.robot --to-urdf arm.urdf");
+  const std::vector<std::string> words = with_joined_wrench(argc, argv);
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 reads backwards
+    options.generator.wrench = !options.wrench.empty();
     options.generator.parameters = meaning<ParameterMode>(
         "--parameters", parameters,
         {{"baked", ParameterMode::kBaked}, {"runtime", ParameterMode::kRuntime}});

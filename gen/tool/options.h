@@ -15,12 +15,18 @@ inline constexpr int kDone = 0, kInputWrong = 1, kUsage = 2, kOurBug = 70;
 /// The command line of dyngen.
 struct ToolOptions {
   RobotSource robot;
-  std::string output;    ///< the C or C++ source; its header stands beside it; empty: none
-  std::string depfile;   ///< empty: none
-  std::string drawing;   ///< the arm's picture, SVG; empty: none
-  std::string to_robot;  ///< the robot file, made or as it is; empty: none
-  std::string to_urdf;   ///< empty: none
-  std::string to_mjcf;   ///< empty: none
+  std::string output;             ///< the C or C++ source; its header stands beside it; empty: none
+  std::string depfile;            ///< empty: none
+  std::string drawing;            ///< the arm's picture, SVG; empty: none
+  std::string to_robot;           ///< the robot file, made or as it is; empty: none
+  std::string to_urdf;            ///< empty: none
+  std::string to_mjcf;            ///< empty: none
+  std::string latex;              ///< the equations; empty: none
+  std::string numpy;              ///< the functions as a Python module; empty: none
+  std::string matlab;             ///< the functions as a MATLAB function file; empty: none
+  std::string compare;            ///< another robot file; empty: none
+  std::vector<std::string> eval;  ///< words of a state; empty: none is evaluated
+  std::string wrench;             ///< the link of the argument wrench as it was written
   std::vector<std::string> effect_folders;  ///< in the order of the command line
   bool count = false;
   bool explain = false;

@@ -5,10 +5,11 @@
 
 namespace dyngen {
 
-void add_robot(CLI::App& command, RobotSource& robot, const std::string& words) {
-  command.add_option("robot", robot.path, words + ": .robot, URDF, MJCF or SYMORO's .par")
-      ->required()
-      ->type_name("FILE");
+CLI::Option* add_robot(CLI::App& command, RobotSource& robot, const std::string& words) {
+  CLI::Option* file =
+      command.add_option("robot", robot.path, words + ": .robot, URDF, MJCF or SYMORO's .par")
+          ->required()
+          ->type_name("FILE");
   command
       .add_option("--base", robot.base,
                   "of URDF and MJCF: the link that stands still (default: the root)")
@@ -25,6 +26,7 @@ void add_robot(CLI::App& command, RobotSource& robot, const std::string& words) 
                   "(1e-4 makes 1.5708 a right angle)")
       ->check(CLI::Range(0.0, 0.01))
       ->type_name("TOL");
+  return file;
 }
 
 }  // namespace dyngen

@@ -11,8 +11,9 @@ class App;
 
 namespace dyngen {
 
-/// Adds a command's robot: its file, and --base, --tip and --round-angles beside it.
+/// Adds a command's robot: its file, which is returned, and --base, --tip and --round-angles beside
+/// it.
 /// @param words  what the file is to the command
-void add_robot(CLI::App& command, RobotSource& robot, const std::string& words);
+CLI::Option* add_robot(CLI::App& command, RobotSource& robot, const std::string& words);
 
 }  // namespace dyngen

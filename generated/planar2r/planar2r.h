@@ -26,6 +26,12 @@ enum planar2r_chi {
   PLANAR2R_FS2 = 10 /* N m, planar2r.robot:29 */
 };
 
+/* Stands before every function: nothing, or what the user defines: `__host__ __device__` where they
+ * run in CUDA or HIP, `static inline` where the source is included in place of this header. */
+#ifndef PLANAR2R_FUNCTION
+#define PLANAR2R_FUNCTION
+#endif
+
 /* Names, each table ends with a null pointer. */
 extern const char *const planar2r_joint_names[];
 extern const char *const planar2r_chi_names[];
@@ -38,27 +44,29 @@ extern const double planar2r_chi_values[];
  * ch. 9].
  *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   tau[2] N m, out
  * 27 mul, 20 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
-void planar2r_id(const double *q, const double *dq, const double *ddq, double *tau);
+PLANAR2R_FUNCTION void planar2r_id(const double *q, const double *dq, const double *ddq,
+                                   double *tau);
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   tau[2] N m, out
  * 23 mul, 16 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void planar2r_id_rigid(const double *q, const double *dq, const double *ddq, double *tau);
+PLANAR2R_FUNCTION void planar2r_id_rigid(const double *q, const double *dq, const double *ddq,
+                                         double *tau);
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   tau[2] N m, out
  * 4 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void planar2r_gravity(const double *q, double *tau);
+PLANAR2R_FUNCTION void planar2r_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad   dq[2] rad/s   tau[2] N m, out
  * 7 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void planar2r_coriolis(const double *q, const double *dq, double *tau);
+PLANAR2R_FUNCTION void planar2r_coriolis(const double *q, const double *dq, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
  *   dq[2] rad/s   tau[2] N m, out
  * 4 mul, 2 add, 0 sin/cos, 2 sgn.  Reads every input before writing tau. */
-void planar2r_friction(const double *dq, double *tau);
+PLANAR2R_FUNCTION void planar2r_friction(const double *dq, double *tau);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,30 @@
 
 #include <math.h>
 
+/* CUDA or HIP reads this. */
+#if defined(__CUDACC__) || defined(__CUDA__) || defined(__HIPCC__) || defined(__HIP__)
+#define PUMA560_DEVICE
+#endif
+
+/* Stands before the functions that only those of the header call. */
+#ifndef PUMA560_HELPER
+#ifdef PUMA560_DEVICE
+#define PUMA560_HELPER static __host__ __device__
+#else
+#define PUMA560_HELPER static
+#endif
+#endif
+
+/* Stands before the tables: one of each, though several sources of a program include this one. */
+#ifndef PUMA560_TABLE
+#if defined(__GNUC__)
+#define PUMA560_TABLE __attribute__((weak))
+#else
+#define PUMA560_TABLE
+#endif
+#endif
+
+extern PUMA560_TABLE const char *const puma560_joint_names[];
 const char *const puma560_joint_names[] = {
     "waist",
     "shoulder",
@@ -13,6 +37,7 @@ const char *const puma560_joint_names[] = {
     "wrist_yaw",
     0};
 
+extern PUMA560_TABLE const char *const puma560_chi_names[];
 const char *const puma560_chi_names[] = {
     "ZZR1",
     "FV1",
@@ -53,6 +78,7 @@ const char *const puma560_chi_names[] = {
     "FS6",
     0};
 
+extern PUMA560_TABLE const char *const puma560_beta_names[];
 const char *const puma560_beta_names[] = {
     "ZZR1",
     "FV1",
@@ -93,6 +119,7 @@ const char *const puma560_beta_names[] = {
     "FS6",
     0};
 
+extern PUMA560_TABLE const double puma560_chi_values[];
 const double puma560_chi_values[] = {
     4.293482265, /* ZZR1 */
     5.8018217679508, /* FV1 */
@@ -134,12 +161,12 @@ const double puma560_chi_values[] = {
 };
 
 /* -1, 0 or 1 */
-static double puma560_sign(double x) {
+PUMA560_HELPER double puma560_sign(double x) {
   return (double)((x > 0) - (x < 0));
 }
 
 /* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined(PUMA560_DEVICE)
 #define PUMA560_VECTORS
 #if defined(__AVX512F__)
 #define PUMA560_PACK 8
@@ -167,8 +194,9 @@ typedef double puma560_pack;
  * library is called then. */
 #if defined(PUMA560_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
 #define PUMA560_INLINE_TRIG
-static PUMA560_INLINE void puma560_sincos_kernel1(const puma560_pack *angle, puma560_pack *sine,
-                                                  puma560_pack *cosine) {
+PUMA560_HELPER PUMA560_INLINE void puma560_sincos_kernel1(const puma560_pack *angle,
+                                                          puma560_pack *sine,
+                                                          puma560_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
@@ -200,8 +228,9 @@ static PUMA560_INLINE void puma560_sincos_kernel1(const puma560_pack *angle, pum
   cosine[0] = (puma560_pack)((puma560_bits)c ^ swap ^ (((i + 1) & 2) << 62));
 }
 
-static PUMA560_INLINE void puma560_sincos_kernel2(const puma560_pack *angle, puma560_pack *sine,
-                                                  puma560_pack *cosine) {
+PUMA560_HELPER PUMA560_INLINE void puma560_sincos_kernel2(const puma560_pack *angle,
+                                                          puma560_pack *sine,
+                                                          puma560_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
@@ -259,8 +288,8 @@ static PUMA560_INLINE void puma560_sincos_kernel2(const puma560_pack *angle, pum
 }
 #endif
 
-static PUMA560_NOINLINE void puma560_sincos4(double x0, double x1, double x2, double x3,
-                                             puma560_pack *s, puma560_pack *c) {
+PUMA560_HELPER PUMA560_NOINLINE void puma560_sincos4(double x0, double x1, double x2, double x3,
+                                                     puma560_pack *s, puma560_pack *c) {
   const double x[4] = {x0, x1, x2, x3};
   int i;
 #ifdef PUMA560_INLINE_TRIG
@@ -288,7 +317,8 @@ static PUMA560_NOINLINE void puma560_sincos4(double x0, double x1, double x2, do
  * ch. 9].
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
  * 169 mul, 136 add, 4 sin/cos, 6 sgn.  Reads every input before writing tau. */
-void puma560_id(const double *q, const double *dq, const double *ddq, double *tau) {
+PUMA560_FUNCTION void puma560_id(const double *q, const double *dq, const double *ddq,
+                                 double *tau) {
   const double FV1 = 5.8018217679508; /* N m s/rad, puma560.robot:42 */
   const double FS1 = 25.9836065; /* N m, puma560.robot:41 */
   const double XXR2 = -1.601861202; /* kg m^2, grouped */
@@ -473,7 +503,8 @@ void puma560_id(const double *q, const double *dq, const double *ddq, double *ta
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
  * 158 mul, 123 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void puma560_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
+PUMA560_FUNCTION void puma560_id_rigid(const double *q, const double *dq, const double *ddq,
+                                       double *tau) {
   const double XXR2 = -1.601861202; /* kg m^2, grouped */
   const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
   const double ZZR2 = 6.458114002; /* kg m^2, grouped */
@@ -645,7 +676,7 @@ void puma560_id_rigid(const double *q, const double *dq, const double *ddq, doub
 /* tau = g(q): the torque that holds the arm still.
  *   q[6] rad   tau[6] N m, out
  * 12 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void puma560_gravity(const double *q, double *tau) {
+PUMA560_FUNCTION void puma560_gravity(const double *q, double *tau) {
   const double GZ_MYR5 = 0.0282528;
   const double GZ_MYR3 = 8.45420895;
   const double GZ_MXR3 = 0.24892875;
@@ -686,7 +717,7 @@ void puma560_gravity(const double *q, double *tau) {
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[6] rad   dq[6] rad/s   tau[6] N m, out
  * 137 mul, 95 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void puma560_coriolis(const double *q, const double *dq, double *tau) {
+PUMA560_FUNCTION void puma560_coriolis(const double *q, const double *dq, double *tau) {
   const double XXR2 = -1.601861202; /* kg m^2, grouped */
   const double XY2 = -0.0070992; /* kg m^2, puma560.robot:32 */
   const double XYR3 = -0.0106736385; /* kg m^2, grouped */
@@ -849,7 +880,7 @@ void puma560_coriolis(const double *q, const double *dq, double *tau) {
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
  *   dq[6] rad/s   tau[6] N m, out
  * 12 mul, 6 add, 0 sin/cos, 6 sgn.  Reads every input before writing tau. */
-void puma560_friction(const double *dq, double *tau) {
+PUMA560_FUNCTION void puma560_friction(const double *dq, double *tau) {
   const double FV1 = 5.8018217679508; /* N m s/rad, puma560.robot:42 */
   const double FS1 = 25.9836065; /* N m, puma560.robot:41 */
   const double FV2 = 9.496868641825; /* N m s/rad, puma560.robot:42 */

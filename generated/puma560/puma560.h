@@ -59,6 +59,12 @@ enum puma560_chi {
   PUMA560_FS6 = 36 /* N m, puma560.robot:41 */
 };
 
+/* Stands before every function: nothing, or what the user defines: `__host__ __device__` where they
+ * run in CUDA or HIP, `static inline` where the source is included in place of this header. */
+#ifndef PUMA560_FUNCTION
+#define PUMA560_FUNCTION
+#endif
+
 /* Names, each table ends with a null pointer. */
 extern const char *const puma560_joint_names[];
 extern const char *const puma560_chi_names[];
@@ -71,27 +77,29 @@ extern const double puma560_chi_values[];
  * ch. 9].
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
  * 169 mul, 136 add, 4 sin/cos, 6 sgn.  Reads every input before writing tau. */
-void puma560_id(const double *q, const double *dq, const double *ddq, double *tau);
+PUMA560_FUNCTION void puma560_id(const double *q, const double *dq, const double *ddq,
+                                 double *tau);
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[6] rad   dq[6] rad/s   ddq[6] rad/s^2   tau[6] N m, out
  * 158 mul, 123 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void puma560_id_rigid(const double *q, const double *dq, const double *ddq, double *tau);
+PUMA560_FUNCTION void puma560_id_rigid(const double *q, const double *dq, const double *ddq,
+                                       double *tau);
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[6] rad   tau[6] N m, out
  * 12 mul, 7 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void puma560_gravity(const double *q, double *tau);
+PUMA560_FUNCTION void puma560_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[6] rad   dq[6] rad/s   tau[6] N m, out
  * 137 mul, 95 add, 4 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void puma560_coriolis(const double *q, const double *dq, double *tau);
+PUMA560_FUNCTION void puma560_coriolis(const double *q, const double *dq, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
  *   dq[6] rad/s   tau[6] N m, out
  * 12 mul, 6 add, 0 sin/cos, 6 sgn.  Reads every input before writing tau. */
-void puma560_friction(const double *dq, double *tau);
+PUMA560_FUNCTION void puma560_friction(const double *dq, double *tau);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,30 @@
 
 #include <math.h>
 
+/* CUDA or HIP reads this. */
+#if defined(__CUDACC__) || defined(__CUDA__) || defined(__HIPCC__) || defined(__HIP__)
+#define SARCOS_GRLA_DEVICE
+#endif
+
+/* Stands before the functions that only those of the header call. */
+#ifndef SARCOS_GRLA_HELPER
+#ifdef SARCOS_GRLA_DEVICE
+#define SARCOS_GRLA_HELPER static __host__ __device__
+#else
+#define SARCOS_GRLA_HELPER static
+#endif
+#endif
+
+/* Stands before the tables: one of each, though several sources of a program include this one. */
+#ifndef SARCOS_GRLA_TABLE
+#if defined(__GNUC__)
+#define SARCOS_GRLA_TABLE __attribute__((weak))
+#else
+#define SARCOS_GRLA_TABLE
+#endif
+#endif
+
+extern SARCOS_GRLA_TABLE const char *const sarcos_grla_joint_names[];
 const char *const sarcos_grla_joint_names[] = {
     "joint1",
     "joint2",
@@ -14,6 +38,7 @@ const char *const sarcos_grla_joint_names[] = {
     "joint7",
     0};
 
+extern SARCOS_GRLA_TABLE const char *const sarcos_grla_chi_names[];
 const char *const sarcos_grla_chi_names[] = {
     "MX1",
     "MY1",
@@ -31,6 +56,7 @@ const char *const sarcos_grla_chi_names[] = {
     "MY7",
     0};
 
+extern SARCOS_GRLA_TABLE const char *const sarcos_grla_beta_names[];
 const char *const sarcos_grla_beta_names[] = {
     "MX1",
     "MY1",
@@ -48,6 +74,7 @@ const char *const sarcos_grla_beta_names[] = {
     "MY7",
     0};
 
+extern SARCOS_GRLA_TABLE const double sarcos_grla_chi_values[];
 const double sarcos_grla_chi_values[] = {
     3.7467, /* MX1 */
     -3.7196, /* MY1 */
@@ -66,7 +93,7 @@ const double sarcos_grla_chi_values[] = {
 };
 
 /* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined(SARCOS_GRLA_DEVICE)
 #define SARCOS_GRLA_VECTORS
 #if defined(__AVX512F__)
 #define SARCOS_GRLA_PACK 8
@@ -94,9 +121,9 @@ typedef double sarcos_grla_pack;
  * library is called then. */
 #if defined(SARCOS_GRLA_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
 #define SARCOS_GRLA_INLINE_TRIG
-static SARCOS_GRLA_INLINE void sarcos_grla_sincos_kernel1(const sarcos_grla_pack *angle,
-                                                          sarcos_grla_pack *sine,
-                                                          sarcos_grla_pack *cosine) {
+SARCOS_GRLA_HELPER SARCOS_GRLA_INLINE void sarcos_grla_sincos_kernel1(const sarcos_grla_pack *angle,
+                                                                      sarcos_grla_pack *sine,
+                                                                      sarcos_grla_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
@@ -128,9 +155,9 @@ static SARCOS_GRLA_INLINE void sarcos_grla_sincos_kernel1(const sarcos_grla_pack
   cosine[0] = (sarcos_grla_pack)((sarcos_grla_bits)c ^ swap ^ (((i + 1) & 2) << 62));
 }
 
-static SARCOS_GRLA_INLINE void sarcos_grla_sincos_kernel2(const sarcos_grla_pack *angle,
-                                                          sarcos_grla_pack *sine,
-                                                          sarcos_grla_pack *cosine) {
+SARCOS_GRLA_HELPER SARCOS_GRLA_INLINE void sarcos_grla_sincos_kernel2(const sarcos_grla_pack *angle,
+                                                                      sarcos_grla_pack *sine,
+                                                                      sarcos_grla_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
@@ -188,9 +215,10 @@ static SARCOS_GRLA_INLINE void sarcos_grla_sincos_kernel2(const sarcos_grla_pack
 }
 #endif
 
-static SARCOS_GRLA_NOINLINE void sarcos_grla_sincos6(double x0, double x1, double x2, double x3,
-                                                     double x4, double x5, sarcos_grla_pack *s,
-                                                     sarcos_grla_pack *c) {
+SARCOS_GRLA_HELPER SARCOS_GRLA_NOINLINE void sarcos_grla_sincos6(double x0, double x1, double x2,
+                                                                 double x3, double x4, double x5,
+                                                                 sarcos_grla_pack *s,
+                                                                 sarcos_grla_pack *c) {
   const double x[6] = {x0, x1, x2, x3, x4, x5};
   int i;
 #ifdef SARCOS_GRLA_INLINE_TRIG
@@ -215,9 +243,10 @@ static SARCOS_GRLA_NOINLINE void sarcos_grla_sincos6(double x0, double x1, doubl
   }
 }
 
-static SARCOS_GRLA_NOINLINE void sarcos_grla_sincos7(double x0, double x1, double x2, double x3,
-                                                     double x4, double x5, double x6,
-                                                     sarcos_grla_pack *s, sarcos_grla_pack *c) {
+SARCOS_GRLA_HELPER SARCOS_GRLA_NOINLINE void sarcos_grla_sincos7(double x0, double x1, double x2,
+                                                                 double x3, double x4, double x5,
+                                                                 double x6, sarcos_grla_pack *s,
+                                                                 sarcos_grla_pack *c) {
   const double x[7] = {x0, x1, x2, x3, x4, x5, x6};
   int i;
 #ifdef SARCOS_GRLA_INLINE_TRIG
@@ -246,7 +275,8 @@ static SARCOS_GRLA_NOINLINE void sarcos_grla_sincos7(double x0, double x1, doubl
  * ch. 9].
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
  * 190 mul, 152 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double *tau) {
+SARCOS_GRLA_FUNCTION void sarcos_grla_id(const double *q, const double *dq, const double *ddq,
+                                         double *tau) {
   const double MX2 = 5.3212; /* kg m, sarcos_grla.robot:27 */
   const double MY2 = -78.0962; /* kg m, grouped */
   const double MX3 = -2.5465; /* kg m, sarcos_grla.robot:27 */
@@ -455,14 +485,15 @@ void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
  * 190 mul, 152 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, double *tau) {
+SARCOS_GRLA_FUNCTION void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq,
+                                               double *tau) {
   sarcos_grla_id(q, dq, ddq, tau);
 }
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[7] rad   tau[7] N m, out
  * 56 mul, 38 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void sarcos_grla_gravity(const double *q, double *tau) {
+SARCOS_GRLA_FUNCTION void sarcos_grla_gravity(const double *q, double *tau) {
   const double MX1 = 3.7467; /* kg m, sarcos_grla.robot:27 */
   const double MY1 = -3.7196; /* kg m, grouped */
   const double MX2 = 5.3212; /* kg m, sarcos_grla.robot:27 */
@@ -562,7 +593,7 @@ void sarcos_grla_gravity(const double *q, double *tau) {
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[7] rad   dq[7] rad/s   tau[7] N m, out
  * 165 mul, 125 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
+SARCOS_GRLA_FUNCTION void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
   const double MX4 = 0.4624; /* kg m, sarcos_grla.robot:27 */
   const double MY4 = -23.1605; /* kg m, grouped */
   const double MX5 = 0.2526; /* kg m, sarcos_grla.robot:27 */
@@ -747,7 +778,7 @@ void sarcos_grla_coriolis(const double *q, const double *dq, double *tau) {
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
  *   dq[7] rad/s   tau[7] N m, out
  * 0 mul, 0 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void sarcos_grla_friction(const double *dq, double *tau) {
+SARCOS_GRLA_FUNCTION void sarcos_grla_friction(const double *dq, double *tau) {
   (void)dq;
   tau[0] = 0.0;
   tau[1] = 0.0;

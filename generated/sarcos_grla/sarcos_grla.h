@@ -29,6 +29,12 @@ enum sarcos_grla_chi {
   SARCOS_GRLA_MY7 = 13 /* kg m, = -MY7 */
 };
 
+/* Stands before every function: nothing, or what the user defines: `__host__ __device__` where they
+ * run in CUDA or HIP, `static inline` where the source is included in place of this header. */
+#ifndef SARCOS_GRLA_FUNCTION
+#define SARCOS_GRLA_FUNCTION
+#endif
+
 /* Names, each table ends with a null pointer. */
 extern const char *const sarcos_grla_joint_names[];
 extern const char *const sarcos_grla_chi_names[];
@@ -41,27 +47,29 @@ extern const double sarcos_grla_chi_values[];
  * ch. 9].
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
  * 190 mul, 152 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void sarcos_grla_id(const double *q, const double *dq, const double *ddq, double *tau);
+SARCOS_GRLA_FUNCTION void sarcos_grla_id(const double *q, const double *dq, const double *ddq,
+                                         double *tau);
 
 /* tau = M(q) ddq + c(q, dq) + g(q): inverse dynamics without friction and offset.
  *   q[7] rad   dq[7] rad/s   ddq[7] rad/s^2   tau[7] N m, out
  * 190 mul, 152 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq, double *tau);
+SARCOS_GRLA_FUNCTION void sarcos_grla_id_rigid(const double *q, const double *dq, const double *ddq,
+                                               double *tau);
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[7] rad   tau[7] N m, out
  * 56 mul, 38 add, 7 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void sarcos_grla_gravity(const double *q, double *tau);
+SARCOS_GRLA_FUNCTION void sarcos_grla_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[7] rad   dq[7] rad/s   tau[7] N m, out
  * 165 mul, 125 add, 6 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void sarcos_grla_coriolis(const double *q, const double *dq, double *tau);
+SARCOS_GRLA_FUNCTION void sarcos_grla_coriolis(const double *q, const double *dq, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
  *   dq[7] rad/s   tau[7] N m, out
  * 0 mul, 0 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void sarcos_grla_friction(const double *dq, double *tau);
+SARCOS_GRLA_FUNCTION void sarcos_grla_friction(const double *dq, double *tau);
 
 #ifdef __cplusplus
 }

@@ -182,6 +182,7 @@ const std::vector<double>& MotionSample::input(const std::string& name) const {
   if (name == "gravity") return gravity;
   if (name == "wrench") return wrench;
   if (name == "payload") return payload;
+  if (name == "w") return wrench;
   if (name == "A") return weights;
   throw std::invalid_argument("MotionSample: no input " + name);
 }

@@ -4,22 +4,49 @@
 
 #include <math.h>
 
+/* CUDA or HIP reads this. */
+#if defined(__CUDACC__) || defined(__CUDA__) || defined(__HIPCC__) || defined(__HIP__)
+#define PENDULUM_DEVICE
+#endif
+
+/* Stands before the functions that only those of the header call. */
+#ifndef PENDULUM_HELPER
+#ifdef PENDULUM_DEVICE
+#define PENDULUM_HELPER static __host__ __device__
+#else
+#define PENDULUM_HELPER static
+#endif
+#endif
+
+/* Stands before the tables: one of each, though several sources of a program include this one. */
+#ifndef PENDULUM_TABLE
+#if defined(__GNUC__)
+#define PENDULUM_TABLE __attribute__((weak))
+#else
+#define PENDULUM_TABLE
+#endif
+#endif
+
+extern PENDULUM_TABLE const char *const pendulum_joint_names[];
 const char *const pendulum_joint_names[] = {
     "joint1",
     0};
 
+extern PENDULUM_TABLE const char *const pendulum_chi_names[];
 const char *const pendulum_chi_names[] = {
     "ZZ1",
     "MX1",
     "FV1",
     0};
 
+extern PENDULUM_TABLE const char *const pendulum_beta_names[];
 const char *const pendulum_beta_names[] = {
     "ZZ1",
     "MX1",
     "FV1",
     0};
 
+extern PENDULUM_TABLE const float pendulum_chi_values[];
 const float pendulum_chi_values[] = {
     0.5f, /* ZZ1 */
     1.0f, /* MX1 */
@@ -27,7 +54,7 @@ const float pendulum_chi_values[] = {
 };
 
 /* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined(PENDULUM_DEVICE)
 #define PENDULUM_VECTORS
 #if defined(__AVX512F__)
 #define PENDULUM_PACK 8
@@ -60,8 +87,9 @@ typedef float pendulum_angle;
  * reduction: the C library is called then. */
 #if defined(PENDULUM_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
 #define PENDULUM_INLINE_TRIG
-static PENDULUM_INLINE void pendulum_sincos_kernel1(const pendulum_pack *angle, pendulum_pack *sine,
-                                                    pendulum_pack *cosine) {
+PENDULUM_HELPER PENDULUM_INLINE void pendulum_sincos_kernel1(const pendulum_pack *angle,
+                                                             pendulum_pack *sine,
+                                                             pendulum_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
@@ -84,8 +112,9 @@ static PENDULUM_INLINE void pendulum_sincos_kernel1(const pendulum_pack *angle, 
   cosine[0] = (pendulum_pack)((pendulum_bits)c ^ swap ^ (((i + 1) & 2) << 62));
 }
 
-static PENDULUM_INLINE void pendulum_sincos_kernel2(const pendulum_pack *angle, pendulum_pack *sine,
-                                                    pendulum_pack *cosine) {
+PENDULUM_HELPER PENDULUM_INLINE void pendulum_sincos_kernel2(const pendulum_pack *angle,
+                                                             pendulum_pack *sine,
+                                                             pendulum_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
@@ -125,8 +154,8 @@ static PENDULUM_INLINE void pendulum_sincos_kernel2(const pendulum_pack *angle, 
 }
 #endif
 
-static PENDULUM_NOINLINE void pendulum_sincos1(pendulum_angle x0, pendulum_pack *s,
-                                               pendulum_pack *c) {
+PENDULUM_HELPER PENDULUM_NOINLINE void pendulum_sincos1(pendulum_angle x0, pendulum_pack *s,
+                                                        pendulum_pack *c) {
   const pendulum_angle x[1] = {x0};
   int i;
 #ifdef PENDULUM_INLINE_TRIG
@@ -154,7 +183,7 @@ static PENDULUM_NOINLINE void pendulum_sincos1(pendulum_angle x0, pendulum_pack 
  * ch. 9].
  *   q[1] rad   dq[1] rad/s   ddq[1] rad/s^2   tau[1] N m, out
  * 3 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void pendulum_id(const float *q, const float *dq, const float *ddq, float *tau) {
+PENDULUM_FUNCTION void pendulum_id(const float *q, const float *dq, const float *ddq, float *tau) {
   const float ZZ1 = 0.5f; /* kg m^2, pendulum.robot:12 */
   const float FV1 = 0.1f; /* N m s/rad, pendulum.robot:13 */
   const float GX = 9.81f; /* m/s^2, pendulum.robot:14 */
@@ -172,7 +201,7 @@ void pendulum_id(const float *q, const float *dq, const float *ddq, float *tau) 
 /* tau = g(q): the torque that holds the arm still.
  *   q[1] rad   tau[1] N m, out
  * 1 mul, 0 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void pendulum_gravity(const float *q, float *tau) {
+PENDULUM_FUNCTION void pendulum_gravity(const float *q, float *tau) {
   const float GX = 9.81f; /* m/s^2, pendulum.robot:14 */
 
   /* sines and cosines of the joint angles */
@@ -187,7 +216,7 @@ void pendulum_gravity(const float *q, float *tau) {
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[1] rad   dq[1] rad/s   tau[1] N m, out
  * 0 mul, 0 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void pendulum_coriolis(const float *q, const float *dq, float *tau) {
+PENDULUM_FUNCTION void pendulum_coriolis(const float *q, const float *dq, float *tau) {
   (void)q;
   (void)dq;
   tau[0] = 0.0f;
@@ -196,7 +225,7 @@ void pendulum_coriolis(const float *q, const float *dq, float *tau) {
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
  *   dq[1] rad/s   tau[1] N m, out
  * 1 mul, 0 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void pendulum_friction(const float *dq, float *tau) {
+PENDULUM_FUNCTION void pendulum_friction(const float *dq, float *tau) {
   const float FV1 = 0.1f; /* N m s/rad, pendulum.robot:13 */
   const float tau_1 = FV1 * dq[0];
 

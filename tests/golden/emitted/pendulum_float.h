@@ -18,6 +18,12 @@ enum pendulum_chi {
   PENDULUM_FV1 = 2 /* N m s/rad, pendulum.robot:13 */
 };
 
+/* Stands before every function: nothing, or what the user defines: `__host__ __device__` where they
+ * run in CUDA or HIP, `static inline` where the source is included in place of this header. */
+#ifndef PENDULUM_FUNCTION
+#define PENDULUM_FUNCTION
+#endif
+
 /* Names, each table ends with a null pointer. */
 extern const char *const pendulum_joint_names[];
 extern const char *const pendulum_chi_names[];
@@ -30,22 +36,22 @@ extern const float pendulum_chi_values[];
  * ch. 9].
  *   q[1] rad   dq[1] rad/s   ddq[1] rad/s^2   tau[1] N m, out
  * 3 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void pendulum_id(const float *q, const float *dq, const float *ddq, float *tau);
+PENDULUM_FUNCTION void pendulum_id(const float *q, const float *dq, const float *ddq, float *tau);
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[1] rad   tau[1] N m, out
  * 1 mul, 0 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void pendulum_gravity(const float *q, float *tau);
+PENDULUM_FUNCTION void pendulum_gravity(const float *q, float *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[1] rad   dq[1] rad/s   tau[1] N m, out
  * 0 mul, 0 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void pendulum_coriolis(const float *q, const float *dq, float *tau);
+PENDULUM_FUNCTION void pendulum_coriolis(const float *q, const float *dq, float *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
  *   dq[1] rad/s   tau[1] N m, out
  * 1 mul, 0 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void pendulum_friction(const float *dq, float *tau);
+PENDULUM_FUNCTION void pendulum_friction(const float *dq, float *tau);
 
 #ifdef __cplusplus
 }

@@ -4,11 +4,36 @@
 
 #include <math.h>
 
+/* CUDA or HIP reads this. */
+#if defined(__CUDACC__) || defined(__CUDA__) || defined(__HIPCC__) || defined(__HIP__)
+#define PLANAR2R_DEVICE
+#endif
+
+/* Stands before the functions that only those of the header call. */
+#ifndef PLANAR2R_HELPER
+#ifdef PLANAR2R_DEVICE
+#define PLANAR2R_HELPER static __host__ __device__
+#else
+#define PLANAR2R_HELPER static
+#endif
+#endif
+
+/* Stands before the tables: one of each, though several sources of a program include this one. */
+#ifndef PLANAR2R_TABLE
+#if defined(__GNUC__)
+#define PLANAR2R_TABLE __attribute__((weak))
+#else
+#define PLANAR2R_TABLE
+#endif
+#endif
+
+extern PLANAR2R_TABLE const char *const planar2r_joint_names[];
 const char *const planar2r_joint_names[] = {
     "joint1",
     "joint2",
     0};
 
+extern PLANAR2R_TABLE const char *const planar2r_chi_names[];
 const char *const planar2r_chi_names[] = {
     "ZZR1",
     "MXR1",
@@ -23,6 +48,7 @@ const char *const planar2r_chi_names[] = {
     "FS2",
     0};
 
+extern PLANAR2R_TABLE const char *const planar2r_beta_names[];
 const char *const planar2r_beta_names[] = {
     "ZZR1",
     "MXR1",
@@ -37,6 +63,7 @@ const char *const planar2r_beta_names[] = {
     "FS2",
     0};
 
+extern PLANAR2R_TABLE const double planar2r_chi_values[];
 const double planar2r_chi_values[] = {
     1.42767426758476, /* ZZR1 */
     -0.268846444, /* MXR1 */
@@ -52,12 +79,12 @@ const double planar2r_chi_values[] = {
 };
 
 /* -1, 0 or 1 */
-static double planar2r_sign(double x) {
+PLANAR2R_HELPER double planar2r_sign(double x) {
   return (double)((x > 0) - (x < 0));
 }
 
 /* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined(PLANAR2R_DEVICE)
 #define PLANAR2R_VECTORS
 #if defined(__AVX512F__)
 #define PLANAR2R_PACK 8
@@ -85,8 +112,9 @@ typedef double planar2r_pack;
  * library is called then. */
 #if defined(PLANAR2R_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
 #define PLANAR2R_INLINE_TRIG
-static PLANAR2R_INLINE void planar2r_sincos_kernel1(const planar2r_pack *angle, planar2r_pack *sine,
-                                                    planar2r_pack *cosine) {
+PLANAR2R_HELPER PLANAR2R_INLINE void planar2r_sincos_kernel1(const planar2r_pack *angle,
+                                                             planar2r_pack *sine,
+                                                             planar2r_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
@@ -118,8 +146,9 @@ static PLANAR2R_INLINE void planar2r_sincos_kernel1(const planar2r_pack *angle, 
   cosine[0] = (planar2r_pack)((planar2r_bits)c ^ swap ^ (((i + 1) & 2) << 62));
 }
 
-static PLANAR2R_INLINE void planar2r_sincos_kernel2(const planar2r_pack *angle, planar2r_pack *sine,
-                                                    planar2r_pack *cosine) {
+PLANAR2R_HELPER PLANAR2R_INLINE void planar2r_sincos_kernel2(const planar2r_pack *angle,
+                                                             planar2r_pack *sine,
+                                                             planar2r_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
@@ -177,7 +206,8 @@ static PLANAR2R_INLINE void planar2r_sincos_kernel2(const planar2r_pack *angle, 
 }
 #endif
 
-static PLANAR2R_NOINLINE void planar2r_sincos1(double x0, planar2r_pack *s, planar2r_pack *c) {
+PLANAR2R_HELPER PLANAR2R_NOINLINE void planar2r_sincos1(double x0, planar2r_pack *s,
+                                                        planar2r_pack *c) {
   const double x[1] = {x0};
   int i;
 #ifdef PLANAR2R_INLINE_TRIG
@@ -201,8 +231,8 @@ static PLANAR2R_NOINLINE void planar2r_sincos1(double x0, planar2r_pack *s, plan
   }
 }
 
-static PLANAR2R_NOINLINE void planar2r_sincos2(double x0, double x1, planar2r_pack *s,
-                                               planar2r_pack *c) {
+PLANAR2R_HELPER PLANAR2R_NOINLINE void planar2r_sincos2(double x0, double x1, planar2r_pack *s,
+                                                        planar2r_pack *c) {
   const double x[2] = {x0, x1};
   int i;
 #ifdef PLANAR2R_INLINE_TRIG
@@ -230,8 +260,8 @@ static PLANAR2R_NOINLINE void planar2r_sincos2(double x0, double x1, planar2r_pa
  * ch. 9].
  *   q[2] rad   dq[2] rad/s   ddq[2] rad/s^2   chi[11] see enum planar2r_chi   tau[2] N m, out
  * 24 mul, 18 add, 2 sin/cos, 2 sgn.  Reads every input before writing tau. */
-void planar2r_id(const double *q, const double *dq, const double *ddq, const double *chi,
-                 double *tau) {
+PLANAR2R_FUNCTION void planar2r_id(const double *q, const double *dq, const double *ddq,
+                                   const double *chi, double *tau) {
   const double d2 = 0.5; /* m, planar2r.robot:13 */
   const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
 
@@ -271,7 +301,7 @@ void planar2r_id(const double *q, const double *dq, const double *ddq, const dou
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad   chi[11] see enum planar2r_chi   tau[2] N m, out
  * 6 mul, 4 add, 2 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void planar2r_gravity(const double *q, const double *chi, double *tau) {
+PLANAR2R_FUNCTION void planar2r_gravity(const double *q, const double *chi, double *tau) {
   const double GY = 9.81; /* m/s^2, planar2r.robot:35 */
 
   /* sines and cosines of the joint angles */
@@ -294,7 +324,8 @@ void planar2r_gravity(const double *q, const double *chi, double *tau) {
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad   dq[2] rad/s   chi[11] see enum planar2r_chi   tau[2] N m, out
  * 8 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void planar2r_coriolis(const double *q, const double *dq, const double *chi, double *tau) {
+PLANAR2R_FUNCTION void planar2r_coriolis(const double *q, const double *dq, const double *chi,
+                                         double *tau) {
   const double d2 = 0.5; /* m, planar2r.robot:13 */
 
   /* sines and cosines of the joint angles */
@@ -318,7 +349,7 @@ void planar2r_coriolis(const double *q, const double *dq, const double *chi, dou
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
  *   dq[2] rad/s   chi[11] see enum planar2r_chi   tau[2] N m, out
  * 4 mul, 2 add, 0 sin/cos, 2 sgn.  Reads every input before writing tau. */
-void planar2r_friction(const double *dq, const double *chi, double *tau) {
+PLANAR2R_FUNCTION void planar2r_friction(const double *dq, const double *chi, double *tau) {
   const double tau_1 = chi[PLANAR2R_FV1] * dq[0] + chi[PLANAR2R_FS1] * planar2r_sign(dq[0]);
   const double tau_2 = chi[PLANAR2R_FV2] * dq[1] + chi[PLANAR2R_FS2] * planar2r_sign(dq[1]);
 

@@ -4,11 +4,36 @@
 
 #include <math.h>
 
+/* CUDA or HIP reads this. */
+#if defined(__CUDACC__) || defined(__CUDA__) || defined(__HIPCC__) || defined(__HIP__)
+#define RP_DEVICE
+#endif
+
+/* Stands before the functions that only those of the header call. */
+#ifndef RP_HELPER
+#ifdef RP_DEVICE
+#define RP_HELPER static __host__ __device__
+#else
+#define RP_HELPER static
+#endif
+#endif
+
+/* Stands before the tables: one of each, though several sources of a program include this one. */
+#ifndef RP_TABLE
+#if defined(__GNUC__)
+#define RP_TABLE __attribute__((weak))
+#else
+#define RP_TABLE
+#endif
+#endif
+
+extern RP_TABLE const char *const rp_joint_names[];
 const char *const rp_joint_names[] = {
     "joint1",
     "joint2",
     0};
 
+extern RP_TABLE const char *const rp_chi_names[];
 const char *const rp_chi_names[] = {
     "ZZR1",
     "MX1",
@@ -23,6 +48,7 @@ const char *const rp_chi_names[] = {
     "FS2",
     0};
 
+extern RP_TABLE const char *const rp_beta_names[];
 const char *const rp_beta_names[] = {
     "ZZR1",
     "MX1",
@@ -37,6 +63,7 @@ const char *const rp_beta_names[] = {
     "FS2",
     0};
 
+extern RP_TABLE const double rp_chi_values[];
 const double rp_chi_values[] = {
     1.22162646970298, /* ZZR1 */
     0.086795103, /* MX1 */
@@ -52,12 +79,12 @@ const double rp_chi_values[] = {
 };
 
 /* -1, 0 or 1 */
-static double rp_sign(double x) {
+RP_HELPER double rp_sign(double x) {
   return (double)((x > 0) - (x < 0));
 }
 
 /* As many doubles as one register holds, where the compiler has GNU C vectors; else one number. */
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)) && !defined(RP_DEVICE)
 #define RP_VECTORS
 #if defined(__AVX512F__)
 #define RP_PACK 8
@@ -85,7 +112,7 @@ typedef double rp_pack;
  * library is called then. */
 #if defined(RP_VECTORS) && !defined(__FAST_MATH__) && !defined(__ASSOCIATIVE_MATH__)
 #define RP_INLINE_TRIG
-static RP_INLINE void rp_sincos_kernel1(const rp_pack *angle, rp_pack *sine, rp_pack *cosine) {
+RP_HELPER RP_INLINE void rp_sincos_kernel1(const rp_pack *angle, rp_pack *sine, rp_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
@@ -117,7 +144,7 @@ static RP_INLINE void rp_sincos_kernel1(const rp_pack *angle, rp_pack *sine, rp_
   cosine[0] = (rp_pack)((rp_bits)c ^ swap ^ (((i + 1) & 2) << 62));
 }
 
-static RP_INLINE void rp_sincos_kernel2(const rp_pack *angle, rp_pack *sine, rp_pack *cosine) {
+RP_HELPER RP_INLINE void rp_sincos_kernel2(const rp_pack *angle, rp_pack *sine, rp_pack *cosine) {
 #ifdef __clang__
 #pragma clang fp reassociate(off)
 #endif
@@ -175,7 +202,7 @@ static RP_INLINE void rp_sincos_kernel2(const rp_pack *angle, rp_pack *sine, rp_
 }
 #endif
 
-static RP_NOINLINE void rp_sincos1(double x0, rp_pack *s, rp_pack *c) {
+RP_HELPER RP_NOINLINE void rp_sincos1(double x0, rp_pack *s, rp_pack *c) {
   const double x[1] = {x0};
   int i;
 #ifdef RP_INLINE_TRIG
@@ -204,7 +231,7 @@ static RP_NOINLINE void rp_sincos1(double x0, rp_pack *s, rp_pack *c) {
  *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   ddq[2] rad/s^2 (m/s^2 at 1)
  *   tau[2] N m (N at 1), out
  * 18 mul, 16 add, 1 sin/cos, 2 sgn.  Reads every input before writing tau. */
-void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
+RP_FUNCTION void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
   const double ZZR1 = 1.22162646970298; /* kg m^2, grouped */
   const double FV1 = 1.6381; /* N m s/rad, rp.robot:31 */
   const double FS1 = 1.5972; /* N m, rp.robot:30 */
@@ -246,7 +273,7 @@ void rp_id(const double *q, const double *dq, const double *ddq, double *tau) {
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad (m at 1)   tau[2] N m (N at 1), out
  * 4 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void rp_gravity(const double *q, double *tau) {
+RP_FUNCTION void rp_gravity(const double *q, double *tau) {
   const double GY_M2 = 55.197927;
   const double GY_MZ2_minus_MY1 = 8.44490608776;
   const double GY_MS1_1 = 12.56059621494;
@@ -269,7 +296,7 @@ void rp_gravity(const double *q, double *tau) {
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   tau[2] N m (N at 1), out
  * 5 mul, 1 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void rp_coriolis(const double *q, const double *dq, double *tau) {
+RP_FUNCTION void rp_coriolis(const double *q, const double *dq, double *tau) {
   const double MZ2 = 1.187908904; /* kg m, rp.robot:21 */
   const double M2 = 5.6267; /* kg, rp.robot:18 */
 
@@ -286,7 +313,7 @@ void rp_coriolis(const double *q, const double *dq, double *tau) {
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
  *   dq[2] rad/s (m/s at 1)   tau[2] N m (N at 1), out
  * 4 mul, 2 add, 0 sin/cos, 2 sgn.  Reads every input before writing tau. */
-void rp_friction(const double *dq, double *tau) {
+RP_FUNCTION void rp_friction(const double *dq, double *tau) {
   const double FV1 = 1.6381; /* N m s/rad, rp.robot:31 */
   const double FS1 = 1.5972; /* N m, rp.robot:30 */
   const double FV2 = 2.9324; /* N s/m, rp.robot:31 */

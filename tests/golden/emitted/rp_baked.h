@@ -26,6 +26,12 @@ enum rp_chi {
   RP_FS2 = 10 /* N, rp.robot:30 */
 };
 
+/* Stands before every function: nothing, or what the user defines: `__host__ __device__` where they
+ * run in CUDA or HIP, `static inline` where the source is included in place of this header. */
+#ifndef RP_FUNCTION
+#define RP_FUNCTION
+#endif
+
 /* Names, each table ends with a null pointer. */
 extern const char *const rp_joint_names[];
 extern const char *const rp_chi_names[];
@@ -39,22 +45,22 @@ extern const double rp_chi_values[];
  *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   ddq[2] rad/s^2 (m/s^2 at 1)
  *   tau[2] N m (N at 1), out
  * 18 mul, 16 add, 1 sin/cos, 2 sgn.  Reads every input before writing tau. */
-void rp_id(const double *q, const double *dq, const double *ddq, double *tau);
+RP_FUNCTION void rp_id(const double *q, const double *dq, const double *ddq, double *tau);
 
 /* tau = g(q): the torque that holds the arm still.
  *   q[2] rad (m at 1)   tau[2] N m (N at 1), out
  * 4 mul, 2 add, 1 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void rp_gravity(const double *q, double *tau);
+RP_FUNCTION void rp_gravity(const double *q, double *tau);
 
 /* tau = c(q, dq): Coriolis and centrifugal torque.
  *   q[2] rad (m at 1)   dq[2] rad/s (m/s at 1)   tau[2] N m (N at 1), out
  * 5 mul, 1 add, 0 sin/cos, 0 sgn.  Reads every input before writing tau. */
-void rp_coriolis(const double *q, const double *dq, double *tau);
+RP_FUNCTION void rp_coriolis(const double *q, const double *dq, double *tau);
 
 /* tau = FS sign(dq) + FV dq + OFF: friction and offset torque, sign(0) = 0.
  *   dq[2] rad/s (m/s at 1)   tau[2] N m (N at 1), out
  * 4 mul, 2 add, 0 sin/cos, 2 sgn.  Reads every input before writing tau. */
-void rp_friction(const double *dq, double *tau);
+RP_FUNCTION void rp_friction(const double *dq, double *tau);
 
 #ifdef __cplusplus
 }

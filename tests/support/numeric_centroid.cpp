@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/numeric_centroid.h"
+
+#include <Eigen/Geometry>
+
+#include "tests/support/numeric_derivatives.h"
+#include "tests/support/numeric_dynamics.h"
+
+namespace dyngen::test {
+namespace {
+
+using Real = long double;
+using Vector = Eigen::Matrix<Real, 3, 1>;
+using Matrix = Eigen::Matrix<Real, 3, 3>;
+
+constexpr Real kMassStep = 1e-4L, kPoseStep = 1e-4L;
+
+/// d f / d x at 0, f of any vector type: (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h.
+template <typename Function>
+auto slope(const Function& f, Real h) {
+  using Value = decltype(f(h));
+  return Value((8 * (f(h) - f(-h)) - (f(2 * h) - f(-2 * h))) / (12 * h));
+}
+
+std::vector<std::size_t> moving(const RobotModel& model) {
+  std::vector<std::size_t> joints;
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (model.joints[j].coordinate >= 0) joints.push_back(j);
+  }
+  return joints;
+}
+
+std::vector<Real> moved(std::vector<Real> q, const std::vector<Real>& direction, Real step) {
+  for (std::size_t j = 0; j < q.size(); ++j) q[j] += step * direction[j];
+  return q;
+}
+
+/// First moment of all links about the origin of frame 0.
+Vector first_moment(const NumericRobot& robot, const std::vector<Real>& q) {
+  const std::vector<Transform<Real>> frames = forward_kinematics(robot, q);
+  Vector sum = Vector::Zero();
+  for (std::size_t j = 0; j < robot.size(); ++j) {
+    const auto& body = robot.joints[j].inertial;
+    const Matrix R = frames[j].topLeftCorner<3, 3>();
+    const Vector origin = frames[j].topRightCorner<3, 1>();
+    sum += R * Vector(body[6], body[7], body[8]) + body[9] * origin;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Real> mass_matrix_rate(const RobotModel& model, const NumericRobot& robot,
+                                   const MotionSample& sample) {
+  const std::vector<Real> q = joint_values(model, sample.q), dq = joint_values(model, sample.dq);
+  const SquareMatrix<Real> rate =
+      slope([&](Real h) { return mass_matrix(robot, moved(q, dq, h)); }, kMassStep);
+  std::vector<Real> result;
+  for (const std::size_t i : moving(model)) {
+    for (const std::size_t j : moving(model)) {
+      result.push_back(rate(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+    }
+  }
+  return result;
+}
+
+std::vector<Real> christoffel_matrix(const RobotModel& model, const NumericRobot& robot,
+                                     const MotionSample& sample) {
+  const std::vector<Real> q = joint_values(model, sample.q), dq = joint_values(model, sample.dq);
+  const std::vector<std::size_t> joints = moving(model);
+  std::vector<SquareMatrix<Real>> by_joint(robot.size());
+  for (const std::size_t k : joints) {
+    std::vector<Real> unit(robot.size(), 0.0L);
+    unit[k] = 1;
+    by_joint[k] = slope([&](Real h) { return mass_matrix(robot, moved(q, unit, h)); }, kMassStep);
+  }
+  const auto element = [&](std::size_t i, std::size_t j, std::size_t k) {
+    return by_joint[k](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  };
+  std::vector<Real> C;
+  for (const std::size_t i : joints) {
+    for (const std::size_t j : joints) {
+      Real sum = 0;
+      for (const std::size_t k : joints) {
+        sum += (element(i, j, k) + element(i, k, j) - element(j, k, i)) / 2 * dq[k];
+      }
+      C.push_back(sum);
+    }
+  }
+  return C;
+}
+
+NumericCentroid numeric_centroid(const RobotModel& model, const NumericRobot& robot,
+                                 const MotionSample& sample) {
+  const std::vector<Real> q = joint_values(model, sample.q), dq = joint_values(model, sample.dq);
+  NumericCentroid result;
+  for (const NumericJoint& joint : robot.joints) result.mass += joint.inertial[9];
+  const Vector center = first_moment(robot, q) / result.mass;
+  for (int k = 0; k < 3; ++k) result.center[static_cast<std::size_t>(k)] = center[k];
+
+  const std::vector<std::size_t> joints = moving(model);
+  result.jacobian.assign(3 * joints.size(), 0.0L);
+  for (std::size_t column = 0; column < joints.size(); ++column) {
+    std::vector<Real> unit(robot.size(), 0.0L);
+    unit[joints[column]] = 1;
+    const Vector velocity =
+        slope([&](Real h) { return first_moment(robot, moved(q, unit, h)); }, kPoseStep) /
+        result.mass;
+    for (std::size_t k = 0; k < 3; ++k) {
+      result.jacobian[k * joints.size() + column] = velocity[static_cast<Eigen::Index>(k)];
+    }
+  }
+
+  const std::vector<Transform<Real>> frames = forward_kinematics(robot, q);
+  Vector linear = Vector::Zero(), angular = Vector::Zero();
+  for (std::size_t j = 0; j < robot.size(); ++j) {
+    const auto& b = robot.joints[j].inertial;
+    const Transform<Real> rate =
+        slope([&](Real h) { return forward_kinematics(robot, moved(q, dq, h))[j]; }, kPoseStep);
+    const Matrix R = frames[j].topLeftCorner<3, 3>();
+    const Matrix spin = rate.topLeftCorner<3, 3>() * R.transpose();
+    const Vector w(spin(2, 1), spin(0, 2), spin(1, 0));
+    const Vector v = rate.topRightCorner<3, 1>(), origin = frames[j].topRightCorner<3, 1>();
+    const Vector h = R * Vector(b[6], b[7], b[8]);
+    Matrix J;
+    J << b[0], b[1], b[2], b[1], b[3], b[4], b[2], b[4], b[5];
+    const Vector p = b[9] * v + w.cross(h);
+    linear += p;
+    angular += origin.cross(p) + R * (J * (R.transpose() * w)) + h.cross(v);
+  }
+  for (int k = 0; k < 3; ++k) {
+    result.momentum[static_cast<std::size_t>(k)] = linear[k];
+    result.momentum[static_cast<std::size_t>(k + 3)] = angular[k];
+  }
+  return result;
+}
+
+}  // namespace dyngen::test
