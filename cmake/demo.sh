@@ -22,7 +22,7 @@ WORDS
 took() { echo "($1: $(($(date +%s) - $2)) s)"; }
 
 sh cmake/install_packages.sh build-essential cmake ninja-build pkg-config \
-  libginac-dev libcln-dev libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev nlohmann-json3-dev libboost-dev
+  libginac-dev libcln-dev libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev libexpat1-dev nlohmann-json3-dev libboost-dev
 took "packages" "$begin"
 
 # quietly COMMAND...: its output goes to the log, whose end is shown if it fails.

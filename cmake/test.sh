@@ -17,8 +17,8 @@ begin=$(date +%s)
 took() { echo "($1: $(($(date +%s) - $2)) s)"; }
 
 sh cmake/install_packages.sh build-essential cmake ninja-build ccache pkg-config git clang \
-  libginac-dev libcln-dev libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev nlohmann-json3-dev \
-  libopenblas-pthread-dev libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev liborocos-kdl-dev libmujoco-dev \
+  libginac-dev libcln-dev libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev libexpat1-dev nlohmann-json3-dev \
+  libopenblas-pthread-dev libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev liborocos-kdl-dev libkdl-parser-dev libmujoco-dev \
   libdart-dev libboost-dev libceres-dev libnlopt-dev libopenmpi-dev openmpi-bin python3-numpy gnuplot-nox
 took "packages" "$begin"
 

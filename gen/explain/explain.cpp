@@ -9,6 +9,7 @@
 
 #include "gen/base_parameters/base_parameters.h"
 #include "gen/explain/arm_text.h"
+#include "gen/explain/bodies_text.h"
 #include "gen/explain/grouping_text.h"
 #include "gen/explain/place_text.h"
 #include "gen/explain/text.h"
@@ -148,6 +149,7 @@ std::string explain(const RobotModel& model) {
                        0);
   }
   text += describe_arm(robot);
+  text += bodies_text(model);
   text += describe_places(make_posture(model));
   text += base_text(model, robot, base);
   text += visibility_text(robot, base);

@@ -28,7 +28,8 @@ GiNaC::ex number(const RobotFile& file, RowKey key, int index) {
 
 std::optional<GiNaC::ex> limit(const RobotFile& file, RowKey key, int index) {
   const FieldValue* value = field(file, key, index);
-  return value == nullptr ? std::nullopt : std::optional<GiNaC::ex>(value->value);
+  if (value == nullptr || value->unknown) return std::nullopt;
+  return value->value;
 }
 
 int integer(const RobotFile& file, RowKey key, int index, int absent) {
@@ -45,7 +46,7 @@ RobotModel build_model(const RobotFile& file) {
   model.convention = file.convention;
   model.parameters = file.parameters;
   model.effects = file.effects;
-  model.text = file.text;
+  model.text = file.source_text;
   for (int i = 0; i < file.joint_count; ++i) {
     JointModel joint;
     joint.type = static_cast<JointType>(integer(file, RowKey::kSigma, i, 0));

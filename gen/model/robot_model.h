@@ -19,9 +19,10 @@ enum class JointType { kRevolute = 0, kPrismatic = 1, kFixed = 2 };
 struct Quantity {
   bool unknown = false;
   GiNaC::ex value = 0;  ///< exact; 0 where unknown
-  int line = 0;         ///< of the robot file; 0 where the row is absent
+  int line = 0;         ///< of the robot file or its source; 0 where the row is absent
+  bool open = false;    ///< a number that estimation may change: a 0 among them is no structure
 
-  [[nodiscard]] bool known_zero() const { return !unknown && value.is_zero(); }
+  [[nodiscard]] bool known_zero() const { return !unknown && !open && value.is_zero(); }
 };
 
 /// One row of the DH table and the link that hangs on it, as the file gives them.
@@ -33,7 +34,7 @@ struct JointModel {
   Quantity d;           ///< m
   Quantity r;           ///< m, added to q of a prismatic joint
   std::array<Quantity, kChiCount> chi;
-  std::optional<GiNaC::ex> qmin, qmax;  ///< rad or m; none: the file has no such row
+  std::optional<GiNaC::ex> qmin, qmax;  ///< rad or m; none: no limit
   std::string name;
   int coordinate = -1;  ///< its place in q, dq, ddq, tau; -1 for a fixed joint
 };
@@ -42,7 +43,7 @@ struct JointModel {
 struct RobotModel {
   std::string name;       ///< a C identifier
   std::string file_name;  ///< as the user gave it
-  std::string text;       ///< the whole file, for messages about what its effects mean
+  std::string text;       ///< of the description, for messages about what its effects mean
   DhConvention convention = DhConvention::kModified;
   ParameterMeaning parameters = ParameterMeaning::kBodies;
   std::vector<JointModel> joints;   ///< joints[j - 1] is joint j

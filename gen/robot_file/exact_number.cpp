@@ -124,6 +124,18 @@ ExactNumber ExactNumber::from_decimal(std::string_view text) {
   return {GiNaC::numeric(cln::cl_N(read_digits(std::move(digits)) * scale)), {}};
 }
 
+ExactNumber ExactNumber::from_exact(const GiNaC::ex& exact) {
+  const auto approximate = [&](long digits) -> cln::cl_R {
+    const long saved = GiNaC::Digits;
+    GiNaC::Digits = digits;
+    const GiNaC::ex value = exact.evalf();
+    GiNaC::Digits = saved;
+    return rational_of(value);
+  };
+  constexpr long kLowDigits = 40, kHighDigits = 80;
+  return {exact, {approximate(kLowDigits), approximate(kHighDigits)}};
+}
+
 ExactNumber ExactNumber::pi() {
   return {GiNaC::Pi, {cln::pi(low_format()), cln::pi(high_format())}};
 }

@@ -42,6 +42,8 @@ class ExactNumber {
   ExactNumber() = default;  ///< 0
   /// From digits with at most one point and perhaps an exponent: 0.1 is exactly 1/10.
   static ExactNumber from_decimal(std::string_view text);
+  /// From the exact value of another one. @throws ArithmeticError  beyond the bounds
+  static ExactNumber from_exact(const GiNaC::ex& exact);
   static ExactNumber pi();
   static ExactNumber degree();  ///< pi/180
 

@@ -15,9 +15,10 @@ namespace dyngen {
 namespace {
 
 constexpr std::array<std::string_view, kRowKeyCount> kRowSpellings = {
-    "sigma", "al",   "d",    "th",   "r",      "ant", "XX", "XY", "XZ", "YY",
-    "YZ",    "ZZ",   "mX",   "mY",   "mZ",     "m",   "IA", "Fs", "Fv", "off",
-    "qmin",  "qmax", "vmax", "amax", "taumax", "gx",  "gy", "gz"};
+    "sigma", "al",   "d",    "th",   "r",      "ant", "XX",  "XY",  "XZ",  "YY",
+    "YZ",    "ZZ",   "mX",   "mY",   "mZ",     "m",   "IA",  "Fs",  "Fv",  "off",
+    "qmin",  "qmax", "vmax", "amax", "taumax", "gx",  "gy",  "gz",  "cX",  "cY",
+    "cZ",    "IXX",  "IXY",  "IXZ",  "IYY",    "IYZ", "IZZ", "irX", "irY", "irZ"};
 
 constexpr std::array<Keyword, 9> kOtherKeywords = {{
     {"name", Statement::kName},
@@ -44,7 +45,7 @@ constexpr std::array<Synonym, 14> kSynonyms = {{
     {"offset", "an offset of a joint angle stands in 'th', of a torque in 'off'"},
     {"parent", "the parent link of each joint stands in 'ant'"},
     {"mass", "masses stand in 'm'"},
-    {"ixx", "the inertia tensor about the frame origin stands in XX XY XZ YY YZ ZZ"},
+    {"com", "the centre of mass stands in cX cY cZ"},
     {"g", "gravity stands in gx, gy, gz"},
     {"gravity", "gravity stands in gx, gy, gz"},
     {"end", "the last row is 'stop'"},
@@ -101,15 +102,32 @@ bool may_be_unknown(RowKey key) {
     case RowKey::kAl:
     case RowKey::kTh:
     case RowKey::kAnt:
+    case RowKey::kIrX:
+    case RowKey::kIrY:
+    case RowKey::kIrZ:
+      return false;
+    default:
+      return !is_limit(key);
+  }
+}
+
+bool is_limit(RowKey key) {
+  switch (key) {
     case RowKey::kQmin:
     case RowKey::kQmax:
     case RowKey::kVmax:
     case RowKey::kAmax:
     case RowKey::kTaumax:
-      return false;
-    default:
       return true;
+    default:
+      return false;
   }
+}
+
+bool is_cad_row(RowKey key) { return key >= RowKey::kCX && key <= RowKey::kIrZ; }
+
+bool has_other_form(RowKey key) {
+  return is_cad_row(key) || (key >= RowKey::kXX && key <= RowKey::kMZ);
 }
 
 bool is_scalar(RowKey key) {

@@ -23,6 +23,15 @@ std::string keyword_hint(std::string_view word);
 /// Whether '*' may stand in the row.
 bool may_be_unknown(RowKey key);
 
+/// qmin qmax vmax amax taumax: '-' says that a joint has no limit.
+bool is_limit(RowKey key);
+
+/// cX .. irZ: the CAD form of a body.
+bool is_cad_row(RowKey key);
+
+/// Rows of bodies that have two forms: '-' says that a link has the other one.
+bool has_other_form(RowKey key);
+
 /// gx, gy, gz: one value in all, not one per joint.
 bool is_scalar(RowKey key);
 

@@ -10,7 +10,9 @@
 #include <system_error>
 #include <utility>
 
-#include "gen/diagnostic/utf8.h"
+#include "gen/diagnostic/assert.h"
+#include "gen/diagnostic/line_table.h"
+#include "gen/robot_file/cad_rows.h"
 #include "gen/robot_file/row_reader.h"
 #include "gen/robot_file/value_checks.h"
 
@@ -22,15 +24,7 @@ constexpr std::size_t kMaxBytes = std::size_t{16} << 20U;  // a robot file has k
 
 /// The place of byte `offset` in a text that may be no text at all.
 SourcePosition position_of(std::string_view text, std::size_t offset) {
-  const std::string_view before = text.substr(0, offset);
-  SourcePosition position{1, 1};
-  std::size_t line_begin = 0;
-  for (std::size_t i = before.find('\n'); i != before.npos; i = before.find('\n', i + 1)) {
-    ++position.line;
-    line_begin = i + 1;
-  }
-  position.column += character_count(before.substr(line_begin));
-  return position;
+  return LineTable(text).position_of(text, offset);
 }
 
 /// Reports bytes on which reading row by row would make no sense.
@@ -51,7 +45,7 @@ void check_is_text(std::string_view text, Diagnostics& diagnostics) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first != text.npos && text[first] == '<') {
     diagnostics.error(position_of(text, first), 1, "this is XML, not a robot file",
-                      "URDF and other XML is not read: write the DH table and the masses as rows");
+                      "URDF and MJCF are read where a robot is given by its file's path");
     return;
   }
   if (first == text.npos) {
@@ -70,7 +64,81 @@ void throw_if_errors(const Diagnostics& diagnostics) {
   throw ModelError(diagnostics.render());
 }
 
-std::string read_bytes(const std::string& path) {
+}  // namespace
+
+RobotFile parse_robot_file(std::string text, std::string file_name, const FurtherCheck& further) {
+  Diagnostics diagnostics(file_name, text);
+  check_is_text(text, diagnostics);
+  throw_if_errors(diagnostics);
+  RobotFile file = read_rows(std::move(text), std::move(file_name), diagnostics);
+  resolve_cad_rows(file, diagnostics);
+  check_values(file, diagnostics);
+  if (further) further(file, diagnostics);
+  throw_if_errors(diagnostics);
+  file.warnings = diagnostics.all();
+  return file;
+}
+
+namespace {
+
+/// An effect of a joint comes from where the joint's friction does.
+void move_effect(EffectRow& effect, const MadeText& made) {
+  std::size_t column = 0;
+  for (const EffectRow::Setting& setting : effect.settings) {
+    if (setting.key != "joint" || setting.value.unknown) continue;
+    column =
+        static_cast<std::size_t>(GiNaC::ex_to<GiNaC::numeric>(setting.value.value).to_int() - 1);
+  }
+  const MadeText::Place place = made.place(RowKey::kFs, column);
+  effect.position = place.position;
+  for (EffectRow::Setting& setting : effect.settings) {
+    setting.position = setting.value.position = place.position;
+    setting.value.length = place.length;
+  }
+}
+
+}  // namespace
+
+RobotFile parse_made_robot_file(MadeText made, std::string file_name, const FurtherCheck& further) {
+  Diagnostics text_diagnostics(file_name, made.text);
+  RobotFile file = read_rows(std::move(made.text), std::move(file_name), text_diagnostics);
+  resolve_cad_rows(file, text_diagnostics);
+  DYNGEN_ASSERT(!text_diagnostics.has_errors(),
+                "a robot file that was made cannot be read:\n" + text_diagnostics.render());
+  file.source_text = std::move(made.source_text);
+  file.made_of = std::move(made.made_of);
+  for (std::size_t key = 0; key < kRowKeyCount; ++key) {
+    Row& row = file.rows[key];
+    for (std::size_t column = 0; column < row.values.size(); ++column) {
+      const MadeText::Place place = made.place(static_cast<RowKey>(key), column);
+      row.values[column].position = place.position;
+      row.values[column].length = place.length;
+    }
+    row.keyword = made.place(static_cast<RowKey>(key), row.values.size()).position;
+  }
+  for (EffectRow& effect : file.effects) move_effect(effect, made);
+  file.last_word = made.place(RowKey::kSigma, static_cast<std::size_t>(file.joint_count)).position;
+  Diagnostics found(file.file_name, file.source_text);
+  check_values(file, found);
+  if (further) further(file, found);
+  Diagnostics diagnostics(file.file_name, file.source_text);
+  for (const Diagnostic& own : made.warnings) {
+    diagnostics.warning(own.position, own.length, own.message, own.hint);
+  }
+  for (const Diagnostic& own : found.all()) {
+    const std::string message = "in the robot file made of this, " + own.message;
+    if (own.severity == Severity::kError) {
+      diagnostics.error(own.position, own.length, message, own.hint);
+    } else {
+      diagnostics.warning(own.position, own.length, message, own.hint);
+    }
+  }
+  throw_if_errors(diagnostics);
+  file.warnings = diagnostics.all();
+  return file;
+}
+
+std::string read_description(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     throw_unreadable(path, std::make_error_code(std::errc::is_a_directory).message());
@@ -83,30 +151,13 @@ std::string read_bytes(const std::string& path) {
   std::string block(std::size_t{1} << 16U, '\0');
   while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get())) {
     bytes.append(block, 0, count);
-    if (bytes.size() > kMaxBytes) throw_unreadable(path, "larger than 16 MiB, no robot file");
+    if (bytes.size() > kMaxBytes)
+      throw_unreadable(path, "larger than 16 MiB: no description of a robot");
   }
   if (std::ferror(file.get()) != 0) {
     throw_unreadable(path, std::generic_category().message(errno));
   }
   return bytes;
-}
-
-}  // namespace
-
-RobotFile parse_robot_file(std::string text, std::string file_name, const FurtherCheck& further) {
-  Diagnostics diagnostics(file_name, text);
-  check_is_text(text, diagnostics);
-  throw_if_errors(diagnostics);
-  RobotFile file = read_rows(std::move(text), std::move(file_name), diagnostics);
-  check_values(file, diagnostics);
-  if (further) further(file, diagnostics);
-  throw_if_errors(diagnostics);
-  file.warnings = diagnostics.all();
-  return file;
-}
-
-RobotFile read_robot_file(const std::string& path, const FurtherCheck& further) {
-  return parse_robot_file(read_bytes(path), path, further);
 }
 
 }  // namespace dyngen

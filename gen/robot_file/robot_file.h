@@ -17,10 +17,10 @@ namespace dyngen {
 /// The most joints that a robot file may declare.
 inline constexpr int kMaxJoints = 100;
 
-/// One value of a row: an exact number, or unknown ('*').
+/// One value of a row: an exact number, or unknown ('*'), or none ('-').
 struct FieldValue {
-  bool unknown = false;
-  GiNaC::ex value = 0;  ///< exact and real: rationals, pi, square roots, sin and cos of constants
+  bool unknown = false;  ///< there is no number
+  GiNaC::ex value = 0;   ///< exact and real: rationals, pi, square roots, sin and cos of constants
   SourcePosition position;
   int length = 1;
   std::string text;  ///< as written
@@ -56,8 +56,22 @@ enum class RowKey {
   kGx,
   kGy,
   kGz,
+  // the CAD form of a body: centre of mass, moments about it, and the axes that these have. They
+  // are read into the rows above, and are absent from a RobotFile.
+  kCX,
+  kCY,
+  kCZ,
+  kIXX,
+  kIXY,
+  kIXZ,
+  kIYY,
+  kIYZ,
+  kIZZ,
+  kIrX,
+  kIrY,
+  kIrZ,
 };
-inline constexpr std::size_t kRowKeyCount = 28;
+inline constexpr std::size_t kRowKeyCount = 40;
 
 /// A row of values; absent rows have present == false and no values.
 struct Row {
@@ -112,16 +126,21 @@ struct EffectRow {
 /// Source: the format of the thesis's Appendix B, extended.
 struct RobotFile {
   std::string file_name;  ///< as given to the reader, for messages
-  std::string text;       ///< the whole text, for messages about what it means
-  std::string name;       ///< the `name` row, else the file's stem
-  int joint_count = 0;    ///< number_link, 1..kMaxJoints
+  std::string text;       ///< the whole text
+  /// What positions speak of: the text, or the description that the text was made of.
+  std::string source_text;
+  /// "URDF", "MJCF": the text was made of such a description, whose bodies its reader has checked;
+  /// a 0 is a number there and no knowledge. Empty: the robot file itself.
+  std::string made_of;
+  std::string name;     ///< the `name` row, else the file's stem
+  int joint_count = 0;  ///< number_link, 1..kMaxJoints
   DhConvention convention = DhConvention::kModified;
   ParameterMeaning parameters = ParameterMeaning::kBodies;
   std::array<Row, kRowKeyCount> rows;
   std::vector<std::string> joint_names;  ///< empty, or joint_count names
   std::vector<EffectRow> effects;
   std::vector<RowText> texts;  ///< all rows, in the order of the text
-  SourcePosition last_word;  ///< of the file: where messages about what is missing stand
+  SourcePosition last_word;    ///< of the file: where messages about what is missing stand
   std::vector<Diagnostic> warnings;
 
   [[nodiscard]] const Row& row(RowKey key) const { return rows[static_cast<std::size_t>(key)]; }
@@ -142,8 +161,27 @@ using FurtherCheck = std::function<void(const RobotFile&, Diagnostics&)>;
 RobotFile parse_robot_file(std::string text, std::string file_name,
                            const FurtherCheck& further = {});
 
-/// Reads a robot file from disk.
-/// @throws ModelError  if it cannot be read (the message names the file and the reason) or parsed
-RobotFile read_robot_file(const std::string& path, const FurtherCheck& further = {});
+/// A robot file that was made of another description, and where its values come from.
+struct MadeText {
+  std::string text;         ///< of the robot file
+  std::string source_text;  ///< of the description
+  std::string made_of;      ///< as in RobotFile; empty: bodies are checked as those of robot files
+  struct Place {
+    SourcePosition position;
+    int length = 1;
+  };
+  /// Of the value in a column (from 0) of a row; of the whole for columns that do not exist.
+  std::function<Place(RowKey, std::size_t)> place;
+  std::vector<Diagnostic> warnings;  ///< of the description
+};
+
+/// The same of a text that was made: messages have the description's places.
+/// @throws InternalError  if the text is no robot file
+RobotFile parse_made_robot_file(MadeText made, std::string file_name,
+                                const FurtherCheck& further = {});
+
+/// What a file of a description holds.
+/// @throws ModelError  if it cannot be read: the message names the file and the reason
+std::string read_description(const std::string& path);
 
 }  // namespace dyngen

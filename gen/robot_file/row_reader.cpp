@@ -37,6 +37,7 @@ RobotFile unread_file(std::string text, std::string file_name) {
   RobotFile file;
   file.file_name = std::move(file_name);
   file.text = std::move(text);
+  file.source_text = file.text;
   return file;
 }
 

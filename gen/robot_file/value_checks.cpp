@@ -56,7 +56,7 @@ void check_positive(const RobotFile& file, RowKey key, Diagnostics& diagnostics)
     diagnostics.error(
         value.position, value.length,
         fmt::format("limit {} in '{}' is not positive", printable(value.text), row_keyword(key)),
-        "limits are magnitudes; leave the row out if there is no limit");
+        "limits are magnitudes; write - for a joint without a limit");
   }
 }
 
@@ -194,6 +194,7 @@ void check_values(const RobotFile& file, Diagnostics& diagnostics) {
   }
   check_joint_limits(file, diagnostics);
   check_sizes(file, diagnostics);
+  if (!file.made_of.empty()) return;  // each body was checked where it is described
   check_bodies(file, diagnostics);
   if (!diagnostics.has_errors()) check_masses(file, AbsentRows::kUnknown, diagnostics);
 }

@@ -79,6 +79,10 @@ ValueList read_values(RowWords& words, const Word& keyword, std::string_view row
 
 void read_value(RowWords& words, const Word& word, std::string_view row, bool unknown_allowed,
                 ValueList& list) {
+  const Keyword* keyword = find_keyword(row);
+  const bool of_values = keyword != nullptr && keyword->statement == Statement::kValues;
+  const bool of_limits = of_values && is_limit(keyword->row);
+  const bool two_forms = of_values && has_other_form(keyword->row);
   list.values.push_back({true, 0, word.position, word.length, std::string(word.text)});
   list.last.reset();
   if (list.damaged) return;  // the pieces of one value need no message each
@@ -88,7 +92,11 @@ void read_value(RowWords& words, const Word& word, std::string_view row, bool un
   } else if (word.text == "*") {
     if (unknown_allowed) return;
     words.error(word, fmt::format("'*' (unknown) cannot stand in '{}'", row),
-                "it can stand in m mX mY mZ XX XY XZ YY YZ ZZ IA Fs Fv off d r gx gy gz");
+                of_limits
+                    ? "write - for a joint without a limit"
+                    : "it can stand in m mX mY mZ XX XY XZ YY YZ ZZ IA Fs Fv off d r gx gy gz");
+  } else if (word.text == "-" && (of_limits || two_forms)) {
+    return;  // no limit, or the link has the other form
   } else {
     Evaluation evaluation = evaluate(word, row, words.names(), words.diagnostics());
     list.damaged = evaluation.cut_off;

@@ -15,6 +15,7 @@
 #include "gen/explain/explain.h"
 #include "gen/generator/generator.h"
 #include "gen/model/robot_model.h"
+#include "gen/robot_output/robot_tree.h"
 #include "gen/tool/fitted_lines.h"
 #include "gen/tool/options.h"
 #include "gen/tool/output_files.h"
@@ -25,7 +26,7 @@ namespace {
 
 void print_warnings(const CheckedRobot& robot, const RobotModel& model,
                     const GeneratorOptions& options) {
-  Diagnostics diagnostics(robot.file.file_name, robot.file.text);
+  Diagnostics diagnostics(robot.file.file_name, robot.file.source_text);
   add_robot_warnings(robot, model, AbsentRows::kZero, diagnostics);
   for (const BoundEffect& effect : bound_effects(model, options)) {
     const std::string reason = why_not_in_controller(*effect.file);
@@ -40,7 +41,7 @@ void print_warnings(const CheckedRobot& robot, const RobotModel& model,
 
 /// The files that the output depends on.
 std::vector<std::string> dependencies(const ToolOptions& options) {
-  std::vector<std::string> files = {options.robot};
+  std::vector<std::string> files = {options.robot.path};
   for (const std::string& folder : options.effect_folders) {
     std::vector<std::string> own;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -105,6 +106,16 @@ std::string counted(const RobotModel& model, const GeneratorOptions& options, Mi
   return count_table(code, write_functions(code, telling(options, line, missing)));
 }
 
+/// The text; what was left out of it is printed.
+std::string told(WrittenRobot written, const RobotFile& file) {
+  Diagnostics diagnostics(file.file_name, file.source_text);
+  for (Diagnostic& own : written.warnings) {
+    diagnostics.warning(own.position, own.length, std::move(own.message), std::move(own.hint));
+  }
+  std::cerr << diagnostics.render();
+  return std::move(written.text);
+}
+
 int run(ToolOptions options) {
   const CheckedRobot robot = read_checked_robot(options.robot, options.effect_folders);
   const RobotModel model = build_model(robot.file);
@@ -124,10 +135,17 @@ int run(ToolOptions options) {
     }
   }
   if (!options.drawing.empty()) files.push_back({options.drawing, arm_drawing(model)});
+  if (!options.to_robot.empty()) files.push_back({options.to_robot, robot.file.text});
+  if (!options.to_urdf.empty()) {
+    files.push_back({options.to_urdf, told(urdf_text(robot.file, model), robot.file)});
+  }
+  if (!options.to_mjcf.empty()) {
+    files.push_back({options.to_mjcf, told(mjcf_text(robot.file, model), robot.file)});
+  }
   write_files(files);
   if (options.explain) print(explain(model));
   if (options.count) print(counted(model, options.generator, missing));
-  std::cerr << missing_text(missing, options.robot);
+  std::cerr << missing_text(missing, options.robot.path);
   return kDone;
 }
 
@@ -148,7 +166,7 @@ int guarded_main(int argc, const char* const* argv) {
   } catch (const std::exception& error) {
     std::cerr << "dyngen: internal error: " << error.what()
               << "\nThis is a bug of dyngen. Please report it with the file "
-              << parsed.options.robot << ".\n";
+              << parsed.options.robot.path << ".\n";
     return kOurBug;
   }
 }

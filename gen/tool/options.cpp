@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gen/tool/output_files.h"
+#include "gen/tool/robot_options.h"
 #include "gen/tool/usage_hint.h"
 
 namespace dyngen {
@@ -33,8 +34,11 @@ Value meaning(const std::string& option, const std::string& word,
 
 /// No file may be written over another one of the same call.
 void check_paths(const ToolOptions& options) {
-  std::vector<std::pair<std::string, std::string>> files = {{"the robot file", options.robot}};
+  std::vector<std::pair<std::string, std::string>> files = {{"the robot file", options.robot.path}};
   if (!options.drawing.empty()) files.emplace_back("--drawing", options.drawing);
+  if (!options.to_robot.empty()) files.emplace_back("--to-robot", options.to_robot);
+  if (!options.to_urdf.empty()) files.emplace_back("--to-urdf", options.to_urdf);
+  if (!options.to_mjcf.empty()) files.emplace_back("--to-mjcf", options.to_mjcf);
   if (!options.output.empty()) {
     files.emplace_back("-o", options.output);
     files.emplace_back("the header", options.header());
@@ -55,11 +59,23 @@ void check_paths(const ToolOptions& options) {
   }
 }
 
+void check_ending(const std::string& option, const std::string& path, const std::string& ending) {
+  if (path.empty() || std::filesystem::path(path).extension().string() == ending) return;
+  throw std::invalid_argument(option + ": expected a file name that ends in " + ending +
+                              ", found '" + path + "'");
+}
+
 void check(ToolOptions& options) {
-  if (options.output.empty() && options.drawing.empty() && !options.count && !options.explain) {
+  const bool writes = !options.output.empty() || !options.drawing.empty() ||
+                      !options.to_robot.empty() || !options.to_urdf.empty() ||
+                      !options.to_mjcf.empty();
+  if (!writes && !options.count && !options.explain) {
     throw std::invalid_argument(
-        "nothing to do: give -o FILE, --count, --explain or --drawing FILE");
+        "nothing to do: give -o FILE, --count, --explain, --drawing FILE or --to-robot FILE");
   }
+  check_ending("--to-robot", options.to_robot, ".robot");
+  check_ending("--to-urdf", options.to_urdf, ".urdf");
+  check_ending("--to-mjcf", options.to_mjcf, ".xml");
   if (!options.drawing.empty() &&
       std::filesystem::path(options.drawing).extension().string() != ".svg") {
     throw std::invalid_argument("--drawing: '" + options.drawing +
@@ -97,7 +113,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   ToolOptions& options = parsed.options;
   CLI::App app("dyngen: a robot file in, its dynamics as straight-line C out", "dyngen");
   app.set_version_flag("--version", "dyngen " DYNGEN_VERSION);
-  app.add_option("robot", options.robot, "Robot file (.robot)")->required()->type_name("FILE");
+  add_robot(app, options.robot, "Robot");
   app.add_option("-o,--output", options.output,
                  "C or C++ source to write; the header is written beside it")
       ->type_name("FILE");
@@ -163,6 +179,17 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--drawing", options.drawing,
                  "Draw the arm and the frames of its links (.svg), at zero or what is stated there")
       ->type_name("FILE");
+  app.add_option("--to-robot", options.to_robot,
+                 "Write the robot as a robot file (.robot): what was made of URDF, MJCF or .par")
+      ->type_name("FILE");
+  app.add_option("--to-urdf", options.to_urdf, "Write the robot as URDF (.urdf)")
+      ->type_name("FILE");
+  app.add_option("--to-mjcf", options.to_mjcf, "Write the robot as MJCF (.xml)")->type_name("FILE");
+  app.footer(
+      "Examples:\n"
+      "  dyngen arm.robot -o arm.c\n"
+      "  dyngen panda.urdf --tip link8 -o panda.c\n"
+      "  dyngen arm.robot --to-urdf arm.urdf");
   try {
     app.parse(argc, argv);
     options.generator.parameters = meaning<ParameterMode>(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gen/generator/generator.h"
+#include "gen/robot_input/robot_source.h"
 
 namespace dyngen {
 
@@ -13,10 +14,13 @@ inline constexpr int kDone = 0, kInputWrong = 1, kUsage = 2, kOurBug = 70;
 
 /// The command line of dyngen.
 struct ToolOptions {
-  std::string robot;    ///< path of the robot file
-  std::string output;   ///< the C or C++ source; its header stands beside it; empty: none
-  std::string depfile;  ///< empty: none
-  std::string drawing;  ///< the arm's picture, SVG; empty: none
+  RobotSource robot;
+  std::string output;    ///< the C or C++ source; its header stands beside it; empty: none
+  std::string depfile;   ///< empty: none
+  std::string drawing;   ///< the arm's picture, SVG; empty: none
+  std::string to_robot;  ///< the robot file, made or as it is; empty: none
+  std::string to_urdf;   ///< empty: none
+  std::string to_mjcf;   ///< empty: none
   std::vector<std::string> effect_folders;  ///< in the order of the command line
   bool count = false;
   bool explain = false;

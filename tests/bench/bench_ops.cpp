@@ -20,7 +20,7 @@
 
 #include "gen/generator/generator.h"
 #include "gen/model/robot_model.h"
-#include "gen/robot_file/robot_file.h"
+#include "gen/robot_input/robot_input.h"
 #include "tests/bench/bench_robots.h"
 #include "tests/bench/table.h"
 

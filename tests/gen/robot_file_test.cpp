@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gen/robot_file/robot_file.h"
+#include "gen/robot_input/robot_input.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +8,8 @@
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include "gen/robot_input/robot_input.h"
 
 namespace dyngen {
 namespace {

@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "gen/robot_input/robot_input.h"
 #include "gen/symbols/exact.h"
 #include "tests/support/numeric_dynamics.h"
 

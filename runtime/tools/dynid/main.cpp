@@ -54,7 +54,7 @@ int run(const ToolOptions& options, ProcessGroup& group) {
 int our_bug(const std::exception& error, const ToolOptions& options) {
   const std::string text = std::string("dynid: internal error: ") + error.what() +
                            "\nThis is a bug of dynid. Please report it with the file " +
-                           options.robot + ".\n";
+                           options.robot.path + ".\n";
   std::fputs(text.c_str(), stderr);
   return kOurBug;
 }

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gen/robot_file/robot_file.h"
+#include "gen/robot_input/robot_input.h"
 #include "runtime/recordings/gzip.h"
 #include "tests/runtime/dynid/diagnosis_schema.h"
 #include "tests/runtime/dynid/random_robot_text.h"

@@ -117,7 +117,8 @@ ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& r
                             const DescribedRobot& robot, const EffectCatalogue& catalogue,
                             std::vector<MotionSource> heldout, ProgressLine& progress) {
   ForwardTask task{
-      options.diagnose.loop, options.diagnose.controller_model, std::move(heldout), {}};
+      options.diagnose.loop, options.robot.beside(options.diagnose.controller_model),
+      std::move(heldout), {}};
   for (const std::string& path : options.diagnose.commanded) {
     ToldRepairs repairs;
     task.commanded.push_back(read_trajectory(path, &repairs.notices));

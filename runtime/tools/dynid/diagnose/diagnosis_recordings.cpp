@@ -54,16 +54,16 @@ MotionSource unexplained_motion(const std::string& path, const MotionOptions& op
   return source;
 }
 
-KnownEffects known_effects(const std::string& path, const EffectCatalogue& catalogue) {
-  const DescribedRobot fitted = describe_robot(path, OpenParameters::kAbsentRows);
+KnownEffects known_effects(const RobotSource& source, const EffectCatalogue& catalogue) {
+  const DescribedRobot fitted = describe_robot(source, OpenParameters::kAbsentRows);
   const auto& parameters = fitted.linear.parameters;
   const bool open =
       std::any_of(parameters.begin(), parameters.end(),
                   [](const LinearParameter& parameter) { return !parameter.value.has_value(); });
-  KnownEffects known{describe_robot(path, OpenParameters::kAsWritten), {}};
+  KnownEffects known{describe_robot(source, OpenParameters::kAsWritten), {}};
   known.effects = effect_instances(known.robot.model, catalogue);
   const RobotFile& file = known.robot.file;
-  Diagnostics diagnostics(file.file_name, file.text);
+  Diagnostics diagnostics(file.file_name, file.source_text);
   for (std::size_t i = 0; i < known.effects.size(); ++i) {
     const std::string why = objection(known.effects[i], open);
     if (why.empty()) continue;

@@ -25,10 +25,10 @@ struct KnownEffects {
 
 /// The rows `effect` of a robot file. What a diagnosis takes for known must have numbers, and its
 /// torque must be that of a joint's motion: no derivative of the rigid model, no lateness.
-/// @param path  of the robot file
+/// @param source  of the robot
 /// @throws ModelError  positioned: for '*', for other kinds, and where an effect reads friction or
 /// load that the file leaves open
-KnownEffects known_effects(const std::string& path, const EffectCatalogue& catalogue);
+KnownEffects known_effects(const RobotSource& source, const EffectCatalogue& catalogue);
 
 /// The motion with the torque of known effects taken off.
 MotionSource without_effects(const MotionSource& source, const KnownEffects& known);

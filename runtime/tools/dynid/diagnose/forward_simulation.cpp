@@ -182,7 +182,8 @@ class ForwardSimulation {
             : read_simulated_robot(task_.controller_model, RobotUse::kController, catalogue_)
                   .control;
     if (model.joints != tuned.joints()) {
-      throw std::invalid_argument(fmt::format("{} has {} joints, {} has {}", task_.controller_model,
+      throw std::invalid_argument(fmt::format("{} has {} joints, {} has {}",
+                                              task_.controller_model.path,
                                               model.joints, tuned.name, tuned.joints()));
     }
     if (first) result.before = errors_of(before, *first, tuned, model, 0);

@@ -17,7 +17,7 @@ namespace dyngen::runtime {
 /// What a robot is asked to do while it is simulated, and what the real one did.
 struct ForwardTask {
   LoopSettings loop;
-  std::string controller_model;  ///< robot file of the controller; empty: the model alone, fitted
+  RobotSource controller_model;  ///< of the controller; empty: the model alone, fitted
   std::vector<MotionSource> recordings;  ///< held out, with the torque of all effects
   /// What was commanded in each of them; empty: the motion that was recorded.
   std::vector<Trajectory> commanded;

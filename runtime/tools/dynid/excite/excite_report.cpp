@@ -220,7 +220,7 @@ void find_multistage(ExciteReport& report, const Progress& progress) {
 
 }  // namespace
 
-ExciteReport make_excite_report(const std::string& robot, const ExciteOptions& options,
+ExciteReport make_excite_report(const RobotSource& robot, const ExciteOptions& options,
                                 const Progress& progress) {
   ExciteReport report;
   report.options = options;

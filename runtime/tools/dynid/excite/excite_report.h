@@ -52,7 +52,7 @@ inline constexpr double kCheckRate = 10000;
 /// @param progress  may be empty
 /// @throws ModelError, SummaryFileError, std::invalid_argument
 ExciteReport make_excite_report(
-    const std::string& robot, const ExciteOptions& options,
+    const RobotSource& robot, const ExciteOptions& options,
     const std::function<void(const std::string&, std::size_t, std::size_t)>& progress);
 
 /// A table of the largest share of every limit.

@@ -181,7 +181,7 @@ Contest contest_of(const OpenFinding& finding, const std::string& path, const De
 }
 
 SeparationReport make_separation_report(
-    const std::string& robot, const ExciteOptions& options,
+    const RobotSource& robot, const ExciteOptions& options,
     const std::function<void(const std::string&, std::size_t, std::size_t)>& progress) {
   SeparationReport report;
   report.options = options;

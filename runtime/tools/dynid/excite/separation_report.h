@@ -51,7 +51,7 @@ Contest contest_of(const OpenFinding& finding, const std::string& path, const De
 /// @param progress  may be empty
 /// @throws ModelError, std::invalid_argument
 SeparationReport make_separation_report(
-    const std::string& robot, const ExciteOptions& options,
+    const RobotSource& robot, const ExciteOptions& options,
     const std::function<void(const std::string&, std::size_t, std::size_t)>& progress);
 
 /// The nearest rival of every family, over one period.

@@ -174,7 +174,7 @@ void start_others(const DescribedRobot& robot, const ToolOptions& options, Proce
     if (answer.at(0) == kError) {
       wrong = fmt::format("process {}: {}", r, answer.at(1));
     } else if (answer.at(1) != robot.file.text) {
-      wrong = fmt::format("process {} has another robot file under the name {}", r, options.robot);
+      wrong = fmt::format("process {} has another robot file under the name {}", r, options.robot.path);
     }
   }
   tell_others(group, {wrong.empty() ? kGo : kStop});

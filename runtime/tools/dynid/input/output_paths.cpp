@@ -34,7 +34,7 @@ class NamedPaths {
 std::vector<NamedPath> inputs_of(const ToolOptions& options) {
   NamedPaths inputs;
   if (options.command == Command::kMerge) return {};
-  inputs.add("the robot file", options.robot);
+  inputs.add("the robot file", options.robot.path);
   inputs.add("a recording", options.recordings);
   inputs.add("--list", options.list);
   inputs.add("--holdout", options.heldout);
@@ -45,8 +45,8 @@ std::vector<NamedPath> inputs_of(const ToolOptions& options) {
   inputs.add("--reference", options.diagnose.reference);
   inputs.add("--commanded", options.diagnose.commanded);
   inputs.add("--controller-model", options.diagnose.controller_model);
-  inputs.add("the robot file", options.simulate.robot);
-  inputs.add("--plant", options.simulate.plant);
+  inputs.add("the robot file", options.simulate.robot.path);
+  inputs.add("--plant", options.simulate.plant.path);
   inputs.add("--trajectory", options.simulate.trajectory);
   return inputs.all();
 }

@@ -7,26 +7,27 @@
 #include <vector>
 
 #include "gen/effect_code/checked_robot.h"
+#include "gen/robot_input/robot_input.h"
 
 namespace dyngen::runtime {
 namespace {
 
 /// How a command reads its robot files.
 struct RobotFiles {
-  std::vector<std::string> paths;
+  std::vector<RobotSource> sources;
   AbsentRows absent = AbsentRows::kUnknown;
   bool effects = true;  ///< rows `effect` have a meaning
   std::vector<std::string> folders;
 };
 
 RobotFiles robot_files(const ToolOptions& options) {
-  RobotFiles files{.paths = {options.robot}, .folders = options.effects};
+  RobotFiles files{.sources = {options.robot}, .folders = options.effects};
   switch (options.command) {
     case Command::kMerge:
     case Command::kEffects:
       return {};
     case Command::kSimulate:
-      files.paths = {options.simulate.robot, options.simulate.plant};
+      files.sources = {options.simulate.robot, options.simulate.plant};
       files.absent = AbsentRows::kZero;
       files.folders = options.simulate.effects;
       break;
@@ -41,7 +42,7 @@ RobotFiles robot_files(const ToolOptions& options) {
       files.effects = false;
       break;
     case Command::kDiagnose:
-      files.paths.push_back(options.diagnose.controller_model);
+      files.sources.push_back(options.robot.beside(options.diagnose.controller_model));
       break;
     case Command::kFit:
     case Command::kAtlas:
@@ -50,14 +51,14 @@ RobotFiles robot_files(const ToolOptions& options) {
   return files;
 }
 
-std::string warnings_of(const std::string& path, const RobotFiles& files) {
+std::string warnings_of(const RobotSource& source, const RobotFiles& files) {
   CheckedRobot robot;
   if (files.effects) {
-    robot = read_checked_robot(path, files.folders);
+    robot = read_checked_robot(source, files.folders);
   } else {
-    robot.file = read_robot_file(path);
+    robot.file = read_robot_file(source);
   }
-  Diagnostics diagnostics(robot.file.file_name, robot.file.text);
+  Diagnostics diagnostics(robot.file.file_name, robot.file.source_text);
   add_robot_warnings(robot, build_model(robot.file), files.absent, diagnostics);
   return diagnostics.render();
 }
@@ -68,7 +69,8 @@ std::string robot_warnings(const ToolOptions& options) {
   const RobotFiles files = robot_files(options);
   std::string text;
   std::vector<std::string> seen;
-  for (const std::string& path : files.paths) {
+  for (const RobotSource& source : files.sources) {
+    const std::string& path = source.path;
     std::error_code ignored;
     // a pipe can be read once, which the command does
     const bool pipe =
@@ -77,7 +79,7 @@ std::string robot_warnings(const ToolOptions& options) {
     const std::string file = std::filesystem::weakly_canonical(path, ignored).string();
     if (path.empty() || std::find(seen.begin(), seen.end(), file) != seen.end()) continue;
     seen.push_back(file);
-    text += warnings_of(path, files);
+    text += warnings_of(source, files);
   }
   return text;
 }

@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "gen/tool/robot_options.h"
+
 namespace dyngen::runtime {
 
 std::string ExciteOptions::chosen_criterion() const {
@@ -30,12 +32,11 @@ std::string ExciteOptions::usage_error() const {
   return "";
 }
 
-void add_excite(CLI::App& tool, std::string& robot, std::string& output, std::string& json,
+void add_excite(CLI::App& tool, RobotSource& robot, std::string& output, std::string& json,
                 PageOptions& page, ExciteOptions& options) {
   CLI::App* excite =
       tool.add_subcommand("excite", "a trajectory whose recording says most of the parameters");
-  excite->add_option("robot", robot, "robot file with limits qmin, qmax, vmax, amax, taumax")
-      ->required();
+  add_robot(*excite, robot, "robot with limits qmin, qmax, vmax, amax, taumax");
   excite->add_option("-o,--output", output, "the trajectory (.csv, .csv.gz)")->required();
   excite->add_option("--json", json, "all results for programs");
   add_page_options(*excite, page);

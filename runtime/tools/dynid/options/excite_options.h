@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gen/robot_input/robot_source.h"
 #include "runtime/tools/dynid/options/page_options.h"
 
 namespace CLI {
@@ -46,7 +47,7 @@ struct ExciteOptions {
 };
 
 /// The subcommand and its options.
-void add_excite(CLI::App& tool, std::string& robot, std::string& output, std::string& json,
+void add_excite(CLI::App& tool, RobotSource& robot, std::string& output, std::string& json,
                 PageOptions& page, ExciteOptions& options);
 
 }  // namespace dyngen::runtime

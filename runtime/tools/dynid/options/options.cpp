@@ -12,6 +12,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "gen/tool/robot_options.h"
 #include "gen/tool/usage_hint.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/options/parts.h"
@@ -104,8 +105,7 @@ void add_hold(CLI::App& command, ToolOptions& options) {
 
 void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* fit = tool.add_subcommand("fit", "identify a robot's parameters from recordings");
-  fit->add_option("robot", options.robot, "robot file: its numbers are where the fit begins")
-      ->required();
+  add_robot(*fit, options.robot, "robot: its numbers are where the fit begins");
   add_recordings(*fit, options, "recordings, or .qr files of 'dynid accumulate'");
   fit->add_option("--holdout", options.heldout,
                   "recordings that are not fitted but predicted; may be given again");
@@ -148,8 +148,7 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
 void add_atlas(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* atlas = tool.add_subcommand(
       "atlas", "what a refit hides of every effect, and how small it may be to be found");
-  atlas->add_option("robot", options.robot, "robot file; with a trajectory, one with numbers")
-      ->required();
+  add_robot(*atlas, options.robot, "robot; with a trajectory, one with numbers");
   atlas->add_option("recordings", options.recordings, "recordings");
   atlas->add_option("--trajectory", options.atlas.trajectory,
                     "a motion that is planned, instead of recordings (CSV)");
@@ -170,8 +169,7 @@ void add_atlas(CLI::App& tool, ToolOptions& options, Words& words) {
 void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* diagnose = tool.add_subcommand(
       "diagnose", "where model and recordings differ, which physics was left out, and the proof");
-  diagnose->add_option("robot", options.robot, "robot file: its numbers are where the fit begins")
-      ->required();
+  add_robot(*diagnose, options.robot, "robot: its numbers are where the fit begins");
   diagnose->add_option("recordings", options.recordings, "recordings");
   diagnose->add_option("--holdout", options.heldout,
                        "recordings that only prove the answer; may be given again. Else a fifth of "
@@ -188,7 +186,7 @@ void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
 
 void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* check = tool.add_subcommand("check", "residuals of a robot file, without a fit");
-  check->add_option("robot", options.robot, "robot file with numbers")->required();
+  add_robot(*check, options.robot, "robot with numbers");
   add_effects(*check, options);
   add_recordings(*check, options, "recordings");
   check->add_option("--json", options.json, "all results for programs");
@@ -196,7 +194,7 @@ void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
 
   CLI::App* accumulate =
       tool.add_subcommand("accumulate", "sum recordings up in a .qr file that merges with others");
-  accumulate->add_option("robot", options.robot, "robot file")->required();
+  add_robot(*accumulate, options.robot, "robot");
   add_recordings(*accumulate, options, "recordings");
   accumulate->add_option("-o,--output", options.output, "the .qr file")->required();
   accumulate->add_option("--name", options.robot_name,
@@ -292,6 +290,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                                                    {"effects", Command::kEffects},
                                                    {"diagnose", Command::kDiagnose}};
   parsed.options.command = commands.at(name);
+  SimulateOptions& simulate = parsed.options.simulate;
+  simulate.plant = simulate.robot.beside(simulate.plant.path);
   if (parsed.options.command == Command::kSimulate || parsed.options.command == Command::kEffects) {
     return parsed;
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "gen/robot_input/robot_source.h"
 #include "runtime/identification/fit.h"
 #include "runtime/identification/motion_rows.h"
 #include "runtime/identification/motion_source.h"
@@ -37,7 +38,7 @@ struct AtlasOptions {
 /// The command line of dynid.
 struct ToolOptions {
   Command command = Command::kFit;
-  std::string robot;                    ///< path of the robot file
+  RobotSource robot;
   std::vector<std::string> recordings;  ///< .csv, .csv.gz; of fit also .qr; of merge .qr
   std::string list;                     ///< a file with one more of them per line; empty: none
   std::vector<std::string> heldout;

@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "gen/xml/xml_document.h"
 #include "runtime/estimation/matrix_products.h"
 #include "runtime/plots/figure.h"
 #include "runtime/recordings/gzip.h"
@@ -36,6 +37,11 @@ class Needs {
   }
   /// A file that is read or written; empty: none.
   void add_file(const std::string& path) { add_if(path.ends_with(".gz"), Part::kZlib, path); }
+  /// A robot, by what its name promises.
+  void add_robot(const RobotSource& robot) {
+    const std::string& path = robot.path;
+    add_if(path.ends_with(".urdf") || path.ends_with(".xml"), Part::kExpat, path);
+  }
   void add_files(const std::vector<std::string>& paths) {
     for (const std::string& path : paths) add_file(path);
   }
@@ -50,6 +56,7 @@ void add_common_needs(const ToolOptions& options, Needs& needs) {
   needs.add_if(!options.json.empty(), Part::kJson, "--json");
   needs.add_if(!options.page.report.empty(), Part::kJson, "--report");
   needs.add_if(!options.page.figures.empty(), Part::kGnuplot, "--figures");
+  needs.add_robot(options.robot);
   needs.add_files(options.recordings);
   needs.add_files(options.heldout);
 }
@@ -64,6 +71,8 @@ void add_excite_needs(const ToolOptions& options, Needs& needs) {
 void add_simulate_needs(const SimulateOptions& options, Needs& needs) {
   needs.add(Part::kBoost, "simulate");
   needs.add_if(!options.picture.empty(), Part::kGnuplot, "--picture");
+  needs.add_robot(options.robot);
+  needs.add_robot(options.plant);
   needs.add_files({options.trajectory, options.output, options.truth});
 }
 
@@ -108,6 +117,7 @@ const std::vector<PartWords>& all_parts() {
   static const std::vector<PartWords> parts = {
       {Part::kBoost, "Boost", "libboost-dev", "simulate, diagnose --controller"},
       {Part::kCeres, "Ceres", "libceres-dev", "fit --consistent"},
+      {Part::kExpat, "expat", "libexpat1-dev", "robots as URDF and MJCF (.urdf, .xml)"},
       {Part::kGnuplot, "gnuplot", "gnuplot-nox", "--figures, --picture"},
       {Part::kJson, "nlohmann-json", "nlohmann-json3-dev", "--json, --report, excite --for"},
       {Part::kNlopt, "NLopt", "libnlopt-dev", "excite"},
@@ -125,6 +135,8 @@ bool has_part(Part part) {
       return DYNGEN_WITH_BOOST;
     case Part::kCeres:
       return DYNGEN_WITH_CERES;
+    case Part::kExpat:
+      return has_xml_reader();
     case Part::kGnuplot:
       return can_draw();
     case Part::kJson:

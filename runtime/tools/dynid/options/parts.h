@@ -10,7 +10,7 @@
 namespace dyngen::runtime {
 
 /// What dynid can be built or installed without.
-enum class Part { kBlas, kBoost, kCeres, kGnuplot, kJson, kMpi, kNlopt, kZlib };
+enum class Part { kBlas, kBoost, kCeres, kExpat, kGnuplot, kJson, kMpi, kNlopt, kZlib };
 
 struct PartWords {
   Part part;

@@ -3,14 +3,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include "gen/tool/robot_options.h"
+
 namespace dyngen::runtime {
 
 void add_simulate(CLI::App& tool, SimulateOptions& options) {
   CLI::App* simulate =
       tool.add_subcommand("simulate", "simulate a robot under a controller, and record it");
-  simulate->add_option("robot", options.robot, "robot file with numbers: the controller's model")
-      ->required();
-  simulate->add_option("--plant", options.plant, "robot file of what moves; default: the same");
+  add_robot(*simulate, options.robot, "robot with numbers: the controller's model");
+  simulate->add_option("--plant", options.plant.path, "robot that moves; default: the same");
   simulate
       ->add_option("--trajectory", options.trajectory,
                    "CSV: time,q1..qn[,qd1..qdn][,qdd1..qddn]; two equal rows are a step")

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gen/robot_input/robot_source.h"
 #include "runtime/tools/dynid/options/loop_settings.h"
 
 namespace CLI {
@@ -15,8 +16,8 @@ namespace dyngen::runtime {
 
 /// The command line of `dynid simulate`. Lists have one value for all joints, or one a joint.
 struct SimulateOptions {
-  std::string robot;       ///< the controller's model, and the plant unless there is one
-  std::string plant;       ///< another robot file; empty: the same
+  RobotSource robot;       ///< the controller's model, and the plant unless there is one
+  RobotSource plant;       ///< another robot file; empty: the same
   std::string trajectory;  ///< CSV
   std::string output;      ///< the recording
   std::string truth;       ///< the motion without encoder and noise; empty: none

@@ -16,6 +16,7 @@
 #include "gen/functions/functions.h"
 #include "gen/generator/generator.h"
 #include "gen/program/program.h"
+#include "gen/robot_input/robot_input.h"
 #include "gen/symbols/exact.h"
 #include "runtime/tools/dynid/robot/base_grouping.h"
 
@@ -43,8 +44,18 @@ bool is_open(const Quantity& quantity, OpenParameters open) {
   return false;
 }
 
-RobotModel opened(RobotModel model, OpenParameters open) {
+/// @param zeros_are_numbers  of bodies in a description that knows no structure: they are estimated
+RobotModel opened(RobotModel model, OpenParameters open, bool zeros_are_numbers) {
   for (JointModel& joint : model.joints) {
+    const bool body = zeros_are_numbers && open == OpenParameters::kAbsentRows &&
+                      !joint.chi[index(Chi::kM)].known_zero();
+    for (std::size_t k = 0; body && k < kInertialCount; ++k) joint.chi[k].open = true;
+    const bool actuator =
+        zeros_are_numbers && open == OpenParameters::kAbsentRows && joint.type != JointType::kFixed;
+    for (const Chi kind : {Chi::kIA, Chi::kFV, Chi::kFS}) {
+      Quantity& own = joint.chi[index(kind)];
+      own.open = actuator && own.line != 0;
+    }
     for (std::size_t k = 0; k < kChiCount; ++k) {
       const Chi kind = static_cast<Chi>(k);
       const bool written = joint.chi[k].line != 0;
@@ -58,7 +69,7 @@ RobotModel opened(RobotModel model, OpenParameters open) {
 
 /// Estimation needs numbers for what torque is not linear in.
 void refuse_unknown_geometry(const RobotFile& file) {
-  Diagnostics diagnostics(file.file_name, file.text);
+  Diagnostics diagnostics(file.file_name, file.source_text);
   for (const RowKey key : {RowKey::kD, RowKey::kR, RowKey::kGx, RowKey::kGy, RowKey::kGz}) {
     const Row& row = file.row(key);
     for (std::size_t i = 0; i < row.values.size(); ++i) {
@@ -363,9 +374,9 @@ void name_aliases(DescribedRobot& robot) {
 
 }  // namespace
 
-DescribedRobot describe_robot(const std::string& path, OpenParameters open,
+DescribedRobot describe_robot(const RobotSource& source, OpenParameters open,
                               const DescribeOptions& options) {
-  return describe_robot(read_robot_file(path), open, options);
+  return describe_robot(read_robot_file(source), open, options);
 }
 
 DescribedRobot describe_robot(RobotFile file, OpenParameters open, const DescribeOptions& options) {
@@ -373,7 +384,7 @@ DescribedRobot describe_robot(RobotFile file, OpenParameters open, const Describ
   robot.file = std::move(file);
   refuse_unknown_geometry(robot.file);
   const RobotModel written = build_model(robot.file);
-  robot.model = opened(written, open);
+  robot.model = opened(written, open, !robot.file.made_of.empty());
   robot.standard = standard_values(robot.model);
   robot.held = held_numbers(written, options.hold);
   robot.held_values = StandardParameters::Zero(robot.standard.size());

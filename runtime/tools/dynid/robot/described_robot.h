@@ -9,6 +9,7 @@
 
 #include "gen/model/robot_model.h"
 #include "gen/robot_file/robot_file.h"
+#include "gen/robot_input/robot_source.h"
 #include "runtime/model/linear_model.h"
 #include "runtime/tools/dynid/robot/held_numbers.h"
 
@@ -49,9 +50,9 @@ struct DescribeOptions {
   std::vector<std::string> hold{};  ///< which numbers are held: words of held_numbers()
 };
 
-/// Reads a robot file and writes its base regressor as a program.
+/// Reads a robot in any form and writes its base regressor as a program.
 /// @throws ModelError  positioned; a length or gravity component that is '*' among them
-DescribedRobot describe_robot(const std::string& path, OpenParameters open,
+DescribedRobot describe_robot(const RobotSource& source, OpenParameters open,
                               const DescribeOptions& options = {});
 /// The same of a file that was read.
 DescribedRobot describe_robot(RobotFile file, OpenParameters open,

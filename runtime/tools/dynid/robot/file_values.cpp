@@ -12,8 +12,8 @@ namespace dyngen::runtime {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-VectorXd file_values(const DescribedRobot& robot, const std::string& path, const std::string& why) {
-  const StandardParameters written = describe_robot(path, OpenParameters::kAsWritten).standard;
+VectorXd file_values(const DescribedRobot& robot, const RobotSource& source, const std::string& why) {
+  const StandardParameters written = describe_robot(source, OpenParameters::kAsWritten).standard;
   VectorXd beta = VectorXd::Zero(robot.grouping.rows());
   std::string unknown;
   for (Index i = 0; i < beta.size(); ++i) {
@@ -26,7 +26,7 @@ VectorXd file_values(const DescribedRobot& robot, const std::string& path, const
   }
   if (unknown.empty()) return beta;
   throw ModelError(fmt::format(
-      "{}: error: parameters are unknown ('*'): {}; expected numbers, {}\n", path, unknown, why));
+      "{}: error: parameters are unknown ('*'): {}; expected numbers, {}\n", source.path, unknown, why));
 }
 
 }  // namespace dyngen::runtime

@@ -10,11 +10,11 @@ namespace dyngen::runtime {
 
 /// The numbers of a robot file as parameters of a model made of it: an absent row is 0.
 ///
-/// @param robot  of the file at `path`, whatever it leaves open
+/// @param robot  of the same source, whatever it leaves open
 /// @param why    what numbers are needed for, the end of the message: "since ..."
 /// @return       (nb)
 /// @throws ModelError  naming what is unknown
-Eigen::VectorXd file_values(const DescribedRobot& robot, const std::string& path,
+Eigen::VectorXd file_values(const DescribedRobot& robot, const RobotSource& source,
                             const std::string& why);
 
 }  // namespace dyngen::runtime

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "gen/diagnostic/diagnostic.h"
+#include "gen/robot_file/keywords.h"
 #include "runtime/effects/effect_recordings.h"
 #include "runtime/tools/dynid/robot/robot_text.h"
 
@@ -58,9 +59,10 @@ bool is_zero(const ParameterRow& row, const StandardParameters& standard, int li
   return true;
 }
 
+/// CAD rows too: their numbers are in the others.
 bool is_dynamic(RowKey key) {
-  return std::any_of(kRows.begin(), kRows.end(),
-                     [&](const ParameterRow& row) { return row.key == key; });
+  return is_cad_row(key) || std::any_of(kRows.begin(), kRows.end(),
+                                        [&](const ParameterRow& row) { return row.key == key; });
 }
 
 }  // namespace

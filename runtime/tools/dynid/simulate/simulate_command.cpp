@@ -50,8 +50,8 @@ Eigen::MatrixXd temperatures(const SimulatedTemperature& temperature, const Vect
 }
 
 /// What effects that do not act on the motion make of the recorded torque; its noise stays.
-void record_effects(const std::string& path, const SimulatedRobot& plant, ClosedLoopRun& run) {
-  const DescribedRobot robot = describe_robot(path, OpenParameters::kAsWritten);
+void record_effects(const RobotSource& source, const SimulatedRobot& plant, ClosedLoopRun& run) {
+  const DescribedRobot robot = describe_robot(source, OpenParameters::kAsWritten);
   const Eigen::MatrixXd noise = run.measured.tau - run.truth.tau;
   // the rigid model moves with the links
   run.truth.tau =
@@ -110,7 +110,7 @@ std::string table(const SimulatedRobot& plant, const ClosedLoopRun& run, const V
 int run_simulate(const SimulateOptions& options) {
   ProgressLine progress("dynid");
   const Trajectory trajectory = trajectory_of(options.trajectory);
-  progress.show("equations of " + options.robot, 0, 1);
+  progress.show("equations of " + options.robot.path, 0, 1);
   const bool same = options.plant.empty();
   const EffectCatalogue catalogue = effect_catalogue(options.effects);
   const double duration = options.duration > 0 ? options.duration : duration_of(trajectory);
@@ -124,7 +124,7 @@ int run_simulate(const SimulateOptions& options) {
       same ? model : read_simulated_robot(options.plant, RobotUse::kPlant, catalogue, temperature);
   if (!plant.remarks.empty()) progress.clear();
   for (const std::string& remark : plant.remarks) {
-    std::cerr << fmt::format("{}: {}\n", same ? options.robot : options.plant, remark);
+    std::cerr << fmt::format("{}: {}\n", same ? options.robot.path : options.plant.path, remark);
   }
   check_joints(options.trajectory, trajectory.joints(), model);
   check_joints("the plant " + plant.name, plant.joints(), model);

@@ -40,7 +40,7 @@ std::vector<ElasticJoint> elastic_joints(
     const std::vector<std::size_t>& rows, const VectorXd& rotor,
     const std::function<void(const double* q, double* M)>& mass_matrix,
     std::vector<std::string>& remarks) {
-  Diagnostics diagnostics(file.file_name, file.text);
+  Diagnostics diagnostics(file.file_name, file.source_text);
   std::map<int, std::vector<std::size_t>> of_joint;
   for (std::size_t i = 0; i < effects.size(); ++i) of_joint[effects[i].joint].push_back(i);
   const Index n = rotor.size();

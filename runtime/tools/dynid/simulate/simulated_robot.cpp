@@ -11,7 +11,9 @@
 #include "gen/effect_code/bound_effect.h"
 #include "gen/generator/generator.h"
 #include "gen/program/evaluator.h"
+#include "gen/robot_file/keywords.h"
 #include "gen/robot_file/robot_file.h"
+#include "gen/robot_input/robot_input.h"
 #include "gen/symbols/exact.h"
 #include "runtime/effects/effect_rows.h"
 #include "runtime/simulation/elastic_plant.h"
@@ -25,11 +27,12 @@ namespace {
 using Eigen::VectorXd;
 
 void refuse_what_is_no_number(const RobotFile& file) {
-  Diagnostics diagnostics(file.file_name, file.text);
+  Diagnostics diagnostics(file.file_name, file.source_text);
   for (std::size_t key = 0; key < kRowKeyCount; ++key) {
     const auto row_key = static_cast<RowKey>(key);
     const std::vector<FieldValue>& values = file.row(row_key).values;
     const auto unknown = [](const FieldValue& value) { return value.unknown; };
+    if (is_limit(row_key)) continue;  // a joint may have none
     const auto first = std::find_if(values.begin(), values.end(), unknown);
     if (first != values.end()) {
       diagnostics.error(first->position, first->length,
@@ -60,7 +63,7 @@ void refuse_what_is_no_number(const RobotFile& file) {
 /// A parameter that the row leaves out has no number either.
 void refuse_missing_parameters(const RobotFile& file, const RobotModel& model,
                                const EffectCatalogue& catalogue) {
-  Diagnostics diagnostics(file.file_name, file.text);
+  Diagnostics diagnostics(file.file_name, file.source_text);
   for (const BoundEffect& effect : bind_effects(model, catalogue)) {
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
       if (!effect.parameters[k].unknown) continue;
@@ -159,10 +162,10 @@ auto one(ProgramEvaluator program) {
 
 }  // namespace
 
-SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use,
+SimulatedRobot read_simulated_robot(const RobotSource& source, RobotUse use,
                                     const EffectCatalogue& catalogue,
                                     const SimulatedTemperature& temperature) {
-  return simulated_robot(read_robot_file(path), use, catalogue, temperature);
+  return simulated_robot(read_robot_file(source), use, catalogue, temperature);
 }
 
 SimulatedRobot simulated_robot(const RobotFile& file, RobotUse use,
@@ -202,7 +205,9 @@ SimulatedRobot simulated_robot(const RobotFile& file, RobotUse use,
     const JointModel& joint = model.joints[i];
     if (joint.coordinate < 0) continue;
     robot.plant.coulomb[joint.coordinate] = to_double(joint.chi[index(Chi::kFS)].value);
-    if (taumax.present) robot.torque_limit[joint.coordinate] = to_double(taumax.values[i].value);
+    if (taumax.present && !taumax.values[i].unknown) {
+      robot.torque_limit[joint.coordinate] = to_double(taumax.values[i].value);
+    }
   }
   add_effects(robot, file, effect_instances(whole, catalogue), whole, temperature, use);
   return robot;

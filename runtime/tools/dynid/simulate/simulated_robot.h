@@ -52,7 +52,7 @@ struct SimulatedTemperature {
 /// @throws ModelError  positioned: something is '*' (numbers are needed), Fs is negative; an effect
 ///         is not known, or twists a joint whose drive has no inertia; or the mass matrix of a
 ///         plant is singular everywhere
-SimulatedRobot read_simulated_robot(const std::string& path, RobotUse use,
+SimulatedRobot read_simulated_robot(const RobotSource& source, RobotUse use,
                                     const EffectCatalogue& catalogue = {},
                                     const SimulatedTemperature& temperature = {});
 /// The same of a file that was read.
