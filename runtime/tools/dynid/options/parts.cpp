@@ -11,6 +11,7 @@
 #include "runtime/estimation/matrix_products.h"
 #include "runtime/plots/figure.h"
 #include "runtime/recordings/gzip.h"
+#include "runtime/tools/dynid/robot/write_back.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -57,6 +58,8 @@ void add_common_needs(const ToolOptions& options, Needs& needs) {
   needs.add_if(!options.page.report.empty(), Part::kJson, "--report");
   needs.add_if(!options.page.figures.empty(), Part::kGnuplot, "--figures");
   needs.add_robot(options.robot);
+  needs.add_robot(options.description);
+  needs.add_if(is_description_name(options.output), Part::kCeres, options.output);
   needs.add_files(options.recordings);
   needs.add_files(options.heldout);
 }

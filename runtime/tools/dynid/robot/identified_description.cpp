@@ -36,6 +36,26 @@ Index place_of_chi(int link, Chi kind) {
   return static_cast<Index>(kChiCount) * (link - 1) + static_cast<Index>(index(kind));
 }
 
+/// What was left out and what it carries, lines.
+std::vector<std::string> left_out_table(const std::vector<LeftOut>& left_out,
+                                        const std::vector<bool>& revolute) {
+  std::vector<std::string> lines;
+  if (left_out.empty()) return lines;
+  lines.emplace_back("torque of the identified robot that is not in this file (rms):");
+  for (const LeftOut& left : left_out) {
+    std::string carried;
+    for (Index j = 0; j < left.rms.size(); ++j) {
+      if (left.rms[j] == 0) continue;
+      carried += fmt::format("{}{:.3g} {} on joint {}", carried.empty() ? "" : ", ", left.rms[j],
+                             revolute[static_cast<std::size_t>(j)] ? "N m" : "N", j + 1);
+    }
+    if (carried.empty()) carried = "not known: no recordings";
+    lines.push_back(fmt::format("  {}: {}", left.what, carried));
+    lines.push_back(fmt::format("    {}", left.reason));
+  }
+  return lines;
+}
+
 /// Writes one identified robot into one description.
 class WriteBack {
  public:
@@ -72,10 +92,10 @@ class WriteBack {
       }
     }
     measure(result.left_out);
-    const auto table = left_out_table(result.left_out, robot_.linear.revolute);
-    if (!table.empty()) {
+    result.table = left_out_table(result.left_out, robot_.linear.revolute);
+    if (!result.table.empty()) {
       edit_.comment.emplace_back();
-      edit_.comment.insert(edit_.comment.end(), table.begin(), table.end());
+      edit_.comment.insert(edit_.comment.end(), result.table.begin(), result.table.end());
     }
     for (const std::string& note : result.notes) edit_.comment.push_back(note);
     result.text = edited(description_.bodies, edit_).text;
@@ -425,25 +445,6 @@ IdentifiedDescription identified_description(const std::string& identified,
                                              const WriteBackTask& task,
                                              const EffectCatalogue& catalogue) {
   return WriteBack(identified, file_name, task, catalogue).write();
-}
-
-std::vector<std::string> left_out_table(const std::vector<LeftOut>& left_out,
-                                        const std::vector<bool>& revolute) {
-  std::vector<std::string> lines;
-  if (left_out.empty()) return lines;
-  lines.emplace_back("torque of the identified robot that is not in this file (rms):");
-  for (const LeftOut& left : left_out) {
-    std::string carried;
-    for (Index j = 0; j < left.rms.size(); ++j) {
-      if (left.rms[j] == 0) continue;
-      carried += fmt::format("{}{:.3g} {} on joint {}", carried.empty() ? "" : ", ", left.rms[j],
-                             revolute[static_cast<std::size_t>(j)] ? "N m" : "N", j + 1);
-    }
-    if (carried.empty()) carried = "not known: no recordings";
-    lines.push_back(fmt::format("  {}: {}", left.what, carried));
-    lines.push_back(fmt::format("    {}", left.reason));
-  }
-  return lines;
 }
 
 }  // namespace dyngen::runtime

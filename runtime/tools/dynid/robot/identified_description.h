@@ -30,6 +30,7 @@ struct LeftOut {
 struct IdentifiedDescription {
   std::string text;
   std::vector<LeftOut> left_out;
+  std::vector<std::string> table;  ///< of left_out, lines; empty: nothing was
   std::vector<std::string> notes;  ///< sentences
 };
 
@@ -54,9 +55,5 @@ IdentifiedDescription identified_description(const std::string& identified,
                                              const std::string& file_name,
                                              const WriteBackTask& task,
                                              const EffectCatalogue& catalogue);
-
-/// What was left out and what it carries, lines of a table; empty if nothing was.
-std::vector<std::string> left_out_table(const std::vector<LeftOut>& left_out,
-                                        const std::vector<bool>& revolute);
 
 }  // namespace dyngen::runtime
