@@ -12,6 +12,7 @@
 #include "runtime/tools/dynid/fit/fit_report.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/options/parts.h"
+#include "runtime/tools/dynid/robot/identified_description.h"
 
 namespace dyngen::runtime {
 
@@ -26,6 +27,10 @@ ForwardComparison compare_forward(const DiagnosisReport&, const DescribedRobot&,
 
 #if !DYNGEN_WITH_CERES
 ConsistentFit fit_consistently(const FitReport&) { call_absent(Part::kCeres); }
+IdentifiedDescription identified_description(const std::string&, const std::string&,
+                                             const WriteBackTask&, const EffectCatalogue&) {
+  call_absent(Part::kCeres);
+}
 #endif
 
 #if !DYNGEN_WITH_NLOPT

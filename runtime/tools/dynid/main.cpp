@@ -97,6 +97,9 @@ int guarded_run(const ToolOptions& parsed, ProcessGroup& group) {
   } catch (const ImplausibleError& error) {
     std::cerr << error.what() << "\n";
     return kCannotAnswer;
+  } catch (const NoBodiesError& error) {
+    std::cerr << "dynid: " << error.what() << "\n";
+    return kCannotAnswer;
   } catch (const std::invalid_argument& error) {
     std::cerr << "dynid: error: " << error.what() << "\n";
     return kInputWrong;

@@ -28,6 +28,7 @@
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
+#include "runtime/tools/dynid/robot/write_back.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -121,9 +122,10 @@ void check_simulation(const ToolOptions& options) {
 ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& report,
                             const DescribedRobot& robot, const EffectCatalogue& catalogue,
                             std::vector<MotionSource> heldout, ProgressLine& progress) {
-  ForwardTask task{
-      options.diagnose.loop, options.robot.beside(options.diagnose.controller_model),
-      std::move(heldout), {}};
+  ForwardTask task{options.diagnose.loop,
+                   options.robot.beside(options.diagnose.controller_model),
+                   std::move(heldout),
+                   {}};
   for (const std::string& path : options.diagnose.commanded) {
     ToldRepairs repairs;
     task.commanded.push_back(read_trajectory(path, &repairs.notices));
@@ -181,6 +183,7 @@ void write_outputs(const ToolOptions& options, const DescribedRobot& robot, Diag
   report.written.insert(report.written.begin(), made.begin(), made.end());
   const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
   if (options.output.empty() || !answered) return;
+  if (is_description_name(options.output)) return;  // behind the text
   write_robot_files({{options.output, improved_text(report, robot)}});
   report.written.push_back(options.output);
 }
@@ -212,6 +215,7 @@ int run_diagnose(const ToolOptions& options) {
   settings.decimation = options.rows.decimation;
   settings.validate();
   check_simulation(options);
+  check_write_back(options);
   const auto shared = std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects));
   const EffectCatalogue& catalogue = *shared;
   const DescribedRobot robot =
@@ -292,6 +296,12 @@ int run_diagnose(const ToolOptions& options) {
   late.during([&] { write_outputs(options, robot, report, progress); });
   progress.clear();
   std::cout << diagnosis_text(report, style_of_output()) << std::flush;
+  if (answered && is_description_name(options.output)) {
+    late.during([&] {
+      write_description(options, improved_text(report, robot), findings_comment(report, robot),
+                        input.train);
+    });
+  }
   late.rethrow();
   if (answered) return kDone;
   std::cerr << "dynid: " << report.diagnosis.sentence << "\n";

@@ -7,9 +7,7 @@
 #include "runtime/tools/dynid/robot/identified_file.h"
 
 namespace dyngen::runtime {
-namespace {
 
-/// What was found, a line each.
 std::vector<std::string> findings_comment(const DiagnosisReport& report,
                                           const DescribedRobot& robot) {
   const Diagnosis& diagnosis = report.diagnosis;
@@ -30,8 +28,6 @@ std::vector<std::string> findings_comment(const DiagnosisReport& report,
   comment.emplace_back("");
   return comment;
 }
-
-}  // namespace
 
 std::string improved_text(const DiagnosisReport& report, const DescribedRobot& robot) {
   const EffectPoint& point = report.diagnosis.fit.point;

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "runtime/tools/dynid/diagnose/diagnosis_report.h"
 
 namespace dyngen::runtime {
+
+/// What was found, lines of a comment.
+std::vector<std::string> findings_comment(const DiagnosisReport& report,
+                                          const DescribedRobot& robot);
 
 /// The robot file with what a diagnosis found: the parameters of the model fitted together with the
 /// findings, and a row `effect` for each finding behind those that the file has. Numbers read back

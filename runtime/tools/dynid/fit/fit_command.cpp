@@ -21,6 +21,7 @@
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
+#include "runtime/tools/dynid/robot/write_back.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -252,6 +253,7 @@ void examine(FitReport& report, ProgressLine& progress) {
 /// The JSON and the page, before the robot files: an answer is not lost with one of them.
 /// @return  paths of the page and its figures
 std::vector<std::string> write_outputs(const ToolOptions& options, const FitReport& report,
+                                       const std::vector<MotionSource>& motions,
                                        ProgressLine& progress) {
   std::vector<OutputFile> answer;
   if (!options.json.empty()) answer.push_back({options.json, fit_json(report)});
@@ -259,6 +261,10 @@ std::vector<std::string> write_outputs(const ToolOptions& options, const FitRepo
       options.page, [&] { return fit_document(report, options.page.command); }, progress,
       std::move(answer));
   if (options.output.empty()) return made;
+  if (is_description_name(options.output)) {
+    write_description(options, identified_file(report), identified_comment(report, true), motions);
+    return made;
+  }
   std::vector<OutputFile> robots = {{options.output, identified_file(report)}};
   for (std::size_t i = 0; report.hierarchy && i < report.hierarchy->robots.size(); ++i) {
     robots.push_back({path_of_robot(options.output, report.hierarchy->robots[i].name),
@@ -272,6 +278,7 @@ std::vector<std::string> write_outputs(const ToolOptions& options, const FitRepo
 
 int run_fit(const ToolOptions& options, ProcessGroup& group) {
   ProgressLine progress("dynid");
+  check_write_back(options);
   FitReport report;
   report.robot = describe_robot(options.robot, opened_by(options), {.hold = options.hold});
   const LinearModel& model = report.robot.linear;
@@ -356,7 +363,7 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   warn_of_held_out(report);
   progress.clear();
   std::cout << fit_table(report) << std::flush;
-  const std::vector<std::string> made = write_outputs(options, report, progress);
+  const std::vector<std::string> made = write_outputs(options, report, train.sources, progress);
   progress.clear();
   tell_written(made);
   if (nothing_heldout) {

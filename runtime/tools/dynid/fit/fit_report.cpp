@@ -74,39 +74,49 @@ std::string origin(const FitReport& report, const std::string& how) {
 constexpr const char* kBaseParameters =
     "base parameters: each stands for the combination named beside it, the others are 0";
 
+constexpr const char* kBodiesOfBaseParameters =
+    "base parameters: recordings determine these sums alone. The bodies in this file have them and "
+    "are as near to those before as such bodies can be";
+
 }  // namespace
 
-std::string identified_file(const FitReport& report) {
+std::vector<std::string> identified_comment(const FitReport& report, bool of_description) {
   const MethodFit& fit = report.main();
   const std::string method(fit_method_names()[static_cast<std::size_t>(fit.method)]);
   const Eigen::VectorXd stddev =
       fit.estimate.covariance.size() != 0 ? fit.stddev() : Eigen::VectorXd();
-  std::vector<std::string> comment = {""}, effects;
-  if (report.effects) effects = effect_file_rows(*report.effects, report.robot);
-  const auto add_effects = [&] {
-    if (!report.effects) return;
-    for (std::string& line : effect_comment(*report.effects)) comment.push_back(std::move(line));
-  };
+  std::vector<std::string> comment = {""};
   if (report.consistent) {
     comment.push_back(origin(report, method + ", physically consistent"));
     comment.emplace_back(
         "full parameters of bodies that can exist; only these base parameters were measured");
     add_values(report, report.consistent->beta, stddev, comment);
-    add_effects();
+  } else {
+    comment.push_back(origin(report, method));
+    if (report.robot.held.any()) {
+      comment.push_back(
+          fmt::format("kept as they were: {}", fmt::join(report.robot.held.names, " ")));
+    }
+    comment.emplace_back(of_description ? kBodiesOfBaseParameters : kBaseParameters);
+    add_values(report, fit.estimate.beta, stddev, comment);
+  }
+  if (report.effects) {
+    for (std::string& line : effect_comment(*report.effects)) comment.push_back(std::move(line));
+  }
+  return comment;
+}
+
+std::string identified_file(const FitReport& report) {
+  const std::vector<std::string> comment = identified_comment(report, false);
+  std::vector<std::string> effects;
+  if (report.effects) effects = effect_file_rows(*report.effects, report.robot);
+  if (report.consistent) {
     return identified_text(report.robot, report.consistent->standard,
                            {comment, effects, {}, ParameterMeaning::kBodies});
   }
-  comment.push_back(origin(report, method));
-  if (report.robot.held.any()) {
-    comment.push_back(
-        fmt::format("kept as they were: {}", fmt::join(report.robot.held.names, " ")));
-  }
-  comment.emplace_back(kBaseParameters);
-  add_values(report, fit.estimate.beta, stddev, comment);
-  add_effects();
-  const StandardParameters standard = report.effects
-                                          ? carried_beside_rotors(report.robot, fit.estimate.beta)
-                                          : carried(report.robot, fit.estimate.beta);
+  const Eigen::VectorXd& beta = report.main().estimate.beta;
+  const StandardParameters standard =
+      report.effects ? carried_beside_rotors(report.robot, beta) : carried(report.robot, beta);
   return identified_text(report.robot, standard, {comment, effects});
 }
 

@@ -72,6 +72,10 @@ ReportDocument fit_document(const FitReport& report, const std::string& command)
 /// The report for programs: schema dynid.fit/1, docs/identification.md.
 std::string fit_json(const FitReport& report);
 
+/// What is known of the identified numbers, lines of a comment.
+/// @param of_description  for a URDF or MJCF, not a robot file
+std::vector<std::string> identified_comment(const FitReport& report, bool of_description);
+
 /// The identified robot file.
 std::string identified_file(const FitReport& report);
 

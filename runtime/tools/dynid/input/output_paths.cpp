@@ -35,6 +35,7 @@ std::vector<NamedPath> inputs_of(const ToolOptions& options) {
   NamedPaths inputs;
   if (options.command == Command::kMerge) return {};
   inputs.add("the robot file", options.robot.path);
+  inputs.add("the description", options.description);
   inputs.add("a recording", options.recordings);
   inputs.add("--map", options.map);
   inputs.add("the map", options.import.map);

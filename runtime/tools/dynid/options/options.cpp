@@ -110,6 +110,18 @@ void add_hold(CLI::App& command, ToolOptions& options) {
       ->allow_extra_args(false);
 }
 
+/// The file with the numbers that were found, and what it is made of.
+void add_identified(CLI::App& command, ToolOptions& options, const std::string& what) {
+  command.add_option("-o,--output", options.output,
+                     what +
+                         "; .urdf or .xml: the robot's own URDF or MJCF, or that of --urdf or "
+                         "--mjcf, with other numbers and every other byte as it was");
+  CLI::Option* urdf = command.add_option("--urdf", options.description,
+                                         "URDF of the robot that -o OUT.urdf is made of");
+  command.add_option("--mjcf", options.description, "MJCF of the robot that -o OUT.xml is made of")
+      ->excludes(urdf);
+}
+
 void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* fit = tool.add_subcommand("fit", "identify a robot's parameters from recordings");
   add_robot(*fit, options.robot, "robot: its numbers are where the fit begins");
@@ -127,7 +139,7 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   add_hold(*fit, options);
   fit->add_flag("--consistent", options.consistent,
                 "full parameters of bodies that can exist, near the file's values");
-  fit->add_option("-o,--output", options.output, "the identified robot file");
+  add_identified(*fit, options, "the identified robot file");
   fit->add_option("--json", options.json, "all results for programs");
   add_page_options(*fit, options.page);
   fit->add_option("--tracked", options.tracked,
@@ -186,7 +198,7 @@ void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
                        "every recording: the last in which all joints move");
   add_hold(*diagnose, options);
   add_effects(*diagnose, options);
-  diagnose->add_option("-o,--output", options.output, "the robot file with what was found");
+  add_identified(*diagnose, options, "the robot file with what was found");
   diagnose->add_option("--json", options.json, "all results for programs");
   add_page_options(*diagnose, options.page);
   add_diagnose_options(*diagnose, options.diagnose);

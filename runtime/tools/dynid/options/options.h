@@ -47,6 +47,7 @@ struct ToolOptions {
   std::vector<std::string> heldout;
   double heldout_part = 0;           ///< the last part of every recording is held out: 0 .. 0.9
   std::string output;                ///< empty: none
+  std::string description;           ///< URDF or MJCF that -o writes numbers into; empty: the robot
   std::string json;                  ///< empty: none
   std::string tracked;               ///< the commanded motion, for instruments; empty: none
   std::string robot_name;            ///< of accumulate: whose recordings these are

@@ -12,6 +12,7 @@
 #include "runtime/import/map_file.h"
 #include "runtime/plots/figure.h"
 #include "runtime/recordings/gzip.h"
+#include "runtime/tools/dynid/robot/write_back.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -58,6 +59,8 @@ void add_common_needs(const ToolOptions& options, Needs& needs) {
   needs.add_if(!options.page.report.empty(), Part::kJson, "--report");
   needs.add_if(!options.page.figures.empty(), Part::kGnuplot, "--figures");
   needs.add_robot(options.robot);
+  needs.add_robot(options.description);
+  needs.add_if(is_description_name(options.output), Part::kCeres, options.output);
   needs.add_files(options.recordings);
   needs.add_files(options.heldout);
   needs.add_if(!options.map.empty(), Part::kYaml, "--map");

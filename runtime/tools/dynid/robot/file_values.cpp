@@ -12,7 +12,8 @@ namespace dyngen::runtime {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-VectorXd file_values(const DescribedRobot& robot, const RobotSource& source, const std::string& why) {
+VectorXd file_values(const DescribedRobot& robot, const RobotSource& source,
+                     const std::string& why) {
   const StandardParameters written = describe_robot(source, OpenParameters::kAsWritten).standard;
   VectorXd beta = VectorXd::Zero(robot.grouping.rows());
   std::string unknown;
@@ -25,8 +26,9 @@ VectorXd file_values(const DescribedRobot& robot, const RobotSource& source, con
         (unknown.empty() ? "" : " ") + robot.linear.parameters[static_cast<std::size_t>(i)].name;
   }
   if (unknown.empty()) return beta;
-  throw ModelError(fmt::format(
-      "{}: error: parameters are unknown ('*'): {}; expected numbers, {}\n", source.path, unknown, why));
+  throw ModelError(
+      fmt::format("{}: error: parameters are unknown ('*'): {}; expected numbers, {}\n",
+                  source.path, unknown, why));
 }
 
 }  // namespace dyngen::runtime
