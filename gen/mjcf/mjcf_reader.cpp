@@ -521,10 +521,10 @@ class MjcfReader {
       ++count;
     }
     if (first == nullptr) return;
-    values_.warning(
-        *first,
-        fmt::format("the gears of {} actuator{} are left out", count, count == 1 ? "" : "s"),
-        "torque is that of the joints: MuJoCo's qfrc_actuator, not ctrl");
+    values_.warning(*first,
+                    count == 1 ? std::string("the gear of an actuator is left out")
+                               : fmt::format("the gears of {} actuators are left out", count),
+                    "torque is that of the joints: MuJoCo's qfrc_actuator, not ctrl");
   }
 
   const XmlDocument& document_;

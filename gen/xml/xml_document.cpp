@@ -109,6 +109,21 @@ class XmlTreeReader {
     XML_StopParser(parser_.get(), XML_FALSE);
   }
 
+  /// The place of a byte behind the last one that was asked for, without going through a long line
+  /// from its beginning again.
+  SourcePosition position_at(std::size_t byte) {
+    const std::string_view text = document_.text;
+    const std::string_view between = text.substr(last_byte_, byte - last_byte_);
+    const std::size_t line_end = between.rfind('\n');
+    if (line_end == between.npos) {
+      last_position_.column += character_count(between);
+    } else {
+      last_position_ = document_.position_of(byte);
+    }
+    last_byte_ = byte;
+    return last_position_;
+  }
+
   void start(const char* name, const char** attributes) {
     if (open_.size() >= static_cast<std::size_t>(kMaxXmlDepth)) {
       refuse(fmt::format("elements stand in each other {} deep", kMaxXmlDepth + 1),
@@ -122,7 +137,7 @@ class XmlTreeReader {
     element.start_tag = {begin, begin + size};
     const std::string_view tag = std::string_view(document_.text).substr(begin, size);
     element.self_closing = tag.ends_with("/>");
-    element.position = document_.position_of(begin);
+    element.position = position_at(begin);
     element.length = 1 + character_count(element.name);
     const std::vector<AttributeRange> ranges = attribute_ranges(tag, begin);
     for (std::size_t i = 0; attributes[2 * i] != nullptr; ++i) {
@@ -132,7 +147,7 @@ class XmlTreeReader {
       attribute.value = attributes[2 * i + 1];
       attribute.name_bytes = ranges[i].name;
       attribute.value_bytes = ranges[i].value;
-      attribute.position = document_.position_of(ranges[i].value.begin);
+      attribute.position = position_at(ranges[i].value.begin);
       attribute.length =
           std::max(1, character_count(std::string_view(document_.text)
                                           .substr(ranges[i].value.begin, ranges[i].value.size())));
@@ -197,6 +212,8 @@ class XmlTreeReader {
   std::vector<XmlElement> open_;  // from the root on
   std::string refusal_, refusal_hint_;
   std::size_t refusal_byte_ = 0;
+  std::size_t last_byte_ = 0;
+  SourcePosition last_position_{1, 1};
 };
 
 }  // namespace
