@@ -13,7 +13,6 @@ namespace {
 using runtime::LogTextSettings;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 using Names = std::vector<std::string>;
 using Rows = std::vector<std::vector<double>>;
@@ -325,7 +324,7 @@ TEST(TextLog, SettingsSayWhatTheTextDoesNot) {
   WholeLog log = read_text("0,1\n1,2\n", settings);
   EXPECT_EQ(log.tables[0].columns, (Names{"t", "q1"}));
   EXPECT_EQ(log.tables[0].units, (Names{"", "deg"}));
-  EXPECT_THAT(log.notices, IsEmpty());
+  EXPECT_EQ(log.notices, "");
 
   settings = {};
   settings.decimal = '.';
