@@ -442,7 +442,7 @@ TEST(TextLog, PiecesMakeNoDifference) {
   }
   const auto one = runtime::open_log_bytes(text, "run.csv");
   const WholeLog whole = read_whole(*one, 1 << 20);
-  for (const std::size_t at_most : {1, 13, 500}) {
+  for (const std::size_t at_most : {1U, 13U, 500U}) {
     const auto other = runtime::open_log_bytes(text, "run.csv");
     const WholeLog pieces = read_whole(*other, at_most);
     for (std::size_t i = 0; i < 2; ++i) {
