@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
+#include "runtime/logs/matlab_structure.h"
 #include "runtime/logs/unpacking.h"
 
 namespace dyngen::runtime {
@@ -26,21 +27,16 @@ std::uint64_t number_at(const std::string& bytes, std::size_t at, std::size_t si
   return value;
 }
 
-void check_packed(BinaryReader& file, std::uint64_t begin, std::uint64_t size) {
-  constexpr std::uint64_t kCheckedPiece = 1 << 18;
-  ZlibCheck check;
-  std::string piece;
-  for (std::uint64_t left = size; left > 0;) {
-    const std::uint64_t count = std::min(left, kCheckedPiece);
-    file.read(piece, count, "a packed variable");
-    left -= count;
-    try {
-      check.add(piece);
-    } catch (const std::runtime_error& error) {
-      file.fail(begin, error.what());
-    }
+/// The variable within a packed element.
+void check_packed(const std::string& packed, bool big) {
+  if (!unpacks_zlib()) return;
+  const std::string element = unpacked("zlib", packed, kMostUnpacked);
+  if (element.size() < kMatlabTag || number_at(element, 0, 4, big) != kMatlabMatrix ||
+      number_at(element, 4, 4, big) > element.size() - kMatlabTag) {
+    throw std::runtime_error("found a packed variable that is none");
   }
-  if (!check.complete()) file.fail(begin, "found a packed variable that is cut off");
+  const auto size = static_cast<std::size_t>(number_at(element, 4, 4, big));
+  check_matlab_matrix(std::string_view(element).substr(kMatlabTag, size), big);
 }
 
 }  // namespace
@@ -77,9 +73,17 @@ std::size_t check_matlab_elements(const LogBytes& bytes) {
                             "the file is truncated",
                             file.left(), size));
     }
-    const std::uint64_t end = file.place() + size;
-    if (type == kMatlabCompressed) check_packed(file, begin, size);
-    file.seek(end);
+    std::string element;
+    file.read(element, size, "a variable");
+    try {
+      if (type == kMatlabCompressed) {
+        check_packed(element, big);
+      } else {
+        check_matlab_matrix(element, big);
+      }
+    } catch (const std::runtime_error& error) {
+      file.fail(begin, error.what());
+    }
     ++variables;
   }
   return variables;

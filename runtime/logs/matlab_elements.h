@@ -7,8 +7,8 @@
 
 namespace dyngen::runtime {
 
-/// Goes through the elements of a MATLAB 5 to 7 file without looking into them: each must be whole,
-/// and what is packed must unpack to its check (where this library was built with zlib).
+/// Goes through the variables of a MATLAB 5 to 7 file: each must be whole, and as long as its sides
+/// say. What is packed is looked at where this library was built with zlib.
 ///
 /// @return the number of variables; 0 for version 7.3, which is HDF5
 /// @throws LogError with the byte of the element

@@ -137,6 +137,34 @@ std::string unpacked_bzip2(std::string_view packed, std::size_t most) {
 std::string unpacked_bzip2(std::string_view, std::size_t) { fail_without("bz2", "libbz2-dev"); }
 #endif
 
+#ifdef DYNGEN_LOGS_WITH_ZLIB
+constexpr bool kHasZlib = true;
+std::string unpacked_zlib(std::string_view packed, std::size_t most) {
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) fail_damaged("zlib", "no memory");
+  const std::unique_ptr<z_stream, decltype(&inflateEnd)> end(&stream, inflateEnd);
+  Unpacked out(most);
+  // zlib does not write to its input; its interface is older than const.
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(std::min<std::size_t>(packed.size(), kMostUnpacked));
+  for (;;) {
+    stream.next_out = reinterpret_cast<Bytef*>(out.piece());
+    stream.avail_out = static_cast<uInt>(out.piece_size());
+    const int outcome = inflate(&stream, Z_NO_FLUSH);
+    const std::size_t written = out.piece_size() - stream.avail_out;
+    out.take(written);
+    if (outcome == Z_STREAM_END) return out.result();
+    if (outcome != Z_OK && outcome != Z_BUF_ERROR) {
+      fail_damaged("zlib", stream.msg != nullptr ? stream.msg : "");
+    }
+    if (stream.avail_in == 0 && written == 0) fail_damaged("zlib", "it is cut off");
+  }
+}
+#else
+constexpr bool kHasZlib = false;
+std::string unpacked_zlib(std::string_view, std::size_t) { fail_without("zlib", "zlib1g-dev"); }
+#endif
+
 constexpr std::array<std::uint32_t, 256> crc_table() {
   constexpr std::uint32_t kPolynomial = 0xEDB88320;  // ISO 3309, bits turned round
   std::array<std::uint32_t, 256> table{};
@@ -162,9 +190,12 @@ std::string unpacked(std::string_view method, std::string_view packed, std::size
   if (method == "lz4") return unpacked_lz4(packed, most);
   if (method == "zstd") return unpacked_zstd(packed, most);
   if (method == "bz2") return unpacked_bzip2(packed, most);
+  if (method == "zlib") return unpacked_zlib(packed, most);
   throw std::runtime_error(
       fmt::format("found data packed with {}, expected lz4, zstd or bz2", in_quotes(method)));
 }
+
+bool unpacks_zlib() { return kHasZlib; }
 
 bool is_zstd(std::string_view bytes) { return bytes.starts_with("\x28\xB5\x2F\xFD"); }
 
@@ -176,51 +207,5 @@ std::uint32_t crc32_of(std::string_view bytes) {
   }
   return ~crc;
 }
-
-#ifdef DYNGEN_LOGS_WITH_ZLIB
-
-struct ZlibCheck::State {
-  z_stream stream{};
-  bool complete = false;
-  std::string piece = std::string(kUnpackedPiece, '\0');
-};
-
-ZlibCheck::ZlibCheck() : state_(std::make_unique<State>()) {
-  if (inflateInit(&state_->stream) != Z_OK) throw std::runtime_error("zlib found no memory");
-}
-ZlibCheck::~ZlibCheck() { inflateEnd(&state_->stream); }
-
-void ZlibCheck::add(std::string_view packed) {
-  z_stream& stream = state_->stream;
-  // zlib does not write to its input; its interface is older than const.
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-  stream.avail_in = static_cast<uInt>(packed.size());
-  while (!state_->complete) {
-    stream.next_out = reinterpret_cast<Bytef*>(state_->piece.data());
-    stream.avail_out = static_cast<uInt>(state_->piece.size());
-    const int outcome = inflate(&stream, Z_NO_FLUSH);
-    if (outcome == Z_STREAM_END) {
-      state_->complete = true;
-    } else if (outcome == Z_BUF_ERROR) {
-      return;
-    } else if (outcome != Z_OK) {
-      fail_damaged("zlib", stream.msg != nullptr ? stream.msg : "");
-    } else if (stream.avail_in == 0 && stream.avail_out > 0) {
-      return;
-    }
-  }
-}
-
-bool ZlibCheck::complete() const { return state_->complete; }
-
-#else
-
-struct ZlibCheck::State {};
-ZlibCheck::ZlibCheck() = default;
-ZlibCheck::~ZlibCheck() = default;
-void ZlibCheck::add(std::string_view) {}
-bool ZlibCheck::complete() const { return true; }
-
-#endif
 
 }  // namespace dyngen::runtime

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 
@@ -12,31 +11,15 @@ namespace dyngen::runtime {
 /// Pieces of a log that unpack to more than this are refused.
 inline constexpr std::size_t kMostUnpacked = std::size_t{1} << 30;
 
-/// Unpacks one piece: `method` is "lz4" (frames), "zstd", "bz2", or "" and "none" for what is not
-/// packed. Memory grows with what is really unpacked, up to `most` bytes.
+/// Unpacks one piece: `method` is "lz4" (frames), "zstd", "bz2", "zlib", or "" and "none" for what
+/// is not packed. Memory grows with what is really unpacked, up to `most` bytes.
 ///
 /// @throws std::runtime_error, a sentence: the piece is damaged, unpacks to more, the method is
 /// unknown, or this library was built without its package, which is named
 std::string unpacked(std::string_view method, std::string_view packed, std::size_t most);
 
-/// Looks whether a zlib stream is whole, without keeping what is in it. Without zlib: nothing is
-/// looked at.
-class ZlibCheck {
- public:
-  ZlibCheck();
-  ~ZlibCheck();
-  ZlibCheck(const ZlibCheck&) = delete;
-  ZlibCheck& operator=(const ZlibCheck&) = delete;
-
-  /// The next bytes of the stream; those after its end are ignored.
-  /// @throws std::runtime_error, a sentence: the stream is damaged
-  void add(std::string_view packed);
-  [[nodiscard]] bool complete() const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
+/// True if this library was built with zlib: unpacked() knows "zlib" then.
+bool unpacks_zlib();
 
 /// True if bytes begin as zstd does.
 bool is_zstd(std::string_view bytes);

@@ -192,6 +192,18 @@ TEST_F(WrittenLogsOf, SummaryCountsWhatThereIs) {
   EXPECT_THAT(runtime::log_summary(*again), HasSubstr("30 rows, 6 columns\n"));
 }
 
+TEST_F(WrittenLogsOf, MatlabArraysThatLieAboutTheirSidesAreRefused) {
+  if (!absent_package_of("a.mat").empty()) GTEST_SKIP() << "needs libmatio-dev";
+  std::string bytes = bytes_of_file(logs_->path("five.mat"));
+  if (bytes.empty()) GTEST_SKIP() << "needs python3-scipy";
+  const std::string sides("\5\0\0\0\x8\0\0\0\x32\0\0\0\1\0\0\0", 16);  // 50 x 1
+  const std::size_t place = bytes.find(sides);
+  ASSERT_NE(place, std::string::npos);
+  bytes[place + 8] = 51;
+  EXPECT_THAT(error_of(bytes, "five.mat"),
+              testing::AllOf(HasSubstr("five.mat: error: byte 129: "), HasSubstr("expected 51")));
+}
+
 /// Reads bytes; they are a log, or refused in a sentence that names the file.
 bool is_refused(const std::string& bytes, const std::string& name) {
   const std::string error = error_of(bytes, name);

@@ -61,6 +61,8 @@ std::vector<Defect> file_defects() {
   const std::string plain = Edit().text();
   std::string cut = plain;
   cut.resize(cut.size() - 5);
+  std::string utf16 = "\xFF\xFE";
+  for (const char c : plain) utf16.append(1, c).append(1, '\0');
   std::string german = replaced(replaced(plain, ',', ';'), '.', ',');
   const std::string accepted = "; accepted, and a decimal comma too";
   return {
@@ -69,6 +71,17 @@ std::vector<Defect> file_defects() {
        40,
        {0},
        {"run.csv:1:1: warning: found a byte order mark; skipped"}},
+      {"UTF-16",
+       utf16,
+       40,
+       {0},
+       {"run.csv:1:1: warning: the text is UTF-16; read",
+        "run.csv:1:1: warning: found a byte order mark; skipped"}},
+      {"UTF-16 without a mark",
+       utf16.substr(2),
+       40,
+       {0},
+       {"run.csv:1:1: warning: the text is UTF-16; read"}},
       {"CR LF",
        Edit().text("\r\n"),
        40,
