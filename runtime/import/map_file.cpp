@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -373,7 +374,7 @@ void MapFileReader::read_gears(const MapEntries& top) {
   constexpr double kSingular = 1e-9;  // of the largest pivot: no ratio of gears is so uneven
   const Eigen::FullPivLU<Eigen::MatrixXd> factors(map_.coupling);
   const auto pivots = factors.matrixLU().diagonal().cwiseAbs();
-  if (!(pivots.minCoeff() > kSingular * pivots.maxCoeff()) && faults_.empty()) {
+  if (!(pivots.minCoeff() > kSingular * pivots.maxCoeff())) {
     faults_.add(map_.gears_place,
                 "found a 'coupling' that has no inverse, expected one from which the joints "
                 "follow when the motors are known");

@@ -22,8 +22,11 @@ using Eigen::VectorXd;
 constexpr double kDerivativeScale = 0.05;  // of a derivative beside differences
 constexpr double kGoesWith = 0.5;          // correlation below which a column says nothing
 constexpr double kIsOther = 0.9;           // correlation with which it is another joint's
-constexpr double kDerivativeSnr = 5;       // standard deviation of differences over their noise
+// standard deviation of differences over their noise, which makes slopes too small by 1/kSnr^2
+constexpr double kDerivativeSnr = 10;
 constexpr Index kNarrowest = 3, kWidest = 48;  // samples on either side of a difference
+// of the fastest joint's speed: a slower one is held while others move, and drives filter such speeds
+constexpr double kHeldStill = 0.02;
 constexpr double kMostLagTime = 0.05;      // s
 constexpr Index kMostLagSamples = 100;
 
@@ -79,7 +82,13 @@ class DerivativeCheck {
         lower_name_(lower_name),
         upper_name_(upper_name),
         sample_time_(sample_time),
-        remarks_(remarks) {}
+        remarks_(remarks) {
+    constexpr Index kHalf = 12;
+    for (Index j = 0; j < upper.cols(); ++j) {
+      speeds_.push_back(deviation(windows(j, j, kHalf).own));
+      fastest_ = std::max(fastest_, speeds_.back());
+    }
+  }
 
   [[nodiscard]] std::vector<DerivativeFit> fits() const {
     std::vector<DerivativeFit> all;
@@ -120,6 +129,8 @@ class DerivativeCheck {
   std::string lower_name_, upper_name_;
   double sample_time_;
   std::vector<Remark>& remarks_;
+  std::vector<double> speeds_;  ///< standard deviation of each joint's differences
+  double fastest_ = 0;          ///< the largest of them
 };
 
 Windows DerivativeCheck::windows(Index lower, Index upper, Index half) const {
@@ -140,6 +151,7 @@ Windows DerivativeCheck::windows(Index lower, Index upper, Index half) const {
 
 /// The narrowest window in which a joint's motion stands out of noise; nothing: it does not move.
 std::optional<Index> DerivativeCheck::half_width(Index joint) const {
+  if (speeds_[static_cast<std::size_t>(joint)] < kHeldStill * fastest_) return std::nullopt;
   const double noise = white_noise(lower_.col(joint));
   for (Index half = kNarrowest; half <= kWidest; half *= 2) {
     const VectorXd own = windows(joint, joint, half).own;

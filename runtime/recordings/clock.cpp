@@ -51,12 +51,19 @@ VectorXd even_times(const Eigen::Ref<const VectorXd>& stamps, double step) {
   }
   VectorXd times(n);
   double lost = 0;
+  Index settled = 0;  ///< where a loss that was found can no longer be seen
   for (Index k = 0; k < n; ++k) {
-    const double jump = std::round(middle[k] - middle[0]);
-    // a clock that is a little slow drifts by less than a step at a time: it is no loss
+    // a clock that is a little slow drifts by less than a step within a window: it is no loss; the
+    // median crosses in the middle of a loss, and has settled half a window farther
+    const Index before = std::max<Index>(0, k - kClockWindow / 2 - 1);
+    const Index after = std::min(n - 1, k + kClockWindow / 2 + 1);
+    const double loss = middle[after] - middle[before];
+    const bool crosses = middle[k] - middle[before] >= loss / 2;
     constexpr double kLoss = 0.75;
-    const bool jumps = k > 0 && middle[k] - middle[std::max<Index>(0, k - 2)] > kLoss;
-    if (jumps && jump > lost) lost = jump;
+    if (k > settled && loss > kLoss && crosses) {
+      lost += std::round(loss);
+      settled = k + kClockWindow + 1;
+    }
     times[k] = (static_cast<double>(k) + lost) * step;
   }
   std::vector<double> shift(static_cast<std::size_t>(n));

