@@ -213,18 +213,18 @@ std::string count_table(const CodeModel& code, const std::vector<RobotFunction>&
   const bool calls = std::any_of(functions.begin(), functions.end(), [](const auto& function) {
     return function.trace.count().calls > 0;
   });
-  text += fmt::format("{:<18}{:>6}{:>6}{:>8}{:>9}{:>6}{:>6}{}\n", "function", "mul", "add",
+  text += fmt::format("{:<24}{:>6}{:>6}{:>8}{:>9}{:>6}{:>6}{}\n", "function", "mul", "add",
                       "mul+add", "sin/cos", "sgn", "div", calls ? " calls" : "");
   for (const RobotFunction& function : functions) {
     const OperationCount count = function.trace.count();
     text +=
-        fmt::format("{:<18}{:>6}{:>6}{:>8}{:>9}{:>6}{:>6}{}\n", function.name,
+        fmt::format("{:<24}{:>6}{:>6}{:>8}{:>9}{:>6}{:>6}{}\n", function.name,
                     count.multiplications, count.additions, count.total(), count.sin_cos_pairs,
                     count.signs, count.divisions, calls ? fmt::format("{:>6}", count.calls) : "");
   }
   const int n = static_cast<int>(code.coordinate_names.size());
   const int mul = 105 * n - 92, add = 94 * n - 86;
-  text += fmt::format("{:<18}{:>6}{:>6}{:>8}   (105n - 92, 94n - 86, n = {})\n", "bound", mul, add,
+  text += fmt::format("{:<24}{:>6}{:>6}{:>8}   (105n - 92, 94n - 86, n = {})\n", "bound", mul, add,
                       mul + add, n);
   return text;
 }

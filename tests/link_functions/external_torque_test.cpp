@@ -72,7 +72,7 @@ double wrench_error(const RobotModel& model, const RobotModel& values, Generator
   RelativeError error;
   error.add(1.0, 1.0);
   for (int j = 1; j <= model.size(); ++j) {
-    options.functions = {"id", "id_derivatives"};
+    options.functions = {"id"};
     options.wrench = true;
     options.wrench_link = j;
     const EvaluatedModel evaluated(model, values, options);
