@@ -9,7 +9,7 @@ namespace dyngen {
 
 const XmlElement& element_of(const DescribedBodies& bodies, const TextPlace& place) {
   const XmlElement* element = element_at(bodies.document.root, place.position);
-  DYNGEN_ASSERT(element != nullptr);
+  DYNGEN_ASSERT(element != nullptr, "bodies and joints have elements");
   return *element;
 }
 

@@ -11,10 +11,10 @@ namespace dyngen {
 
 /// Other numbers of a body: all three at once.
 struct BodyEdit {
-  int body = -1;      ///< place in BodyTree::bodies
-  Real mass = 0;      ///< kg, > 0
-  Vector3 centre{};   ///< of mass, in the body's frame, m
-  Matrix3 inertia{};  ///< about the centre of mass, in the axes of the body's frame, kg m^2
+  int body = -1;         ///< place in BodyTree::bodies
+  Real mass = 0;         ///< kg, > 0
+  RealVector centre{};   ///< of mass, in the body's frame, m
+  RealMatrix inertia{};  ///< about the centre of mass, in the axes of the body's frame, kg m^2
 };
 
 /// Other numbers of a joint; absent ones stay.

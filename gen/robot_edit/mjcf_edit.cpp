@@ -81,9 +81,9 @@ void refuse_overriding_compiler(const DescribedBodies& bodies) {
 }
 
 void edit_mjcf_body(TextPatches& patches, const DescribedBodies& bodies, const BodyEdit& edit) {
-  const Body& body = bodies.robot.tree.bodies[static_cast<std::size_t>(edit.body)];
+  const TreeBody& body = bodies.robot.tree.bodies[static_cast<std::size_t>(edit.body)];
   const XmlElement& element = element_of(bodies, body.place);
-  const Matrix3& I = edit.inertia;
+  const RealMatrix& I = edit.inertia;
   const std::string text = fmt::format(
       "<inertial pos=\"{}\" mass=\"{}\" fullinertia=\"{}\"/>",
       spelled_numbers({edit.centre[0], edit.centre[1], edit.centre[2]}), exact_decimal(edit.mass),

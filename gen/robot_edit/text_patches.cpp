@@ -33,7 +33,8 @@ std::string TextPatches::applied(std::string_view text) const {
   std::size_t done = 0;
   for (const Patch& patch : ordered) {
     DYNGEN_ASSERT(patch.range.begin >= done && patch.range.begin <= patch.range.end &&
-                  patch.range.end <= text.size());
+                      patch.range.end <= text.size(),
+                  "changes do not overlap");
     result += text.substr(done, patch.range.begin - done);
     result += patch.text;
     done = patch.range.end;

@@ -19,13 +19,13 @@ constexpr std::array<std::pair<std::string_view, std::pair<std::size_t, std::siz
                      {"iyz", {1, 2}},
                      {"izz", {2, 2}}}};
 
-std::string spelled_vector_of(const Vector3& v) { return spelled_numbers({v[0], v[1], v[2]}); }
+std::string spelled_vector_of(const RealVector& v) { return spelled_numbers({v[0], v[1], v[2]}); }
 
 /// The axes of an inertial's origin in the link's, as they are written.
-Matrix3 axes_of(const DescribedBodies& bodies, const XmlElement* origin) {
-  if (origin == nullptr) return Matrix3::identity();
+RealMatrix axes_of(const DescribedBodies& bodies, const XmlElement* origin) {
+  if (origin == nullptr) return RealMatrix::identity();
   const XmlAttribute* rpy = origin->attribute("rpy");
-  if (rpy == nullptr) return Matrix3::identity();
+  if (rpy == nullptr) return RealMatrix::identity();
   Diagnostics diagnostics(bodies.document.file_name, bodies.document.text);
   const auto angles = XmlValues(bodies.document, diagnostics).numbers(*rpy, 3);
   if (!angles) throw ModelError(diagnostics.render());
@@ -45,7 +45,7 @@ std::string new_inertial(const BodyEdit& edit) {
 }  // namespace
 
 void edit_urdf_body(TextPatches& patches, const DescribedBodies& bodies, const BodyEdit& edit) {
-  const Body& body = bodies.robot.tree.bodies[static_cast<std::size_t>(edit.body)];
+  const TreeBody& body = bodies.robot.tree.bodies[static_cast<std::size_t>(edit.body)];
   const XmlElement& link = element_of(bodies, body.place);
   const XmlElement* inertial = link.child("inertial");
   if (inertial == nullptr) {
@@ -53,7 +53,7 @@ void edit_urdf_body(TextPatches& patches, const DescribedBodies& bodies, const B
     return;
   }
   const XmlElement* origin = inertial->child("origin");
-  const Matrix3 moments = turned(transposed(axes_of(bodies, origin)), edit.inertia);
+  const RealMatrix moments = turned(transposed(axes_of(bodies, origin)), edit.inertia);
   if (origin == nullptr) {
     insert_child(patches, bodies.document, *inertial,
                  "<origin xyz=\"" + spelled_vector_of(edit.centre) + "\" rpy=\"0 0 0\"/>");

@@ -62,7 +62,7 @@ ColumnLookup::Scope ColumnLookup::scope(const MapPlace& place, const std::string
       for (const LogTable& own : (*logs_)[i].log->tables()) names.push_back(own.name);
     }
     const std::string near = likely_word(where.table, names);
-    fail(place, fmt::format("found no table {} in {}; {}", quoted(where.table),
+    fail(place, fmt::format("found no table {} in {}; {}", runtime::quoted(where.table),
                             (*logs_)[where.logs.front()].path,
                             near.empty() ? "it has " + listed(names)
                                          : fmt::format("did you mean '{}'?", near)));
@@ -110,10 +110,10 @@ void ColumnLookup::fail_to_find(const MapPlace& place, const Scope& where,
     }
   }
   const std::string near = likely_word(name, names);
-  fail(place, fmt::format("found no column {} in {}{}; {}{}", quoted(name),
+  fail(place, fmt::format("found no column {} in {}{}; {}{}", runtime::quoted(name),
                           (*logs_)[where.logs.front()].path,
-                          where.table.empty() ? "" : ", table " + quoted(where.table),
-                          near.empty() ? "" : fmt::format("did you mean {}? ", quoted(near)),
+                          where.table.empty() ? "" : ", table " + runtime::quoted(where.table),
+                          near.empty() ? "" : fmt::format("did you mean {}? ", runtime::quoted(near)),
                           "it has " + listed(names)));
 }
 
@@ -137,10 +137,10 @@ std::optional<ColumnPlace> ColumnLookup::find(const MapPlace& place, const std::
       return one.same_table(found.front());
     });
     fail(place, within ? fmt::format("found column {} {} times in {}, expected it once",
-                                     quoted(name), found.size(), listed({tables.front()}))
+                                     runtime::quoted(name), found.size(), listed({tables.front()}))
                        : fmt::format("found column {} in several tables: {}; expected 'table' (or "
                                      "'file') to say which",
-                                     quoted(name), listed(tables)));
+                                     runtime::quoted(name), listed(tables)));
   }
   return found.front();
 }

@@ -59,7 +59,7 @@ class RowChoice {
     for (std::size_t i = 0; i < runs_.keep.names.size(); ++i) {
       const double value = values[keep_ + i];
       if (value == 0 || std::isnan(value)) {
-        return fmt::format("{} is not true", quoted(runs_.keep.names[i]));
+        return fmt::format("{} is not true", runtime::quoted(runs_.keep.names[i]));
       }
     }
     const double since = time - start_;
@@ -146,7 +146,7 @@ void ImportedRows::tell_unit_conflicts(const SignalMap& signal,
     if (columns[j].unit.empty() || plain_unit(columns[j].unit) == plain_unit(unit)) continue;
     log_->add("unit conflict", 0, 0,
               fmt::format("the log says that {} is in {}, the map says {}: the map is followed",
-                          quoted(columns[j].name), columns[j].unit, unit));
+                          runtime::quoted(columns[j].name), columns[j].unit, unit));
   }
 }
 

@@ -89,7 +89,7 @@ JointTransform::JointTransform(const ImportMap& map, const SignalMap& signal, Qu
       }
       lookup.fail(signal.place, fmt::format("found no unit for {}, and the log has none: expected "
                                             "'unit', one of {}",
-                                            quoted(columns[j].name),
+                                            runtime::quoted(columns[j].name),
                                             known_signal_units(quantity)));
     }
     const auto known = signal_unit(unit, quantity);
@@ -97,14 +97,14 @@ JointTransform::JointTransform(const ImportMap& map, const SignalMap& signal, Qu
       lookup.fail(signal.place,
                   fmt::format("found unit {} of {} in the log, expected {}; 'unit' in the map "
                               "overrides it",
-                              quoted(unit), quoted(columns[j].name), known_signal_units(quantity)));
+                              runtime::quoted(unit), runtime::quoted(columns[j].name), known_signal_units(quantity)));
     }
     double factor = of_joint(signal.sign, j, 1) * of_joint(signal.gain, j, 1) *
                     of_joint(signal.efficiency, j, 1);
     const auto needs = [&](const PerJoint& values, const char* key, const char* what) {
       if (values.empty()) {
         lookup.fail(signal.place, fmt::format("found {} in {}, expected '{}' too: {}",
-                                              quoted(columns[j].name), unit, key, what));
+                                              runtime::quoted(columns[j].name), unit, key, what));
       }
       factor *= of_joint(values, j, 1);
     };
@@ -126,7 +126,7 @@ JointTransform::JointTransform(const ImportMap& map, const SignalMap& signal, Qu
     if (known->kind != RawKind::kCurrent && !signal.constant.empty()) {
       lookup.fail(signal.place,
                   fmt::format("found 'constant', and {} is in {}, expected A or mA",
-                              quoted(columns[j].name), unit));
+                              runtime::quoted(columns[j].name), unit));
     }
     conversions_.push_back(known->conversion);
     factors_.push_back(factor);

@@ -75,7 +75,7 @@ std::vector<std::vector<std::string>> sorted_by_pattern(const ImportMap& map,
       throw ImportError(map_error(
           map, map.files.front().place,
           fmt::format("found file {}, which matches {} of 'files', expected one of {}",
-                      quoted(std::string_view(path)), matching.empty() ? "none" : "several", listed(patterns))));
+                      runtime::quoted(std::string_view(path)), matching.empty() ? "none" : "several", listed(patterns))));
     }
     found[matching.front()].push_back(path);
   }
@@ -96,12 +96,12 @@ std::vector<LogGroup> log_groups(const ImportMap& map, const std::vector<std::st
       throw ImportError(map_error(
           map, map.files[i].place,
           fmt::format("found {} file{} for {} ({}), expected {}", found[i].size(),
-                      found[i].size() == 1 ? "" : "s", quoted(std::string_view(map.files[i].key)),
+                      found[i].size() == 1 ? "" : "s", runtime::quoted(std::string_view(map.files[i].key)),
                       map.files[i].pattern,
                       found.front().empty() || i == 0
                           ? "one for each recording"
                           : fmt::format("{} as for {}", found.front().size(),
-                                        quoted(std::string_view(map.files.front().key))))));
+                                        runtime::quoted(std::string_view(map.files.front().key))))));
     }
   }
   for (std::size_t k = 0; k < found.front().size(); ++k) {

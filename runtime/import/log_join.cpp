@@ -46,13 +46,13 @@ UnitConversion LogJoin::seconds_of(const ImportMap& map, const ColumnLookup& loo
   if (unit.empty()) {
     lookup.fail(map.time.place, fmt::format("found no unit of time, and the log has none for {}: "
                                             "expected 'unit', {}",
-                                            quoted(place.name), known_units(Quantity::kTime)));
+                                            runtime::quoted(place.name), known_units(Quantity::kTime)));
   }
   const auto conversion = unit_conversion(unit, Quantity::kTime);
   if (!conversion) {
     lookup.fail(map.time.place, fmt::format("found unit {} of {} in the log, expected {}; 'unit' "
                                             "in the map overrides it",
-                                            quoted(unit), quoted(place.name),
+                                            runtime::quoted(unit), runtime::quoted(place.name),
                                             known_units(Quantity::kTime)));
   }
   return *conversion;
@@ -236,7 +236,7 @@ void LogJoin::check_rows_end() {
     throw log_->error(0, 0,
                       fmt::format("found {} rows where positions are and more in {}, expected as "
                                   "many, or a time column in each table",
-                                  row_, quoted(longer.name)));
+                                  row_, runtime::quoted(longer.name)));
   }
 }
 
@@ -303,7 +303,7 @@ bool LogJoin::next(double& time, std::vector<double>& values, std::uint64_t& pla
               place, 0,
               fmt::format("found {} rows in {} and more where positions are, expected as many, or "
                           "a time column in each table",
-                          row_, quoted((*logs_)[table.log].log->tables()[table.table].name)));
+                          row_, runtime::quoted((*logs_)[table.log].log->tables()[table.table].name)));
         }
         values[i] = tables_[source.table].window.value(row_, source.kept);
         continue;
@@ -313,7 +313,7 @@ bool LogJoin::next(double& time, std::vector<double>& values, std::uint64_t& pla
       const Table& table = tables_[source.table];
       log_->add(found == Found::kBefore ? "join before" : "join after", place, 0,
                 fmt::format("at {:.6g} s {} has {}; the row is left out", time,
-                            quoted((*logs_)[table.log].log->tables()[table.table].name),
+                            runtime::quoted((*logs_)[table.log].log->tables()[table.table].name),
                             found == Found::kBefore ? "not begun" : "ended"));
       covered = false;
       break;

@@ -98,7 +98,7 @@ char MapFileReader::sign(const MapEntries& entries, const char* key,
                          c == '\t' ? "tab" : c == ' ' ? "blank" : fmt::format("'{}'", c));
   }
   faults_.add(entries.place_of_value(key),
-              fmt::format("found {} in '{}', expected one of {}", quoted(word), key, signs));
+              fmt::format("found {} in '{}', expected one of {}", runtime::quoted(word), key, signs));
   return *allowed.begin();
 }
 
@@ -164,7 +164,7 @@ void MapFileReader::read_files(const YAML::Node& node) {
     if (file.pattern.empty() || file.pattern == "?") {
       faults_.add(place_of(entry.second), fmt::format("found no name of file {}, expected one, "
                                                       "such as 'enc*.csv'",
-                                                      quoted(file.key)));
+                                                      runtime::quoted(file.key)));
     }
     map_.files.push_back(std::move(file));
   }
@@ -188,7 +188,7 @@ void MapFileReader::read_time(const YAML::Node& node) {
   }
   if (!time.unit.empty() && !unit_conversion(time.unit, Quantity::kTime)) {
     faults_.add(entries.place_of_value("unit"),
-                fmt::format("found unit {} of time, expected {}", quoted(time.unit),
+                fmt::format("found unit {} of time, expected {}", runtime::quoted(time.unit),
                             known_units(Quantity::kTime)));
   }
 }
@@ -201,7 +201,7 @@ void MapFileReader::read_units(const MapEntries& entries, Quantity quantity, Sig
     if (unit.empty()) continue;  // told
     const auto known = signal_unit(unit, quantity);
     if (!known) {
-      faults_.add(signal.unit_place, fmt::format("found unit {}, expected {}", quoted(unit),
+      faults_.add(signal.unit_place, fmt::format("found unit {}, expected {}", runtime::quoted(unit),
                                                  known_signal_units(quantity)));
     }
   }
@@ -211,7 +211,7 @@ void MapFileReader::read_sides(const MapEntries& entries, SignalMap& signal) {
   for (const std::string& word : entries.texts("side")) {
     if (word != "motor" && word != "joint" && !word.empty()) {
       faults_.add(entries.place_of_value("side"),
-                  fmt::format("found side {}, expected motor or joint", quoted(word)));
+                  fmt::format("found side {}, expected motor or joint", runtime::quoted(word)));
     }
     signal.sides.push_back(word == "motor" ? GearSide::kMotor : GearSide::kJoint);
   }
@@ -430,8 +430,8 @@ void MapFileReader::check_file(const MapPlace& place, const std::string& key) {
   if (std::find(keys.begin(), keys.end(), key) != keys.end()) return;
   faults_.add(place, keys.empty()
                          ? fmt::format("found file {}, expected 'files' to name the files",
-                                       quoted(key))
-                         : fmt::format("found file {}, expected one of {}", quoted(key),
+                                       runtime::quoted(key))
+                         : fmt::format("found file {}, expected one of {}", runtime::quoted(key),
                                        listed(keys)));
 }
 

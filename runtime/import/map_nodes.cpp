@@ -56,13 +56,13 @@ MapEntries::MapEntries(const YAML::Node& node, std::string what,
     const std::string key = entry.first.Scalar();
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       const std::string near = likely_word(key, known);
-      faults.add(place, fmt::format("unknown key {} in '{}'; {}", quoted(key), what_,
+      faults.add(place, fmt::format("unknown key {} in '{}'; {}", runtime::quoted(key), what_,
                                     near.empty() ? "expected " + listed(known, known.size())
                                                  : fmt::format("did you mean '{}'?", near)));
       continue;
     }
     if (has(key)) {
-      faults.add(place, fmt::format("found key {} a second time in '{}'", quoted(key), what_));
+      faults.add(place, fmt::format("found key {} a second time in '{}'", runtime::quoted(key), what_));
       continue;
     }
     entries_.emplace_back(key, entry.second);
@@ -129,7 +129,7 @@ std::optional<double> MapEntries::number_of(const YAML::Node& node, MapNumber ki
   const ReadNumber read = read_map_number(*word, kind);
   if (!read.value) {
     faults_->add(place_of(node),
-                 fmt::format("found {} in '{}', expected {}", quoted(*word), what_, read.expected));
+                 fmt::format("found {} in '{}', expected {}", runtime::quoted(*word), what_, read.expected));
   }
   return read.value;
 }

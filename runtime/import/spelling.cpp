@@ -46,7 +46,7 @@ std::string likely_word(std::string_view word, const std::vector<std::string>& w
 std::string listed(const std::vector<std::string>& words, std::size_t most) {
   std::string text;
   for (std::size_t i = 0; i < std::min(words.size(), most); ++i) {
-    text += (i == 0 ? "" : ", ") + quoted(words[i]);
+    text += (i == 0 ? "" : ", ") + runtime::quoted(words[i]);
   }
   if (words.size() > most) text += fmt::format(" and {} more", words.size() - most);
   return text;

@@ -27,7 +27,7 @@ constexpr double kSameArm = 1e-9;
 /// States for each base parameter on which they are compared.
 constexpr int kStatesPerParameter = 3;
 
-Eigen::Matrix4d homogeneous(const Pose& pose) {
+Eigen::Matrix4d homogeneous(const RigidPose& pose) {
   Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
   for (int i = 0; i < 3; ++i) {
     const auto row = static_cast<std::size_t>(i);
@@ -49,9 +49,9 @@ Eigen::Matrix<double, 10, 10> moved_parameters(const Eigen::Matrix4d& T) {
   return map;
 }
 
-TenParameters ten_of(const Body& body) {
+TenParameters ten_of(const TreeBody& body) {
   const Real m = body.mass;
-  const Matrix3 about = body.inertia + parallel_axes(m, body.centre);
+  const RealMatrix about = body.inertia + parallel_axes(m, body.centre);
   TenParameters ten;
   ten << static_cast<double>(about[0][0]), static_cast<double>(about[0][1]),
       static_cast<double>(about[0][2]), static_cast<double>(about[1][1]),
@@ -120,9 +120,9 @@ BodyGrouping body_grouping(const DescriptionModel& description, bool with_massle
                                                                    static_cast<Index>(row));
     const auto& group = converted.robot.groups[static_cast<std::size_t>(link.group)];
     for (const GroupedBody& member : group.bodies) {
-      const Body& body = converted.tree.bodies[static_cast<std::size_t>(member.body)];
+      const TreeBody& body = converted.tree.bodies[static_cast<std::size_t>(member.body)];
       if (!body.has_inertial && !with_massless) continue;
-      const Pose in_row = inverse(link.frame) * member.pose;
+      const RigidPose in_row = inverse(link.frame) * member.pose;
       parts.push_back({member.body, own * moved_parameters(homogeneous(in_row))});
     }
   }
@@ -132,7 +132,7 @@ BodyGrouping body_grouping(const DescriptionModel& description, bool with_massle
   result.K.resize(nb, 10 * static_cast<Index>(parts.size()));
   result.prior.resize(result.K.cols());
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Body& body = converted.tree.bodies[static_cast<std::size_t>(parts[i].body)];
+    const TreeBody& body = converted.tree.bodies[static_cast<std::size_t>(parts[i].body)];
     const Index place = 10 * static_cast<Index>(i);
     result.bodies.push_back(parts[i].body);
     result.K.middleCols<10>(place) = parts[i].columns;

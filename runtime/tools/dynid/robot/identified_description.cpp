@@ -339,7 +339,7 @@ class WriteBack {
       edit.body = grouping.bodies[i];
       edit.mass = ten[9];
       edit.centre = {{ten[6] / edit.mass, ten[7] / edit.mass, ten[8] / edit.mass}};
-      const Matrix3 about{
+      const RealMatrix about{
           {{{ten[0], ten[1], ten[2]}}, {{ten[1], ten[3], ten[4]}}, {{ten[2], ten[4], ten[5]}}}};
       edit.inertia = about + Real{-1} * parallel_axes(edit.mass, edit.centre);
       edit_.bodies.push_back(edit);
