@@ -110,11 +110,12 @@ void ColumnLookup::fail_to_find(const MapPlace& place, const Scope& where,
     }
   }
   const std::string near = likely_word(name, names);
-  fail(place, fmt::format("found no column {} in {}{}; {}{}", runtime::quoted(name),
-                          (*logs_)[where.logs.front()].path,
-                          where.table.empty() ? "" : ", table " + runtime::quoted(where.table),
-                          near.empty() ? "" : fmt::format("did you mean {}? ", runtime::quoted(near)),
-                          "it has " + listed(names)));
+  fail(place,
+       fmt::format("found no column {} in {}{}; {}{}", runtime::quoted(name),
+                   (*logs_)[where.logs.front()].path,
+                   where.table.empty() ? "" : ", table " + runtime::quoted(where.table),
+                   near.empty() ? "" : fmt::format("did you mean {}? ", runtime::quoted(near)),
+                   "it has " + listed(names)));
 }
 
 std::optional<ColumnPlace> ColumnLookup::find(const MapPlace& place, const std::string& file,
@@ -145,9 +146,9 @@ std::optional<ColumnPlace> ColumnLookup::find(const MapPlace& place, const std::
   return found.front();
 }
 
-std::vector<ColumnPlace> ColumnLookup::find_all(const ColumnNames& columns,
-                                                const std::string& file, const std::string& table,
-                                                std::size_t joints, Quantity quantity) const {
+std::vector<ColumnPlace> ColumnLookup::find_all(const ColumnNames& columns, const std::string& file,
+                                                const std::string& table, std::size_t joints,
+                                                Quantity quantity) const {
   std::vector<ColumnPlace> found;
   const bool pattern = columns.names.size() == 1 && is_column_pattern(columns.names.front());
   if (!pattern) {
@@ -155,8 +156,7 @@ std::vector<ColumnPlace> ColumnLookup::find_all(const ColumnNames& columns,
       fail(columns.place,
            fmt::format("found {} column{} for {} joints, expected a list of {}, or a name with "
                        "{{n}} in it for the joint's number ({{i}} from 0, {{joint}} its name)",
-                       columns.names.size(), columns.names.size() == 1 ? "" : "s", joints,
-                       joints));
+                       columns.names.size(), columns.names.size() == 1 ? "" : "s", joints, joints));
     }
     for (const std::string& name : columns.names) {
       found.push_back(*find(columns.place, file, table, name, quantity, true));
@@ -187,9 +187,8 @@ std::optional<ColumnPlace> ColumnLookup::clock_of(const ColumnPlace& other) cons
   const LogTable& table = (*logs_)[other.log].log->tables()[other.table];
   const std::string& name = map_->time.column;
   const NameAndUnit asked = name_and_unit(name);
-  const std::string_view bare_name = unit_conversion(asked.unit, Quantity::kTime)
-                                         ? asked.name
-                                         : std::string_view(name);
+  const std::string_view bare_name =
+      unit_conversion(asked.unit, Quantity::kTime) ? asked.name : std::string_view(name);
   const auto make = [&](std::size_t c, std::string unit) {
     return ColumnPlace{other.log, other.table, c, name, std::move(unit)};
   };

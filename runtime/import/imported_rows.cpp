@@ -127,9 +127,9 @@ void ImportedRows::choose_joints(const ColumnLookup& lookup) {
   if (joints_ == 0) joints_ = names_.size();
   const SignalMap& position = *map_.position;
   if (joints_ == 0) {
-    joints_ = lookup.find_all(position.columns, position.file, position.table, 0,
-                              Quantity::kPosition)
-                  .size();
+    joints_ =
+        lookup.find_all(position.columns, position.file, position.table, 0, Quantity::kPosition)
+            .size();
   }
   layout_.joints = static_cast<int>(joints_);
 }
@@ -234,9 +234,9 @@ ImportedRows::ImportedRows(const ImportMap& map, std::vector<OpenedLog> logs,
   const std::size_t split = columns_.size();
   const auto flags = [&](const ColumnNames& names) {
     if (names.names.empty()) return;
-    add_columns(lookup.find_all(names, runs.file, runs.table, names.names.size(),
-                                Quantity::kPosition),
-                0, Between::kHold);
+    add_columns(
+        lookup.find_all(names, runs.file, runs.table, names.names.size(), Quantity::kPosition), 0,
+        Between::kHold);
   };
   flags(runs.split);
   const std::size_t keep = columns_.size();
@@ -331,7 +331,7 @@ bool ImportedRows::next(RowQueue& rows) {
 }  // namespace
 
 std::unique_ptr<SampleSource> imported_rows(const ImportMap& map, std::vector<OpenedLog> logs,
-                                          const ImportedRobot& robot, NoticeLog& log) {
+                                            const ImportedRobot& robot, NoticeLog& log) {
   return std::make_unique<ImportedRows>(map, std::move(logs), robot, log);
 }
 

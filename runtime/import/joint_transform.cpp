@@ -87,17 +87,18 @@ JointTransform::JointTransform(const ImportMap& map, const SignalMap& signal, Qu
         factors_.push_back(1);
         continue;
       }
-      lookup.fail(signal.place, fmt::format("found no unit for {}, and the log has none: expected "
-                                            "'unit', one of {}",
-                                            runtime::quoted(columns[j].name),
-                                            known_signal_units(quantity)));
+      lookup.fail(signal.place,
+                  fmt::format("found no unit for {}, and the log has none: expected "
+                              "'unit', one of {}",
+                              runtime::quoted(columns[j].name), known_signal_units(quantity)));
     }
     const auto known = signal_unit(unit, quantity);
     if (!known) {
       lookup.fail(signal.place,
                   fmt::format("found unit {} of {} in the log, expected {}; 'unit' in the map "
                               "overrides it",
-                              runtime::quoted(unit), runtime::quoted(columns[j].name), known_signal_units(quantity)));
+                              runtime::quoted(unit), runtime::quoted(columns[j].name),
+                              known_signal_units(quantity)));
     }
     double factor = of_joint(signal.sign, j, 1) * of_joint(signal.gain, j, 1) *
                     of_joint(signal.efficiency, j, 1);
@@ -124,9 +125,8 @@ JointTransform::JointTransform(const ImportMap& map, const SignalMap& signal, Qu
         break;
     }
     if (known->kind != RawKind::kCurrent && !signal.constant.empty()) {
-      lookup.fail(signal.place,
-                  fmt::format("found 'constant', and {} is in {}, expected A or mA",
-                              runtime::quoted(columns[j].name), unit));
+      lookup.fail(signal.place, fmt::format("found 'constant', and {} is in {}, expected A or mA",
+                                            runtime::quoted(columns[j].name), unit));
     }
     conversions_.push_back(known->conversion);
     factors_.push_back(factor);

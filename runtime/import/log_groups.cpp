@@ -72,10 +72,11 @@ std::vector<std::vector<std::string>> sorted_by_pattern(const ImportMap& map,
     if (matching.size() != 1) {
       std::vector<std::string> patterns;
       for (const FileMap& file : map.files) patterns.push_back(file.pattern);
-      throw ImportError(map_error(
-          map, map.files.front().place,
-          fmt::format("found file {}, which matches {} of 'files', expected one of {}",
-                      runtime::quoted(std::string_view(path)), matching.empty() ? "none" : "several", listed(patterns))));
+      throw ImportError(
+          map_error(map, map.files.front().place,
+                    fmt::format("found file {}, which matches {} of 'files', expected one of {}",
+                                runtime::quoted(std::string_view(path)),
+                                matching.empty() ? "none" : "several", listed(patterns))));
     }
     found[matching.front()].push_back(path);
   }
@@ -95,13 +96,14 @@ std::vector<LogGroup> log_groups(const ImportMap& map, const std::vector<std::st
     if (found[i].empty() || found[i].size() != found.front().size()) {
       throw ImportError(map_error(
           map, map.files[i].place,
-          fmt::format("found {} file{} for {} ({}), expected {}", found[i].size(),
-                      found[i].size() == 1 ? "" : "s", runtime::quoted(std::string_view(map.files[i].key)),
-                      map.files[i].pattern,
-                      found.front().empty() || i == 0
-                          ? "one for each recording"
-                          : fmt::format("{} as for {}", found.front().size(),
-                                        runtime::quoted(std::string_view(map.files.front().key))))));
+          fmt::format(
+              "found {} file{} for {} ({}), expected {}", found[i].size(),
+              found[i].size() == 1 ? "" : "s", runtime::quoted(std::string_view(map.files[i].key)),
+              map.files[i].pattern,
+              found.front().empty() || i == 0
+                  ? "one for each recording"
+                  : fmt::format("{} as for {}", found.front().size(),
+                                runtime::quoted(std::string_view(map.files.front().key))))));
     }
   }
   for (std::size_t k = 0; k < found.front().size(); ++k) {

@@ -44,9 +44,10 @@ UnitConversion LogJoin::seconds_of(const ImportMap& map, const ColumnLookup& loo
                                    const ColumnPlace& place) const {
   const std::string& unit = map.time.unit.empty() ? place.unit : map.time.unit;
   if (unit.empty()) {
-    lookup.fail(map.time.place, fmt::format("found no unit of time, and the log has none for {}: "
-                                            "expected 'unit', {}",
-                                            runtime::quoted(place.name), known_units(Quantity::kTime)));
+    lookup.fail(map.time.place,
+                fmt::format("found no unit of time, and the log has none for {}: "
+                            "expected 'unit', {}",
+                            runtime::quoted(place.name), known_units(Quantity::kTime)));
   }
   const auto conversion = unit_conversion(unit, Quantity::kTime);
   if (!conversion) {
@@ -205,7 +206,8 @@ LogJoin::Found LogJoin::interpolate(Source& source, double time, double& value) 
   if (table.usual_step == 0) table.usual_step = step;
   const bool gap = step > kJoinGapSteps * table.usual_step;
   constexpr double kLearn = 0.02;  // of each new step
-  table.usual_step += kLearn * (std::min(step, kJoinGapSteps * table.usual_step) - table.usual_step);
+  table.usual_step +=
+      kLearn * (std::min(step, kJoinGapSteps * table.usual_step) - table.usual_step);
   if (gap) {
     value = kNoValue;
     return Found::kValue;
@@ -215,12 +217,11 @@ LogJoin::Found LogJoin::interpolate(Source& source, double time, double& value) 
     const double before = time_of(t, row - 1), after = time_of(t, row + 2);
     const bool near = before < t0 && t0 - before <= kJoinGapSteps * table.usual_step &&
                       after > t1 && after - t1 <= kJoinGapSteps * table.usual_step;
-    const double smooth =
-        near ? cubic({before, t0, t1, after},
-                     {table.window.value(row - 1, source.kept), x0, x1,
-                      table.window.value(row + 2, source.kept)},
-                     at)
-             : kNoValue;
+    const double smooth = near ? cubic({before, t0, t1, after},
+                                       {table.window.value(row - 1, source.kept), x0, x1,
+                                        table.window.value(row + 2, source.kept)},
+                                       at)
+                               : kNoValue;
     if (std::isfinite(smooth)) value = smooth;
   }
   return Found::kValue;
@@ -303,7 +304,8 @@ bool LogJoin::next(double& time, std::vector<double>& values, std::uint64_t& pla
               place, 0,
               fmt::format("found {} rows in {} and more where positions are, expected as many, or "
                           "a time column in each table",
-                          row_, runtime::quoted((*logs_)[table.log].log->tables()[table.table].name)));
+                          row_,
+                          runtime::quoted((*logs_)[table.log].log->tables()[table.table].name)));
         }
         values[i] = tables_[source.table].window.value(row_, source.kept);
         continue;

@@ -95,10 +95,12 @@ char MapFileReader::sign(const MapEntries& entries, const char* key,
   std::string signs;
   for (const char c : allowed) {
     signs += fmt::format("{}{}", signs.empty() ? "" : ", ",
-                         c == '\t' ? "tab" : c == ' ' ? "blank" : fmt::format("'{}'", c));
+                         c == '\t'  ? "tab"
+                         : c == ' ' ? "blank"
+                                    : fmt::format("'{}'", c));
   }
-  faults_.add(entries.place_of_value(key),
-              fmt::format("found {} in '{}', expected one of {}", runtime::quoted(word), key, signs));
+  faults_.add(entries.place_of_value(key), fmt::format("found {} in '{}', expected one of {}",
+                                                       runtime::quoted(word), key, signs));
   return *allowed.begin();
 }
 
@@ -201,8 +203,9 @@ void MapFileReader::read_units(const MapEntries& entries, Quantity quantity, Sig
     if (unit.empty()) continue;  // told
     const auto known = signal_unit(unit, quantity);
     if (!known) {
-      faults_.add(signal.unit_place, fmt::format("found unit {}, expected {}", runtime::quoted(unit),
-                                                 known_signal_units(quantity)));
+      faults_.add(signal.unit_place,
+                  fmt::format("found unit {}, expected {}", runtime::quoted(unit),
+                              known_signal_units(quantity)));
     }
   }
 }
@@ -227,8 +230,8 @@ void MapFileReader::read_duty(const MapEntries& entries, SignalMap& signal) {
   duty.back_emf = entries.numbers("back_emf", MapNumber::kBackEmf);
   if (entries.has("voltage")) {
     const std::vector<std::string> words = entries.texts("voltage");
-    const bool number = !words.empty() &&
-                        read_map_number(words.front(), MapNumber::kVoltage).value.has_value();
+    const bool number =
+        !words.empty() && read_map_number(words.front(), MapNumber::kVoltage).value.has_value();
     if (number) {
       duty.supply = entries.numbers("voltage", MapNumber::kVoltage);
     } else {
@@ -240,8 +243,8 @@ void MapFileReader::read_duty(const MapEntries& entries, SignalMap& signal) {
                                   std::pair{"resistance", "the winding's, in ohm"},
                                   std::pair{"constant", "the motor's, in N m/A"}}) {
     if (!entries.has(key)) {
-      faults_.add(signal.place, fmt::format("found 'duty' without '{}' in 'torque', expected {}",
-                                            key, what));
+      faults_.add(signal.place,
+                  fmt::format("found 'duty' without '{}' in 'torque', expected {}", key, what));
     }
   }
   signal.duty = std::move(duty);
@@ -254,11 +257,11 @@ std::optional<SignalMap> MapFileReader::read_signal(const MapEntries& top, const
   const bool torque = quantity == Quantity::kTorque;
   const auto entries = [&] {
     if (torque) {
-      return MapEntries(*node, key,
-                        {"columns", "column", "unit", "side", "sign", "gain", "offset", "delay",
-                         "file", "table", "constant", "efficiency", "rated", "duty", "full",
-                         "voltage", "resistance", "back_emf"},
-                        faults_);
+      return MapEntries(
+          *node, key,
+          {"columns", "column", "unit", "side", "sign", "gain", "offset", "delay", "file", "table",
+           "constant", "efficiency", "rated", "duty", "full", "voltage", "resistance", "back_emf"},
+          faults_);
     }
     if (quantity == Quantity::kTemperature) {
       return MapEntries(*node, key, {"columns", "column", "unit", "delay", "file", "table"},
@@ -316,15 +319,14 @@ std::optional<SignalMap> MapFileReader::read_signal(const MapEntries& top, const
     }
   }
   if (entries.has("columns") + entries.has("column") + entries.has("duty") != 1) {
-    faults_.add(signal.place,
-                fmt::format("expected in '{}' one of 'columns'{}", key,
-                            torque ? ", 'column' and 'duty'" : " and 'column'"));
+    faults_.add(signal.place, fmt::format("expected in '{}' one of 'columns'{}", key,
+                                          torque ? ", 'column' and 'duty'" : " and 'column'"));
   }
   if ((quantity == Quantity::kVelocity || quantity == Quantity::kAcceleration) &&
       entries.has("offset")) {
-    faults_.add(entries.place_of_value("offset"),
-                fmt::format("found 'offset' in '{}', expected it of positions and torques alone",
-                            key));
+    faults_.add(
+        entries.place_of_value("offset"),
+        fmt::format("found 'offset' in '{}', expected it of positions and torques alone", key));
   }
   return signal;
 }
@@ -428,11 +430,10 @@ void MapFileReader::check_file(const MapPlace& place, const std::string& key) {
   std::vector<std::string> keys;
   for (const FileMap& file : map_.files) keys.push_back(file.key);
   if (std::find(keys.begin(), keys.end(), key) != keys.end()) return;
-  faults_.add(place, keys.empty()
-                         ? fmt::format("found file {}, expected 'files' to name the files",
-                                       runtime::quoted(key))
-                         : fmt::format("found file {}, expected one of {}", runtime::quoted(key),
-                                       listed(keys)));
+  faults_.add(place, keys.empty() ? fmt::format("found file {}, expected 'files' to name the files",
+                                                runtime::quoted(key))
+                                  : fmt::format("found file {}, expected one of {}",
+                                                runtime::quoted(key), listed(keys)));
 }
 
 void MapFileReader::check_lengths() {
@@ -499,11 +500,11 @@ ImportMap MapFileReader::read(const YAML::Node& root) {
                                 "found no map, expected keys such as 'time:', 'position:' and "
                                 "'torque:'"));
   }
-  const MapEntries top(root, "the map",
-                       {"joints", "format", "files", "table", "time", "position", "velocity",
-                        "acceleration", "torque", "simulated_torque", "link_position",
-                        "temperature", "gears", "coupling", "runs"},
-                       faults_);
+  const MapEntries top(
+      root, "the map",
+      {"joints", "format", "files", "table", "time", "position", "velocity", "acceleration",
+       "torque", "simulated_torque", "link_position", "temperature", "gears", "coupling", "runs"},
+      faults_);
   read_joints(top);
   if (const YAML::Node* node = top.find("format")) {
     map_.text = text_settings(
@@ -553,10 +554,10 @@ ImportMap parse_import_map(const std::string& text, const std::string& name) {
   } catch (const YAML::Exception& error) {
     ImportMap named;
     named.name = name;
-    const MapPlace place =
-        error.mark.is_null() ? MapPlace{1, 1}
-                             : MapPlace{static_cast<std::size_t>(error.mark.line) + 1,
-                                        static_cast<std::size_t>(error.mark.column) + 1};
+    const MapPlace place = error.mark.is_null()
+                               ? MapPlace{1, 1}
+                               : MapPlace{static_cast<std::size_t>(error.mark.line) + 1,
+                                          static_cast<std::size_t>(error.mark.column) + 1};
     throw ImportError(map_error(named, place, "this is no YAML: " + error.msg));
   }
 }

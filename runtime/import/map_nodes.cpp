@@ -62,7 +62,8 @@ MapEntries::MapEntries(const YAML::Node& node, std::string what,
       continue;
     }
     if (has(key)) {
-      faults.add(place, fmt::format("found key {} a second time in '{}'", runtime::quoted(key), what_));
+      faults.add(place,
+                 fmt::format("found key {} a second time in '{}'", runtime::quoted(key), what_));
       continue;
     }
     entries_.emplace_back(key, entry.second);
@@ -90,9 +91,11 @@ std::optional<std::string> MapEntries::scalar(const YAML::Node& node,
     return std::nullopt;
   }
   if (node.IsScalar() && !node.Scalar().empty()) return node.Scalar();
-  faults_->add(place_of(node),
-               fmt::format("found {} in {}, expected one value",
-                           node.IsMap() ? "keys" : node.IsSequence() ? "a list" : "nothing", what));
+  faults_->add(place_of(node), fmt::format("found {} in {}, expected one value",
+                                           node.IsMap()        ? "keys"
+                                           : node.IsSequence() ? "a list"
+                                                               : "nothing",
+                                           what));
   return std::nullopt;
 }
 
@@ -128,8 +131,8 @@ std::optional<double> MapEntries::number_of(const YAML::Node& node, MapNumber ki
   if (!word) return std::nullopt;
   const ReadNumber read = read_map_number(*word, kind);
   if (!read.value) {
-    faults_->add(place_of(node),
-                 fmt::format("found {} in '{}', expected {}", runtime::quoted(*word), what_, read.expected));
+    faults_->add(place_of(node), fmt::format("found {} in '{}', expected {}",
+                                             runtime::quoted(*word), what_, read.expected));
   }
   return read.value;
 }

@@ -32,7 +32,7 @@ const char* colour_of(const Series& series, std::size_t place) {
   return kColours[chosen % std::size(kColours)];
 }
 
-std::string runtime::quoted(const std::string& text) {
+std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -111,7 +111,7 @@ std::string panel_script(const Panel& panel, const std::string& name) {
     data += data_block(series, block);
     plots += fmt::format("{}${} {} {}", plots.empty() ? "" : ", \\\n  ", block,
                          style_text(series, colour_of(series, i)),
-                         series.name.empty() ? "notitle" : "title " + runtime::quoted(series.name));
+                         series.name.empty() ? "notitle" : "title " + quoted(series.name));
   }
   for (const double level : panel.levels) {
     plots +=
@@ -119,16 +119,16 @@ std::string panel_script(const Panel& panel, const std::string& name) {
                     plots.empty() ? "" : ", \\\n  ", level);
   }
   std::string text = data;
-  text += "set title " + runtime::quoted(panel.title) + " noenhanced\n";
-  text += "set xlabel " + runtime::quoted(panel.x_label) + " noenhanced\n";
-  text += "set ylabel " + runtime::quoted(panel.y_label) + " noenhanced\n";
+  text += "set title " + quoted(panel.title) + " noenhanced\n";
+  text += "set xlabel " + quoted(panel.x_label) + " noenhanced\n";
+  text += "set ylabel " + quoted(panel.y_label) + " noenhanced\n";
   text += panel.logarithmic_x ? "set logscale x\n" : "unset logscale x\n";
   text += panel.logarithmic_y ? "set logscale y\n" : "unset logscale y\n";
   if (plots.empty()) plots = "NaN notitle";
   if (panel.x_names.empty()) return text + "plot " + plots + "\n";
   std::string names;
   for (std::size_t i = 0; i < panel.x_names.size(); ++i) {
-    names += fmt::format("{}{} {}", i > 0 ? ", " : "", runtime::quoted(panel.x_names[i]), i);
+    names += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(panel.x_names[i]), i);
   }
   return text + "set boxwidth 0.25\nset yrange [0:*]\nset xtics noenhanced (" + names + ")\nplot " +
          plots + "\nset xtics autofreq\nset yrange [*:*]\n";
@@ -180,11 +180,11 @@ std::string gnuplot_script(const Figure& figure, const std::string& terminal,
       fmt::format("set terminal {} size {},{} font \"sans,11\" background rgb \"white\"\n",
                   terminal, figure.columns * figure.panel_width,
                   rows * figure.panel_height + (figure.title.empty() ? 0 : 30));
-  text += "set output " + runtime::quoted(output) + "\n";
+  text += "set output " + quoted(output) + "\n";
   text += "set grid linecolor rgb \"#dddddd\"\nset tics nomirror\nset border 3\n";
   text += "set key outside right top noenhanced\n";
   text += fmt::format("set multiplot layout {},{}", rows, figure.columns);
-  if (!figure.title.empty()) text += " title " + runtime::quoted(figure.title) + " noenhanced";
+  if (!figure.title.empty()) text += " title " + quoted(figure.title) + " noenhanced";
   text += "\n";
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     text += panel_script(figure.panels[i], fmt::format("panel{}", i));
@@ -207,17 +207,17 @@ std::string gnuplot_script(const HeatMap& map, const std::string& terminal,
   std::string text =
       fmt::format("set terminal {} size {},{} font \"sans,8\" background rgb \"white\"\n", terminal,
                   side + kNames + 90, side + kNames + 40);
-  text += "set output " + runtime::quoted(output) + "\n$table << EOD\n";
+  text += "set output " + quoted(output) + "\n$table << EOD\n";
   for (Index i = 0; i < map.values.rows(); ++i) {
     for (Index k = 0; k < map.values.cols(); ++k) {
       text += fmt::format("{}{:.3f}", k > 0 ? " " : "", map.values(i, k));
     }
     text += "\n";
   }
-  text += "EOD\nset title " + runtime::quoted(map.title) + " noenhanced\nunset key\nset tics out nomirror\n";
+  text += "EOD\nset title " + quoted(map.title) + " noenhanced\nunset key\nset tics out nomirror\n";
   std::string tics;
   for (std::size_t i = 0; i < map.names.size(); ++i) {
-    tics += fmt::format("{}{} {}", i > 0 ? ", " : "", runtime::quoted(map.names[i]), i);
+    tics += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(map.names[i]), i);
   }
   text += "set xtics rotate by 90 right noenhanced (" + tics + ")\n";
   text += "set ytics noenhanced (" + tics + ")\n";

@@ -123,7 +123,7 @@ std::string converted_columns(const Columns& columns, const std::vector<std::str
     auto same = std::find_if(by_unit.begin(), by_unit.end(),
                              [&](const auto& entry) { return entry.first == units[i]; });
     if (same == by_unit.end()) same = by_unit.insert(by_unit.end(), {units[i], {}});
-    same->second.push_back(runtime::quoted(std::string_view(columns.names[i])));
+    same->second.push_back(quoted(std::string_view(columns.names[i])));
   }
   std::string text;
   for (const auto& [unit, names] : by_unit) {
@@ -200,8 +200,8 @@ void HeaderReader::read_unit(const Field& field, const Meaning& meaning, std::si
   if (meaning.unit.empty()) return;
   const auto conversion = unit_conversion(meaning.unit, columns_.quantities[place]);
   if (!conversion) {
-    fail(field.column, fmt::format("found unit {} of {}, expected {}", runtime::quoted(meaning.unit),
-                                   runtime::quoted(field.text), known_units(columns_.quantities[place])));
+    fail(field.column, fmt::format("found unit {} of {}, expected {}", quoted(meaning.unit),
+                                   quoted(field.text), known_units(columns_.quantities[place])));
   }
   columns_.conversions[place] = *conversion;
   columns_.converts = columns_.converts || conversion->changes();
@@ -220,13 +220,13 @@ void HeaderReader::sort_out_names() {
     if (!meaning) {
       log_->add_once(
           fmt::format("unknown {}", i), line_number_, field.column,
-          fmt::format("found column {}, which means nothing here; ignored", runtime::quoted(field.text)));
+          fmt::format("found column {}, which means nothing here; ignored", quoted(field.text)));
       continue;
     }
     const bool numbered = meaning->kind != Kind::kTime && meaning->kind != Kind::kSegment;
     if (numbered && (meaning->number < 1 || meaning->number > kMostJoints)) {
       fail(field.column, fmt::format("found column {}, expected numbers from 1 to {}",
-                                     runtime::quoted(field.text), kMostJoints));
+                                     quoted(field.text), kMostJoints));
     }
     read_unit(field, *meaning, i);
     const auto [place, is_new] = group(meaning->kind).fields.emplace(meaning->number, i);
@@ -235,7 +235,7 @@ void HeaderReader::sort_out_names() {
       fail(field.column,
            fmt::format("found column {} for a second time (the first is {} in column {}), expected "
                        "each once",
-                       runtime::quoted(field.text), runtime::quoted(first.text), first.column));
+                       quoted(field.text), quoted(first.text), first.column));
     }
   }
 }
@@ -250,11 +250,11 @@ void HeaderReader::check_group(Kind kind, std::string_view word, int expected) c
       fail(field.column,
            fmt::format("found column {} without '{}{}', expected {}1, {}2, ... with no "
                        "gap",
-                       runtime::quoted(field.text), word, next, word, word));
+                       quoted(field.text), word, next, word, word));
     }
     if (expected != 0 && number > expected) {
       fail(field.column, fmt::format("found column {}, expected {}1 to {}{} for {} joints",
-                                     runtime::quoted(field.text), word, word, expected, expected));
+                                     quoted(field.text), word, word, expected, expected));
     }
     last_column = field.column;
     ++next;
@@ -278,7 +278,7 @@ Columns HeaderReader::read(char separator, int joints, bool torque_required) {
       fmt::format("expected a header such as 'time,q1,q2{}'", torque_required ? ",tau1,tau2" : "");
   if (group(Kind::kTime).fields.empty()) {
     fail(fields_.empty() ? 1 : fields_.front().column,
-         fmt::format("found no column 'time' in {}, {}", runtime::quoted(trimmed(line_)), example));
+         fmt::format("found no column 'time' in {}, {}", quoted(trimmed(line_)), example));
   }
   for (const auto& [kind, word] : {std::pair{Kind::kQ, "q"}, std::pair{Kind::kTau, "tau"}}) {
     if (group(kind).fields.empty() && (kind == Kind::kQ || torque_required)) {
@@ -417,15 +417,15 @@ bool read_unit_row(std::string_view line, std::size_t line_number, Columns& colu
     const auto conversion = unit_conversion(text, columns.quantities[i]);
     if (!conversion) {
       throw recording_error(log.file(), line_number, fields[i].column,
-                            fmt::format("found unit {} of column {}, expected {}", runtime::quoted(text),
-                                        runtime::quoted(std::string_view(columns.names[i])),
+                            fmt::format("found unit {} of column {}, expected {}", quoted(text),
+                                        quoted(std::string_view(columns.names[i])),
                                         known_units(columns.quantities[i])));
     }
     if (columns.conversions[i].changes() && *conversion != columns.conversions[i]) {
       throw recording_error(
           log.file(), line_number, fields[i].column,
           fmt::format("found unit {} of column {}, expected the unit in its name, or none",
-                      runtime::quoted(text), runtime::quoted(std::string_view(columns.names[i]))));
+                      quoted(text), quoted(std::string_view(columns.names[i]))));
     }
     columns.conversions[i] = *conversion;
     columns.converts = columns.converts || conversion->changes();

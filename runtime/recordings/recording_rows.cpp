@@ -140,7 +140,7 @@ Columns RecordingRows::find_header(const ExpectedColumns& expected) {
   if (told != '\0') {
     log_->add_once("told separator", line_.number, 1,
                    fmt::format("found a line that says that columns are separated by {}; accepted",
-                               runtime::quoted({&told, 1})));
+                               quoted({&told, 1})));
     first_line();
   }
   header_found_ = true;

@@ -74,7 +74,7 @@ void RowParser::mark_bad(RowInfo& info, std::size_t field, std::size_t column,
   if (info.bad()) return;
   info.bad_column = column;
   info.bad_word = text.empty() ? fmt::format("nothing in {}", columns_->names[field])
-                               : fmt::format("{} in {}", runtime::quoted(text), columns_->names[field]);
+                               : fmt::format("{} in {}", quoted(text), columns_->names[field]);
 }
 
 void RowParser::note_segment(std::string_view text) {
@@ -126,10 +126,10 @@ const char* RowParser::read_value(const Line& line, const Cursor& cursor, std::s
           log_->file(), line.number, column,
           fmt::format("found {} in column {} beside numbers with a decimal point, expected one "
                       "decimal sign (does the comma part thousands?)",
-                      runtime::quoted(text), columns_->names[field]));
+                      quoted(text), columns_->names[field]));
     case Word::kNone: {
       const std::string message = fmt::format("found {}, expected a number in column {}",
-                                              runtime::quoted(text), columns_->names[field]);
+                                              quoted(text), columns_->names[field]);
       if (stop != cursor.end || line.terminated) {
         throw recording_error(log_->file(), line.number, column, message);
       }

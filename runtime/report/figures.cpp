@@ -52,7 +52,7 @@ Panel panel_of(const ReportPanel& own, const std::string& title) {
   return panel;
 }
 
-std::string runtime::quoted(const std::string& text) {
+std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + "\"";
@@ -68,16 +68,16 @@ std::string csv_of(const ReportChart& chart) {
   std::string text = "view,panel,series,x,y,low,high\n";
   for (const ReportView& view : chart.views) {
     for (const ReportPanel& panel : view.panels) {
-      const std::string place = runtime::quoted(view.name) + "," + runtime::quoted(panel.y_label) + ",";
+      const std::string place = quoted(view.name) + "," + quoted(panel.y_label) + ",";
       for (const ReportSeries& series : panel.series) {
         for (Index i = 0; i < panel.x.size(); ++i) {
-          text += fmt::format("{}{},{},{},{},{}\n", place, runtime::quoted(series.name), number(panel.x[i]),
+          text += fmt::format("{}{},{},{},{},{}\n", place, quoted(series.name), number(panel.x[i]),
                               number(series.y[i]), number(entry(series.low, i)),
                               number(entry(series.high, i)));
         }
       }
       for (const ReportCloud& cloud : panel.clouds) {
-        const std::string name = runtime::quoted(fmt::format("samples {}", role_name(cloud.role)));
+        const std::string name = quoted(fmt::format("samples {}", role_name(cloud.role)));
         for (Index i = 0; i < cloud.x.size(); ++i) {
           text +=
               fmt::format("{}{},{},{},,\n", place, name, number(cloud.x[i]), number(cloud.y[i]));
@@ -109,7 +109,7 @@ ReportFigure figure_of(const ReportBars& bars) {
     unit = g == 0 || unit == group.unit ? group.unit : "unit of the joint";
     for (std::size_t b = 0; b < group.bars.size(); ++b) {
       const ReportBar& bar = group.bars[b];
-      csv += fmt::format("{},{},{},{}\n", runtime::quoted(group.label), runtime::quoted(group.unit), runtime::quoted(bar.name),
+      csv += fmt::format("{},{},{},{}\n", quoted(group.label), quoted(group.unit), quoted(bar.name),
                          number(bar.value));
       if (panel.series.size() <= b) {
         Series series{bar.name, {}, {}, false, colour_of(bar.role), SeriesStyle::kBars, {}};
@@ -135,7 +135,7 @@ ReportFigure figure_of(const ReportMatrix& matrix) {
   std::string csv = "row,column,value\n";
   for (std::size_t i = 0; i < matrix.names.size(); ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      csv += fmt::format("{},{},{}\n", runtime::quoted(matrix.names[i]), runtime::quoted(matrix.names[j]),
+      csv += fmt::format("{},{},{}\n", quoted(matrix.names[i]), quoted(matrix.names[j]),
                          number(matrix.values(static_cast<Index>(i), static_cast<Index>(j))));
     }
   }
