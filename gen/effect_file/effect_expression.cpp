@@ -22,20 +22,20 @@ namespace {
 using GiNaC::ex;
 using Kind = EffectExpression::Kind;
 
-struct Call {
+struct EffectCall {
   std::string_view name;
   int arguments;
 };
-constexpr std::array<Call, 10> kEffectCalls = {{{"sin", 1},
-                                                {"cos", 1},
-                                                {"exp", 1},
-                                                {"log", 1},
-                                                {"tanh", 1},
-                                                {"sqrt", 1},
-                                                {"abs", 1},
-                                                {"sign", 1},
-                                                {"min", 2},
-                                                {"max", 2}}};
+constexpr std::array<EffectCall, 10> kEffectCalls = {{{"sin", 1},
+                                                      {"cos", 1},
+                                                      {"exp", 1},
+                                                      {"log", 1},
+                                                      {"tanh", 1},
+                                                      {"sqrt", 1},
+                                                      {"abs", 1},
+                                                      {"sign", 1},
+                                                      {"min", 2},
+                                                      {"max", 2}}};
 constexpr int kMostDepth = 100;
 
 struct PlacedToken {
@@ -228,7 +228,7 @@ class Descent {
 
   static Wrong unknown_function(const PlacedToken& token) {
     std::vector<std::string_view> names;
-    for (const Call& call : kEffectCalls) names.push_back(call.name);
+    for (const EffectCall& call : kEffectCalls) names.push_back(call.name);
     const std::string_view near = nearest_word(token.text, names);
     return Wrong{token, fmt::format("unknown function '{}'", printable(token.text)),
                  near.empty() ? "known functions: " + comma_list(names)
@@ -312,7 +312,7 @@ bool is_own_velocity(const EffectExpression& expression) {
 
 int effect_call_arguments(const std::string& name) {
   const auto found = std::find_if(kEffectCalls.begin(), kEffectCalls.end(),
-                                  [&](const Call& call) { return call.name == name; });
+                                  [&](const EffectCall& call) { return call.name == name; });
   return found == kEffectCalls.end() ? 0 : found->arguments;
 }
 
