@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "runtime/import/joint_transform.h"
 #include "runtime/import/log_join.h"
@@ -101,6 +103,7 @@ class ImportedRows : public SampleSource {
   void find_duty(const ColumnLookup& lookup);
   void tell_unit_conflicts(const SignalMap& signal, const std::vector<ColumnPlace>& columns);
   bool next_used(double& time, std::uint64_t& place);
+  void tell_of_log(const std::string& path, const std::string& notice);
   void make(double time, std::uint64_t place, double* sample, RowInfo& info);
 
   ImportMap map_;
@@ -247,6 +250,24 @@ ImportedRows::ImportedRows(const ImportMap& map, std::vector<OpenedLog> logs,
   volts_.resize(joints_);
 }
 
+/// A line of a log's own, "FILE:line:column: warning: message", as a notice.
+void ImportedRows::tell_of_log(const std::string& path, const std::string& notice) {
+  constexpr std::string_view kMark = ": warning: ";
+  const std::size_t mark = notice.find(kMark);
+  if (mark == std::string::npos || !notice.starts_with(path)) {
+    log_->add_once(notice, 0, 0, notice);
+    return;
+  }
+  std::size_t line = 0, column = 0;
+  const char* end = notice.data() + mark;
+  const char* at = notice.data() + path.size();
+  for (std::size_t* number : {&line, &column}) {
+    if (at == end || *at != ':') break;
+    at = std::from_chars(at + 1, end, *number).ptr;
+  }
+  log_->add_once(notice, line, column, notice.substr(mark + kMark.size()));
+}
+
 /// The next row that is used, in values_.
 bool ImportedRows::next_used(double& time, std::uint64_t& place) {
   while (join_->next(time, values_, place)) {
@@ -256,7 +277,7 @@ bool ImportedRows::next_used(double& time, std::uint64_t& place) {
     log_->add("chosen " + why, place_, 0, fmt::format("the row is left out: {}", why));
   }
   for (const OpenedLog& one : logs_) {
-    for (const std::string& notice : one.log->notices()) log_->add_once(notice, 0, 0, notice);
+    for (const std::string& notice : one.log->notices()) tell_of_log(one.path, notice);
   }
   return false;
 }

@@ -18,6 +18,41 @@
 #include "runtime/recordings/gzip.h"
 
 namespace dyngen::runtime {
+
+/// Plain or gzip, by the name of the final file.
+class RecordingFileOutput {
+ public:
+  RecordingFileOutput(const std::string& path, bool gzip) {
+    if (gzip) {
+      zipped_.emplace(path);
+    } else {
+      plain_.reset(std::fopen(path.c_str(), "wb"));
+      if (!plain_) throw std::runtime_error(std::strerror(errno));
+    }
+  }
+  void write(std::string_view text) {
+    if (zipped_) {
+      zipped_->write(text);
+    } else if (std::fwrite(text.data(), 1, text.size(), plain_.get()) != text.size()) {
+      throw std::runtime_error(std::strerror(errno));
+    }
+  }
+  void close() {
+    if (zipped_) {
+      zipped_->close();
+    } else if (std::fclose(plain_.release()) != 0) {
+      throw std::runtime_error(std::strerror(errno));
+    }
+  }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, CloseFile> plain_;
+  std::optional<ZippedFile> zipped_;
+};
+
 namespace {
 
 using Eigen::Index;
@@ -62,40 +97,6 @@ void check(const Recording& recording, const WriteOptions& options) {
   }
 }
 
-/// Plain or gzip, by the name of the final file.
-class OutputFile {
- public:
-  OutputFile(const std::string& path, bool gzip) {
-    if (gzip) {
-      zipped_.emplace(path);
-    } else {
-      plain_.reset(std::fopen(path.c_str(), "wb"));
-      if (!plain_) throw std::runtime_error(std::strerror(errno));
-    }
-  }
-  void write(std::string_view text) {
-    if (zipped_) {
-      zipped_->write(text);
-    } else if (std::fwrite(text.data(), 1, text.size(), plain_.get()) != text.size()) {
-      throw std::runtime_error(std::strerror(errno));
-    }
-  }
-  void close() {
-    if (zipped_) {
-      zipped_->close();
-    } else if (std::fclose(plain_.release()) != 0) {
-      throw std::runtime_error(std::strerror(errno));
-    }
-  }
-
- private:
-  struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::unique_ptr<std::FILE, CloseFile> plain_;
-  std::optional<ZippedFile> zipped_;
-};
-
 void append_number(std::string& text, double value) {
   std::array<char, 32> digits;
   const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
@@ -115,7 +116,7 @@ std::string header_of(const Recording& recording, bool segments) {
 
 /// @param first_run  number of the first row's run, from 0
 void write_rows(const Recording& recording, bool segments, std::size_t first_run,
-                OutputFile& file) {
+                RecordingFileOutput& file) {
   std::string text;
   std::size_t run = 0;
   for (Index k = 0; k < recording.samples(); ++k) {
@@ -147,7 +148,7 @@ void write_rows(const Recording& recording, bool segments, std::size_t first_run
 struct RecordingWriter::State {
   std::string path, unfinished;
   bool segments = true;
-  std::optional<OutputFile> file;
+  std::optional<RecordingFileOutput> file;
   std::string header;
   std::size_t runs = 0;  ///< begun so far
 
