@@ -175,6 +175,26 @@ TEST_F(ImportCommand, ListsAndGuesses) {
   EXPECT_THAT(refused.out, HasSubstr("is a question that was not answered"));
 }
 
+/// The commands of the tutorial, in its order.
+TEST_F(ImportCommand, TheTutorialRuns) {
+  for (const char* name : {"log.csv.gz", "arm.robot", "map.yaml"}) {
+    fs::copy_file(std::string(DYNGEN_SOURCE_DIR "/examples/motor_currents/") + name, made(name));
+  }
+  const std::string page = content(DYNGEN_SOURCE_DIR "/docs/tutorial_motor_currents.md");
+  const std::string fence = "```sh\ndynid ";
+  int commands = 0;
+  for (std::size_t at = page.find(fence); at != page.npos; at = page.find(fence, at + 1)) {
+    const std::size_t begin = at + fence.size();
+    const std::string words = page.substr(begin, page.find('\n', begin) - begin);
+    const Outcome outcome = run_shell("cd " + folder_.string() + " && " DYNID " " + words);
+    EXPECT_EQ(outcome.exit_code, 0) << words << "\n" << outcome.out;
+    ++commands;
+  }
+  EXPECT_EQ(commands, 5);
+  // the map of the page is the file's
+  EXPECT_THAT(page, HasSubstr(content(made("map.yaml")).substr(content(made("map.yaml")).find('\n') + 1)));
+}
+
 TEST_F(ImportCommand, TellsWhatVelocitiesSay) {
   std::string text = "time,q1,qd1,tau1\n";
   for (int k = 0; k < 4000; ++k) {
