@@ -27,6 +27,16 @@ constexpr std::array<OverridingSetting, 5> kOverridingSettings = {
      {"boundmass", {"0", "0.0"}},
      {"boundinertia", {"0", "0.0"}}}};
 
+/// Whether the model writes angles in degrees, as MuJoCo does where nothing says otherwise.
+bool angles_in_degrees(const DescribedBodies& bodies) {
+  bool degrees = true;
+  for (const XmlElement& section : bodies.document.root.children) {
+    const XmlAttribute* angle = section.name == "compiler" ? section.attribute("angle") : nullptr;
+    if (angle != nullptr) degrees = angle->value != "radian";
+  }
+  return degrees;
+}
+
 bool stands_in_default(const XmlElement& element, std::string_view attribute, bool within = false) {
   const bool here = within || element.name == "default";
   const bool is_actuator = element.name == "general" || element.name == "motor";
@@ -105,7 +115,11 @@ void edit_mjcf_joint(TextPatches& patches, const DescribedBodies& bodies, const 
   set("frictionloss", edit.friction);
   set("armature", edit.armature);
   set("stiffness", edit.stiffness);
-  set("springref", edit.spring_reference);
+  std::optional<Real> reference = edit.spring_reference;
+  if (reference && joint.type == TreeJointType::kRevolute && angles_in_degrees(bodies)) {
+    *reference *= 180 / kRealPi;
+  }
+  set("springref", reference);
 }
 
 std::string edit_mjcf_drive(TextPatches& patches, const DescribedBodies& bodies,

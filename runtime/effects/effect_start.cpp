@@ -95,10 +95,10 @@ bool of_shapes_alone(const EffectInstance& effect, const EffectCondition& condit
 }
 
 /// Squares that are left of `rest` when an effect's linear parameters are fitted to it.
-class Trial {
+class StartTrial {
  public:
-  Trial(EffectSignals& signals, const EquationStack& stack, const Projection& others, VectorXd rest,
-        const EffectScales& scales)
+  StartTrial(EffectSignals& signals, const EquationStack& stack, const Projection& others,
+             VectorXd rest, const EffectScales& scales)
       : signals_(signals),
         stack_(stack),
         others_(others),
@@ -141,8 +141,8 @@ EffectInstance with_value(EffectInstance effect, Index p, double value) {
 }
 
 /// Of two scanned parameters that mean something together only: the beginning and end of a window.
-VectorXd best_pair(const Trial& trial, const Grids& grids, const EffectInstance& effect, Index p,
-                   Index r) {
+VectorXd best_pair(const StartTrial& trial, const Grids& grids, const EffectInstance& effect,
+                   Index p, Index r) {
   VectorXd best = effect.parameters;
   double least = std::numeric_limits<double>::infinity();
   for (const double first : grids.few(p)) {
@@ -158,7 +158,8 @@ VectorXd best_pair(const Trial& trial, const Grids& grids, const EffectInstance&
 }
 
 /// The best value within a step of the effect's: looked for on both sides, ever closer.
-double closer(const Trial& trial, const EffectInstance& effect, Index p, double cost, double step) {
+double closer(const StartTrial& trial, const EffectInstance& effect, Index p, double cost,
+              double step) {
   constexpr int kHalvings = 7;
   double best = effect.parameters[p];
   for (int i = 0; i < kHalvings; ++i) {
@@ -245,8 +246,8 @@ std::vector<VectorXd> start_values(const EffectRecordings& data, EffectSignals& 
   const EquationStack stack(data, Whitening::by_weights(joint_weights));
   MatrixXd equations = stack.stacked(linearised(data, signals, others, unknowns));
   const Projection projection(equations.leftCols(unknowns.size));
-  const Trial trial(signals, stack, projection, projection.rest(equations.rightCols(1)),
-                    scales.of(point.beta, effect));
+  const StartTrial trial(signals, stack, projection, projection.rest(equations.rightCols(1)),
+                         scales.of(point.beta, effect));
 
   const Grids grids(law, scales.of(point.beta, effect), effect.parameters, grid);
   if (tried.size() > 1 &&

@@ -20,7 +20,7 @@ constexpr double kClearAdvantage = 1.15;  // ratio of rms errors that chance doe
 constexpr Index kClockWindow = 33;        // samples: longer than a burst of late stamps
 constexpr Index kFewestPredicted = 64;    // samples: fewer say nothing
 
-double clock_median(std::vector<double> values) {
+double middle_of(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -35,7 +35,7 @@ double mean_step(const Eigen::Ref<const VectorXd>& stamps) {
   for (Index k = 0; k + span < stamps.size(); ++k) {
     slopes.push_back((stamps[k + span] - stamps[k]) / static_cast<double>(span));
   }
-  return clock_median(std::move(slopes));
+  return middle_of(std::move(slopes));
 }
 
 /// Samples that were lost before each one, in whole steps.
@@ -47,7 +47,7 @@ VectorXd even_times(const Eigen::Ref<const VectorXd>& stamps, double step) {
   for (Index k = 0; k < n; ++k) {
     const Index from = std::max<Index>(0, k - kClockWindow / 2);
     const Index to = std::min(n, k + kClockWindow / 2 + 1);
-    middle[k] = clock_median({off.begin() + from, off.begin() + to});
+    middle[k] = middle_of({off.begin() + from, off.begin() + to});
   }
   VectorXd times(n);
   double lost = 0;
@@ -68,7 +68,7 @@ VectorXd even_times(const Eigen::Ref<const VectorXd>& stamps, double step) {
   }
   std::vector<double> shift(static_cast<std::size_t>(n));
   for (Index k = 0; k < n; ++k) shift[static_cast<std::size_t>(k)] = stamps[k] - times[k];
-  times.array() += clock_median(std::move(shift));
+  times.array() += middle_of(std::move(shift));
   return times;
 }
 
@@ -136,7 +136,7 @@ ClockChoice choose_clock(const Recording& recording) {
       longest = run;
     }
   }
-  choice.step = clock_median(steps);
+  choice.step = middle_of(steps);
   if (length < kFewestPredicted || !(choice.step > 0)) {
     choice.message = "the stamps are believed: there are too few samples to judge them";
     return choice;
@@ -180,9 +180,9 @@ ClockChoice choose_clock(const Recording& recording) {
         "times better than the stamps, so the clock is rebuilt",
         by, choice.step, choice.advantage);
   } else if (best < -std::log(kClearAdvantage)) {
-    choice.message = fmt::format(
-        "the stamps are believed: {} fit them {:.3g} times better than an even clock", by,
-        choice.advantage);
+    choice.message =
+        fmt::format("the stamps are believed: {} fit them {:.3g} times better than an even clock",
+                    by, choice.advantage);
   } else {
     choice.message =
         "the stamps are believed: neither velocities nor torques tell them from an even clock";

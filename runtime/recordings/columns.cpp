@@ -20,15 +20,15 @@ struct Spelling {
 };
 
 constexpr std::array<Spelling, 10> kNumbered = {{{"q", Kind::kQ},
-                                                {"tau", Kind::kTau},
-                                                {"qd", Kind::kDq},
-                                                {"dq", Kind::kDq},
-                                                {"qdd", Kind::kDdq},
-                                                {"ddq", Kind::kDdq},
-                                                {"tausim", Kind::kTauSim},
-                                                {"tau_sim", Kind::kTauSim},
-                                                {"ql", Kind::kLinkQ},
-                                                {"temp", Kind::kTemperature}}};
+                                                 {"tau", Kind::kTau},
+                                                 {"qd", Kind::kDq},
+                                                 {"dq", Kind::kDq},
+                                                 {"qdd", Kind::kDdq},
+                                                 {"ddq", Kind::kDdq},
+                                                 {"tausim", Kind::kTauSim},
+                                                 {"tau_sim", Kind::kTauSim},
+                                                 {"ql", Kind::kLinkQ},
+                                                 {"temp", Kind::kTemperature}}};
 
 constexpr int kMostJoints = 1000;
 
@@ -139,7 +139,7 @@ std::string converted_columns(const Columns& columns, const std::vector<std::str
 }
 
 /// The numbered columns of one kind: their numbers and where they stand.
-struct Group {
+struct ColumnGroup {
   std::map<int, std::size_t> fields;  ///< number -> field
 
   [[nodiscard]] int count() const { return static_cast<int>(fields.size()); }
@@ -161,8 +161,8 @@ class HeaderReader {
   void read_unit(const Field& field, const Meaning& meaning, std::size_t place);
   void check_group(Kind kind, std::string_view word, int expected) const;
   void place(Kind kind, int& next);
-  Group& group(Kind kind) { return groups_[static_cast<std::size_t>(kind)]; }
-  [[nodiscard]] const Group& group(Kind kind) const {
+  ColumnGroup& group(Kind kind) { return groups_[static_cast<std::size_t>(kind)]; }
+  [[nodiscard]] const ColumnGroup& group(Kind kind) const {
     return groups_[static_cast<std::size_t>(kind)];
   }
 
@@ -171,7 +171,7 @@ class HeaderReader {
   NoticeLog* log_;
   Columns columns_;
   std::vector<Field> fields_;
-  std::array<Group, 9> groups_;
+  std::array<ColumnGroup, 9> groups_;
   std::vector<std::string> units_;  ///< per field
 };
 

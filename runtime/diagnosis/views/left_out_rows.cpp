@@ -115,14 +115,14 @@ void mark_rests(EffectRun& run, const Motion& motion, const Eigen::VectorXd& sti
 
 namespace {
 
-struct Range {
+struct PieceRange {
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -std::numeric_limits<double>::infinity();
   [[nodiscard]] bool holds(double q) const { return q >= lowest && q <= highest; }
 };
 
-Range visited(const EffectRecordings& data, Index joint) {
-  Range range;
+PieceRange visited(const EffectRecordings& data, Index joint) {
+  PieceRange range;
   for (const EffectRun& run : data.runs) {
     const auto q = run.motion.q.col(joint);
     range.lowest = std::min(range.lowest, q.minCoeff());
@@ -135,7 +135,7 @@ Range visited(const EffectRecordings& data, Index joint) {
 
 void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& train) {
   for (Index j = 0; j < heldout.joints(); ++j) {
-    const Range range = visited(train, j);
+    const PieceRange range = visited(train, j);
     double all = 0;
     std::vector<std::vector<Index>> outside;
     double count = 0;

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Identified numbers in URDF and MJCF: the torque is the identified robot's, all else is as it was.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "gen/robot_input/robot_input.h"
+#include "gen/robot_output/robot_tree.h"
+#include "runtime/tools/dynid/effects/effect_laws.h"
+#include "runtime/tools/dynid/robot/description_bodies.h"
+#include "runtime/tools/dynid/robot/identified_description.h"
+#include "runtime/tools/dynid/robot/identified_file.h"
+#include "tests/gen/robot_input/description_text.h"
+#include "tests/support/model_bridge.h"
+#include "tests/support/numeric_dynamics.h"
+#include "tests/support/temporary_path.h"
+
+namespace dyngen::runtime {
+namespace {
+
+using test::MadeLink;
+
+/// The same arm with other masses, centres, moments and friction.
+std::vector<MadeLink> with_other_bodies(std::vector<MadeLink> links, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> factor(0.8, 1.25), shift(-0.01, 0.01);
+  for (MadeLink& link : links) {
+    const double mass = factor(random);
+    link.mass *= mass;
+    link.inertia *= mass * factor(random);
+    for (double& value : link.centre) value += link.mass > 0 ? shift(random) : 0;
+    link.damping *= factor(random);
+    link.friction *= factor(random);
+  }
+  return links;
+}
+
+/// What dynid writes of the arm if its base parameters are found exactly.
+std::string identified_base_parameters(const std::vector<MadeLink>& links) {
+  const DescribedRobot robot =
+      describe_robot(parse_robot(urdf_of(links), "truth.urdf"), OpenParameters::kEverything);
+  const Eigen::VectorXd beta = robot.grouping * numbers_of(build_model(robot.file));
+  return identified_text(robot, carried(robot, beta), {{"fitted"}, {}, {}});
+}
+
+std::string written(const std::string& path, const std::string& text) {
+  std::ofstream(path) << text;
+  return path;
+}
+
+IdentifiedDescription into(const std::string& path, const std::string& identified) {
+  WriteBackTask task;
+  task.description = RobotSource(path);
+  task.comment = {"fitted -- by a test"};
+  return identified_description(identified, "truth.robot", task, effect_catalogue({}));
+}
+
+/// Torques without dry friction, by plain Newton and Euler over the links that a description names.
+void expect_torques(const std::string& text, const std::vector<MadeLink>& links) {
+  test::NumericRobot robot = test::numeric_robot(build_model(parse_robot(text, "w.urdf")));
+  for (test::NumericJoint& joint : robot.joints) joint.Fs = 0;
+  const RobotModel model = build_model(parse_robot(text, "w.urdf"));
+  const std::vector<int> order = test::depth_first(links);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-2, 2);
+  for (int sample = 0; sample < 3; ++sample) {
+    std::vector<double> q(order.size()), dq(q), ddq(q);
+    for (auto* values : {&q, &dq, &ddq}) {
+      for (double& value : *values) value = number(random);
+    }
+    const std::vector<double> expected = test::torques_of(links, q, dq, ddq);
+    std::vector<double> all_q(robot.size()), all_dq(all_q), all_ddq(all_q);
+    for (std::size_t j = 0; j < robot.size(); ++j) {
+      const int c = model.joints[j].coordinate;
+      if (c < 0) continue;
+      const auto place = static_cast<std::size_t>(order[static_cast<std::size_t>(c)]);
+      all_q[j] = q[place];
+      all_dq[j] = dq[place];
+      all_ddq[j] = ddq[place];
+    }
+    const std::vector<double> found = test::id(robot, all_q, all_dq, all_ddq);
+    double size = 0;
+    for (const double value : expected) size = std::max(size, std::fabs(value));
+    for (std::size_t j = 0; j < robot.size(); ++j) {
+      const int c = model.joints[j].coordinate;
+      if (c < 0) continue;
+      const auto place = static_cast<std::size_t>(order[static_cast<std::size_t>(c)]);
+      EXPECT_NEAR(found[j], expected[place], 1e-9 * size) << "joint " << c + 1;
+    }
+  }
+}
+
+/// A description without what may change.
+std::string frame_of_text(const std::string& text) {
+  std::string rest = std::regex_replace(text, std::regex("<inertial[^]*?</inertial>"), "");
+  rest = std::regex_replace(rest, std::regex("<dynamics[^>]*>"), "");
+  return std::regex_replace(rest, std::regex("\n  <!--[^]*?-->"), "");
+}
+
+TEST(WriteBack, UrdfHasTheTorqueOfTheFit) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<MadeLink> links = test::made_robot(seed);
+    const std::vector<MadeLink> nominal = with_other_bodies(links, seed);
+    const std::string before = urdf_of(nominal);
+    const std::string path = written(test::temporary_path("nominal.urdf"), before);
+    const IdentifiedDescription result = into(path, identified_base_parameters(links));
+    EXPECT_TRUE(result.left_out.empty());
+    EXPECT_NE(result.text, before);
+    EXPECT_EQ(frame_of_text(result.text), frame_of_text(before));
+    EXPECT_NE(result.text.find("fitted - - by a test"), std::string::npos);
+    expect_torques(result.text, links);
+    if (HasFailure()) return;
+  }
+}
+
+TEST(WriteBack, OfItsOwnNumbersChangesNothing) {
+  const std::vector<MadeLink> links = test::made_robot(4);
+  const std::string before = urdf_of(links);
+  const std::string path = written(test::temporary_path("own.urdf"), before);
+  WriteBackTask task;
+  task.description = RobotSource(path);
+  const std::string same = parse_robot(before, path).text;
+  EXPECT_EQ(identified_description(same, "own.robot", task, effect_catalogue({})).text, before);
+}
+
+TEST(WriteBack, AnotherArmIsRefused) {
+  const std::string path =
+      written(test::temporary_path("other.urdf"), urdf_of(test::made_robot(2)));
+  std::vector<MadeLink> longer = test::made_robot(2);
+  for (MadeLink& link : longer) link.xyz *= 1.1;
+  EXPECT_THROW(into(path, identified_base_parameters(longer)), ModelError);
+}
+
+TEST(WriteBack, NegativeMassesHaveNoBodies) {
+  std::vector<MadeLink> links = test::made_robot(5);
+  const std::string path = written(test::temporary_path("negative.urdf"), urdf_of(links));
+  for (MadeLink& link : links) link.inertia *= -1, link.mass *= -1;
+  EXPECT_THROW(into(path, identified_base_parameters(links)), NoBodiesError);
+}
+
+constexpr const char* kPendulum = R"(<mujoco>
+  <compiler angle="degree"/>
+  <worldbody>
+    <body name="arm">  <!-- stays -->
+      <joint name="swing" type="hinge" axis="0 1 0" damping="0.1"/>
+      <inertial pos="0.2 0 0" mass="2" diaginertia="0.01 0.05 0.05"/>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor name="m" joint="swing" gear="50"/>
+  </actuator>
+</mujoco>
+)";
+
+/// What dynid diagnose writes of the pendulum with such rows.
+std::string pendulum_with(const std::vector<std::string>& rows, const std::string& path) {
+  std::string text = parse_robot(kPendulum, path).text;
+  const std::size_t stop = text.rfind("stop");
+  for (const std::string& row : rows) text.insert(stop, row + "\n");
+  return text;
+}
+
+TEST(WriteBack, FindingsBecomeFieldsOfMujoco) {
+  const std::string path = written(test::temporary_path("pendulum.xml"), kPendulum);
+  const std::string text = into(path, pendulum_with({"effect linear_spring joint=1 k=4 c=-2",
+                                                     "effect joint_torque_gain joint=1 gain=0.25",
+                                                     "effect actuator_lag joint=1 T=0.004"},
+                                                    path))
+                               .text;
+  EXPECT_NE(text.find("stiffness=\"4\""), std::string::npos) << text;
+  // k q + c is 0 at 0.5 rad, which this file writes in degrees
+  std::smatch reference;
+  ASSERT_TRUE(std::regex_search(text, reference, std::regex("springref=\"([^\"]*)\""))) << text;
+  EXPECT_NEAR(std::stod(reference[1]), 0.5 * 180 / 3.14159265358979323846, 1e-9);
+  EXPECT_NE(text.find("<general name=\"m\" joint=\"swing\" gear=\"40\" dyntype=\"filter\" "
+                      "dynprm=\"0.004\"/>"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("<!-- stays -->"), std::string::npos);
+}
+
+TEST(WriteBack, WhatHasNoFieldIsNamed) {
+  const std::string path = written(test::temporary_path("named.xml"), kPendulum);
+  const IdentifiedDescription result =
+      into(path, pendulum_with({"effect stribeck joint=1 Fs=2 vs=0.05 delta=2"}, path));
+  ASSERT_EQ(result.left_out.size(), 1U);
+  EXPECT_EQ(result.left_out[0].what, "stribeck of joint 1");
+  EXPECT_NE(result.text.find("stribeck of joint 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dyngen::runtime
