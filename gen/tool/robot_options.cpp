@@ -10,6 +10,11 @@ CLI::Option* add_robot(CLI::App& command, RobotSource& robot, const std::string&
       command.add_option("robot", robot.path, words + ": .robot, URDF, MJCF or SYMORO's .par")
           ->required()
           ->type_name("FILE");
+  add_robot_part(command, robot);
+  return file;
+}
+
+void add_robot_part(CLI::App& command, RobotSource& robot) {
   command
       .add_option("--base", robot.base,
                   "of URDF and MJCF: the link that stands still (default: the root)")
@@ -26,7 +31,6 @@ CLI::Option* add_robot(CLI::App& command, RobotSource& robot, const std::string&
                   "(1e-4 makes 1.5708 a right angle)")
       ->check(CLI::Range(0.0, 0.01))
       ->type_name("TOL");
-  return file;
 }
 
 }  // namespace dyngen

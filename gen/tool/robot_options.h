@@ -8,7 +8,7 @@
 namespace CLI {
 class App;
 class Option;
-}
+}  // namespace CLI
 
 namespace dyngen {
 
@@ -16,5 +16,8 @@ namespace dyngen {
 /// it.
 /// @param words  what the file is to the command
 CLI::Option* add_robot(CLI::App& command, RobotSource& robot, const std::string& words);
+
+/// Which part of a description the robot is: --base, --tip, --round-angles.
+void add_robot_part(CLI::App& command, RobotSource& robot);
 
 }  // namespace dyngen

@@ -70,7 +70,7 @@ ColumnLookup::Scope ColumnLookup::scope(const MapPlace& place, const std::string
   return where;
 }
 
-void ColumnLookup::collect(const Scope& where, const std::string& name, Quantity quantity,
+void ColumnLookup::collect(const Scope& where, const std::string& name, ColumnQuantity quantity,
                            bool bare, std::vector<ColumnPlace>& found) const {
   const NameAndUnit asked = name_and_unit(name);
   const std::string_view bare_name =
@@ -120,7 +120,7 @@ void ColumnLookup::fail_to_find(const MapPlace& place, const Scope& where,
 
 std::optional<ColumnPlace> ColumnLookup::find(const MapPlace& place, const std::string& file,
                                               const std::string& table, const std::string& name,
-                                              Quantity quantity, bool required) const {
+                                              ColumnQuantity quantity, bool required) const {
   const Scope where = scope(place, file, table);
   std::vector<ColumnPlace> found;
   collect(where, name, quantity, false, found);
@@ -148,7 +148,7 @@ std::optional<ColumnPlace> ColumnLookup::find(const MapPlace& place, const std::
 
 std::vector<ColumnPlace> ColumnLookup::find_all(const ColumnNames& columns, const std::string& file,
                                                 const std::string& table, std::size_t joints,
-                                                Quantity quantity) const {
+                                                ColumnQuantity quantity) const {
   std::vector<ColumnPlace> found;
   const bool pattern = columns.names.size() == 1 && is_column_pattern(columns.names.front());
   if (!pattern) {
@@ -188,14 +188,14 @@ std::optional<ColumnPlace> ColumnLookup::clock_of(const ColumnPlace& other) cons
   const std::string& name = map_->time.column;
   const NameAndUnit asked = name_and_unit(name);
   const std::string_view bare_name =
-      unit_conversion(asked.unit, Quantity::kTime) ? asked.name : std::string_view(name);
+      unit_conversion(asked.unit, ColumnQuantity::kTime) ? asked.name : std::string_view(name);
   const auto make = [&](std::size_t c, std::string unit) {
     return ColumnPlace{other.log, other.table, c, name, std::move(unit)};
   };
   for (const bool bare : {false, true}) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       const NameAndUnit parts = name_and_unit(table.columns[c]);
-      const bool has_unit = unit_conversion(parts.unit, Quantity::kTime).has_value();
+      const bool has_unit = unit_conversion(parts.unit, ColumnQuantity::kTime).has_value();
       if (bare ? (has_unit ? parts.name : std::string_view(table.columns[c])) != bare_name
                : table.columns[c] != name && !is_called(table, table.columns[c], name)) {
         continue;

@@ -37,8 +37,8 @@ std::string column_of_joint(const std::string& pattern, std::size_t joint,
 /// Whether a name stands for a column of each joint.
 bool is_column_pattern(const std::string& name);
 
-/// Finds columns of opened logs by the names that a map has for them: the column's own name, with or
-/// without a unit in brackets at its end; "table.column" and "table/column"; the table's name if
+/// Finds columns of opened logs by the names that a map has for them: the column's own name, with
+/// or without a unit in brackets at its end; "table.column" and "table/column"; the table's name if
 /// it has one column. Names that several tables have need the map's `table`.
 class ColumnLookup {
  public:
@@ -51,14 +51,14 @@ class ColumnLookup {
   /// @throws ImportError  if several tables have it, or none has and `required`
   [[nodiscard]] std::optional<ColumnPlace> find(const MapPlace& place, const std::string& file,
                                                 const std::string& table, const std::string& name,
-                                                Quantity quantity, bool required) const;
+                                                ColumnQuantity quantity, bool required) const;
 
   /// One for each joint.
   /// @param joints  0: as many as a pattern finds, or as there are names
   [[nodiscard]] std::vector<ColumnPlace> find_all(const ColumnNames& columns,
-                                                  const std::string& file,
-                                                  const std::string& table, std::size_t joints,
-                                                  Quantity quantity) const;
+                                                  const std::string& file, const std::string& table,
+                                                  std::size_t joints,
+                                                  ColumnQuantity quantity) const;
 
   /// The time column in the table of another one; nothing if it has none.
   [[nodiscard]] std::optional<ColumnPlace> clock_of(const ColumnPlace& other) const;
@@ -72,7 +72,7 @@ class ColumnLookup {
   };
   [[nodiscard]] Scope scope(const MapPlace& place, const std::string& file,
                             const std::string& table) const;
-  void collect(const Scope& where, const std::string& name, Quantity quantity, bool bare,
+  void collect(const Scope& where, const std::string& name, ColumnQuantity quantity, bool bare,
                std::vector<ColumnPlace>& found) const;
   [[noreturn]] void fail_to_find(const MapPlace& place, const Scope& where,
                                  const std::string& name) const;

@@ -98,7 +98,7 @@ class ImportedRows : public SampleSource {
   void find_signals(const ColumnLookup& lookup);
   void choose_joints(const ColumnLookup& lookup);
   void add_signal(const ColumnLookup& lookup, const std::optional<SignalMap>& signal,
-                  Quantity quantity, std::size_t& target);
+                  ColumnQuantity quantity, std::size_t& target);
   void add_columns(const std::vector<ColumnPlace>& columns, double delay, Between between);
   void find_duty(const ColumnLookup& lookup);
   void tell_unit_conflicts(const SignalMap& signal, const std::vector<ColumnPlace>& columns);
@@ -131,7 +131,8 @@ void ImportedRows::choose_joints(const ColumnLookup& lookup) {
   const SignalMap& position = *map_.position;
   if (joints_ == 0) {
     joints_ =
-        lookup.find_all(position.columns, position.file, position.table, 0, Quantity::kPosition)
+        lookup
+            .find_all(position.columns, position.file, position.table, 0, ColumnQuantity::kPosition)
             .size();
   }
   layout_.joints = static_cast<int>(joints_);
@@ -154,9 +155,9 @@ void ImportedRows::tell_unit_conflicts(const SignalMap& signal,
 }
 
 void ImportedRows::add_signal(const ColumnLookup& lookup, const std::optional<SignalMap>& signal,
-                              Quantity quantity, std::size_t& target) {
+                              ColumnQuantity quantity, std::size_t& target) {
   if (!signal) return;
-  const bool temperature = quantity == Quantity::kTemperature;
+  const bool temperature = quantity == ColumnQuantity::kTemperature;
   if (signal->duty) {
     target += joints_;
     return;
@@ -175,7 +176,7 @@ void ImportedRows::add_signal(const ColumnLookup& lookup, const std::optional<Si
   placed.transform.emplace(map_, *signal, quantity, found, lookup);
   tell_unit_conflicts(*signal, found);
   add_columns(found, signal->delay,
-              quantity == Quantity::kPosition ? Between::kCubic : Between::kLine);
+              quantity == ColumnQuantity::kPosition ? Between::kCubic : Between::kLine);
   if (temperature) layout_.temperatures = static_cast<int>(found.size());
   target += found.size();
   signals_.push_back(std::move(placed));
@@ -187,29 +188,30 @@ void ImportedRows::find_duty(const ColumnLookup& lookup) {
   const DutyTorque& law = *signal.duty;
   duty_.emplace(map_, signal, joints_);
   duty_first_ = columns_.size();
-  add_columns(lookup.find_all(law.duty, signal.file, signal.table, joints_, Quantity::kTorque),
-              signal.delay, Between::kLine);
+  add_columns(
+      lookup.find_all(law.duty, signal.file, signal.table, joints_, ColumnQuantity::kTorque),
+      signal.delay, Between::kLine);
   voltage_first_ = columns_.size();
   if (law.voltage.names.empty()) return;
   ColumnNames names = law.voltage;
   if (names.names.size() == 1 && !is_column_pattern(names.names.front())) {
     names.names.assign(joints_, names.names.front());  // one supply for all
   }
-  add_columns(lookup.find_all(names, signal.file, signal.table, joints_, Quantity::kTorque),
+  add_columns(lookup.find_all(names, signal.file, signal.table, joints_, ColumnQuantity::kTorque),
               signal.delay, Between::kLine);
 }
 
 void ImportedRows::find_signals(const ColumnLookup& lookup) {
   std::size_t target = 1;
-  add_signal(lookup, map_.position, Quantity::kPosition, target);
+  add_signal(lookup, map_.position, ColumnQuantity::kPosition, target);
   duty_target_ = target;
-  add_signal(lookup, map_.torque, Quantity::kTorque, target);
+  add_signal(lookup, map_.torque, ColumnQuantity::kTorque, target);
   velocity_target_ = target;
-  add_signal(lookup, map_.velocity, Quantity::kVelocity, target);
-  add_signal(lookup, map_.acceleration, Quantity::kAcceleration, target);
-  add_signal(lookup, map_.simulated_torque, Quantity::kTorque, target);
-  add_signal(lookup, map_.link_position, Quantity::kPosition, target);
-  add_signal(lookup, map_.temperature, Quantity::kTemperature, target);
+  add_signal(lookup, map_.velocity, ColumnQuantity::kVelocity, target);
+  add_signal(lookup, map_.acceleration, ColumnQuantity::kAcceleration, target);
+  add_signal(lookup, map_.simulated_torque, ColumnQuantity::kTorque, target);
+  add_signal(lookup, map_.link_position, ColumnQuantity::kPosition, target);
+  add_signal(lookup, map_.temperature, ColumnQuantity::kTemperature, target);
   layout_.tau = map_.torque.has_value();
   layout_.dq = map_.velocity.has_value();
   layout_.ddq = map_.acceleration.has_value();
@@ -237,9 +239,9 @@ ImportedRows::ImportedRows(const ImportMap& map, std::vector<OpenedLog> logs,
   const std::size_t split = columns_.size();
   const auto flags = [&](const ColumnNames& names) {
     if (names.names.empty()) return;
-    add_columns(
-        lookup.find_all(names, runs.file, runs.table, names.names.size(), Quantity::kPosition), 0,
-        Between::kHold);
+    add_columns(lookup.find_all(names, runs.file, runs.table, names.names.size(),
+                                ColumnQuantity::kPosition),
+                0, Between::kHold);
   };
   flags(runs.split);
   const std::size_t keep = columns_.size();

@@ -74,15 +74,15 @@ void JointTransform::set_sides(const ImportMap& map, const SignalMap& signal, st
   clear_rounding(matrix_);
 }
 
-JointTransform::JointTransform(const ImportMap& map, const SignalMap& signal, Quantity quantity,
-                               const std::vector<ColumnPlace>& columns,
+JointTransform::JointTransform(const ImportMap& map, const SignalMap& signal,
+                               ColumnQuantity quantity, const std::vector<ColumnPlace>& columns,
                                const ColumnLookup& lookup) {
   for (std::size_t j = 0; j < columns.size(); ++j) {
     const bool told = !signal.units.empty();
     const std::string& unit =
         told ? signal.units.size() == 1 ? signal.units.front() : signal.units[j] : columns[j].unit;
     if (unit.empty()) {
-      if (quantity == Quantity::kTemperature) {
+      if (quantity == ColumnQuantity::kTemperature) {
         conversions_.emplace_back();
         factors_.push_back(1);
         continue;
@@ -131,12 +131,12 @@ JointTransform::JointTransform(const ImportMap& map, const SignalMap& signal, Qu
     conversions_.push_back(known->conversion);
     factors_.push_back(factor);
   }
-  if (quantity == Quantity::kTemperature) {
+  if (quantity == ColumnQuantity::kTemperature) {
     offsets_.assign(columns.size(), 0);
     measured_.resize(static_cast<Index>(columns.size()));
     return;
   }
-  set_sides(map, signal, columns.size(), quantity == Quantity::kTorque);
+  set_sides(map, signal, columns.size(), quantity == ColumnQuantity::kTorque);
 }
 
 void JointTransform::to_joints(double* joints) const {

@@ -20,7 +20,7 @@ class JointTransform {
  public:
   /// @param units  of each column, from the log; the map's come first
   /// @throws ImportError  a unit is missing or wrong, or a number that it needs
-  JointTransform(const ImportMap& map, const SignalMap& signal, Quantity quantity,
+  JointTransform(const ImportMap& map, const SignalMap& signal, ColumnQuantity quantity,
                  const std::vector<ColumnPlace>& columns, const ColumnLookup& lookup);
 
   /// @param raw  (n)   @param joints  (n), out; NaN where a value that it needs is NaN

@@ -47,14 +47,14 @@ UnitConversion LogJoin::seconds_of(const ImportMap& map, const ColumnLookup& loo
     lookup.fail(map.time.place,
                 fmt::format("found no unit of time, and the log has none for {}: "
                             "expected 'unit', {}",
-                            runtime::quoted(place.name), known_units(Quantity::kTime)));
+                            runtime::quoted(place.name), known_units(ColumnQuantity::kTime)));
   }
-  const auto conversion = unit_conversion(unit, Quantity::kTime);
+  const auto conversion = unit_conversion(unit, ColumnQuantity::kTime);
   if (!conversion) {
     lookup.fail(map.time.place, fmt::format("found unit {} of {} in the log, expected {}; 'unit' "
                                             "in the map overrides it",
                                             runtime::quoted(unit), runtime::quoted(place.name),
-                                            known_units(Quantity::kTime)));
+                                            known_units(ColumnQuantity::kTime)));
   }
   return *conversion;
 }
@@ -65,7 +65,8 @@ void LogJoin::set_clock(const ImportMap& map, const ColumnLookup& lookup,
   if (rate_ > 0) return;
   const ColumnPlace& lead = columns.front().place;
   std::optional<ColumnPlace> clock = lookup.clock_of(lead);
-  if (!clock) clock = lookup.find(map.time.place, {}, {}, map.time.column, Quantity::kTime, true);
+  if (!clock)
+    clock = lookup.find(map.time.place, {}, {}, map.time.column, ColumnQuantity::kTime, true);
   clock_table_ = table_of(*clock);
   const auto own = [&](std::size_t table, const ColumnPlace& place) {
     tables_[table].clock = ClockKind::kOwn;

@@ -60,8 +60,9 @@ class MapFileReader {
   void read_joints(const MapEntries& top);
   void read_files(const YAML::Node& node);
   void read_time(const YAML::Node& node);
-  std::optional<SignalMap> read_signal(const MapEntries& top, const char* key, Quantity quantity);
-  void read_units(const MapEntries& entries, Quantity quantity, SignalMap& signal);
+  std::optional<SignalMap> read_signal(const MapEntries& top, const char* key,
+                                       ColumnQuantity quantity);
+  void read_units(const MapEntries& entries, ColumnQuantity quantity, SignalMap& signal);
   void read_sides(const MapEntries& entries, SignalMap& signal);
   void read_duty(const MapEntries& entries, SignalMap& signal);
   void read_gears(const MapEntries& top);
@@ -188,14 +189,15 @@ void MapFileReader::read_time(const YAML::Node& node) {
   if (entries.has("column") == entries.has("rate")) {
     faults_.add(time.place, "expected in 'time' either a column or a rate");
   }
-  if (!time.unit.empty() && !unit_conversion(time.unit, Quantity::kTime)) {
+  if (!time.unit.empty() && !unit_conversion(time.unit, ColumnQuantity::kTime)) {
     faults_.add(entries.place_of_value("unit"),
                 fmt::format("found unit {} of time, expected {}", runtime::quoted(time.unit),
-                            known_units(Quantity::kTime)));
+                            known_units(ColumnQuantity::kTime)));
   }
 }
 
-void MapFileReader::read_units(const MapEntries& entries, Quantity quantity, SignalMap& signal) {
+void MapFileReader::read_units(const MapEntries& entries, ColumnQuantity quantity,
+                               SignalMap& signal) {
   signal.units = entries.texts("unit");
   signal.unit_place = entries.place_of_value("unit");
   note_length(signal.unit_place, "units", signal.units.size());
@@ -251,10 +253,10 @@ void MapFileReader::read_duty(const MapEntries& entries, SignalMap& signal) {
 }
 
 std::optional<SignalMap> MapFileReader::read_signal(const MapEntries& top, const char* key,
-                                                    Quantity quantity) {
+                                                    ColumnQuantity quantity) {
   const YAML::Node* node = top.find(key);
   if (node == nullptr) return std::nullopt;
-  const bool torque = quantity == Quantity::kTorque;
+  const bool torque = quantity == ColumnQuantity::kTorque;
   const auto entries = [&] {
     if (torque) {
       return MapEntries(
@@ -263,7 +265,7 @@ std::optional<SignalMap> MapFileReader::read_signal(const MapEntries& top, const
            "constant", "efficiency", "rated", "duty", "full", "voltage", "resistance", "back_emf"},
           faults_);
     }
-    if (quantity == Quantity::kTemperature) {
+    if (quantity == ColumnQuantity::kTemperature) {
       return MapEntries(*node, key, {"columns", "column", "unit", "delay", "file", "table"},
                         faults_);
     }
@@ -279,7 +281,7 @@ std::optional<SignalMap> MapFileReader::read_signal(const MapEntries& top, const
   signal.table = entries.text("table");
   signal.columns = entries.columns(entries.has("column") ? "column" : "columns");
   note_length(signal.columns.place, "columns",
-              quantity == Quantity::kTemperature ? 0 : signal.columns.names.size());
+              quantity == ColumnQuantity::kTemperature ? 0 : signal.columns.names.size());
   read_units(entries, quantity, signal);
   read_sides(entries, signal);
   const auto numbers = [&](const char* own, MapNumber kind) {
@@ -322,7 +324,7 @@ std::optional<SignalMap> MapFileReader::read_signal(const MapEntries& top, const
     faults_.add(signal.place, fmt::format("expected in '{}' one of 'columns'{}", key,
                                           torque ? ", 'column' and 'duty'" : " and 'column'"));
   }
-  if ((quantity == Quantity::kVelocity || quantity == Quantity::kAcceleration) &&
+  if ((quantity == ColumnQuantity::kVelocity || quantity == ColumnQuantity::kAcceleration) &&
       entries.has("offset")) {
     faults_.add(
         entries.place_of_value("offset"),
@@ -519,13 +521,13 @@ ImportMap MapFileReader::read(const YAML::Node& root) {
                 "found no 'time', expected its column ('{column: t, unit: s}') or the rate "
                 "('{rate: 1000 Hz}')");
   }
-  map_.position = read_signal(top, "position", Quantity::kPosition);
-  map_.velocity = read_signal(top, "velocity", Quantity::kVelocity);
-  map_.acceleration = read_signal(top, "acceleration", Quantity::kAcceleration);
-  map_.torque = read_signal(top, "torque", Quantity::kTorque);
-  map_.simulated_torque = read_signal(top, "simulated_torque", Quantity::kTorque);
-  map_.link_position = read_signal(top, "link_position", Quantity::kPosition);
-  map_.temperature = read_signal(top, "temperature", Quantity::kTemperature);
+  map_.position = read_signal(top, "position", ColumnQuantity::kPosition);
+  map_.velocity = read_signal(top, "velocity", ColumnQuantity::kVelocity);
+  map_.acceleration = read_signal(top, "acceleration", ColumnQuantity::kAcceleration);
+  map_.torque = read_signal(top, "torque", ColumnQuantity::kTorque);
+  map_.simulated_torque = read_signal(top, "simulated_torque", ColumnQuantity::kTorque);
+  map_.link_position = read_signal(top, "link_position", ColumnQuantity::kPosition);
+  map_.temperature = read_signal(top, "temperature", ColumnQuantity::kTemperature);
   read_gears(top);
   if (const YAML::Node* node = top.find("runs")) read_runs(*node);
   check_lengths();

@@ -74,7 +74,7 @@ std::optional<double> factor_of_word(const std::array<WordFactor, kCount>& words
   return std::nullopt;
 }
 
-std::optional<double> converted(double value, std::string_view unit, Quantity quantity) {
+std::optional<double> converted(double value, std::string_view unit, ColumnQuantity quantity) {
   const auto conversion = unit_conversion(unit, quantity);
   return conversion ? std::optional((*conversion)(value)) : std::nullopt;
 }
@@ -95,13 +95,13 @@ std::optional<double> with_unit(double value, std::string_view unit, MapNumber k
     case MapNumber::kRatio:
       return std::nullopt;
     case MapNumber::kDuration:
-      return converted(value, unit, Quantity::kTime);
+      return converted(value, unit, ColumnQuantity::kTime);
     case MapNumber::kRate:
       return times(value, factor_of_word(kRates, unit));
     case MapNumber::kPosition:
-      return converted(value, unit, Quantity::kPosition);
+      return converted(value, unit, ColumnQuantity::kPosition);
     case MapNumber::kTorque:
-      return converted(value, unit, Quantity::kTorque);
+      return converted(value, unit, ColumnQuantity::kTorque);
     case MapNumber::kConstant:
       return times(value, factor_of_word(kConstants, unit));
     case MapNumber::kVoltage:

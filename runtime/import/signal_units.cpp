@@ -5,17 +5,17 @@
 
 namespace dyngen::runtime {
 
-std::optional<SignalUnit> signal_unit(std::string_view word, Quantity quantity) {
+std::optional<SignalUnit> signal_unit(std::string_view word, ColumnQuantity quantity) {
   if (const auto plain = unit_conversion(word, quantity)) return SignalUnit{RawKind::kSi, *plain};
   const std::string_view inside = without_brackets(word);
   const std::string unit = plain_unit(inside);
   const bool counts = unit == "counts" || unit == "count" || unit == "ticks";
   const bool count_rate = unit == "counts/s" || unit == "ticks/s";
-  if ((quantity == Quantity::kPosition && counts) ||
-      (quantity == Quantity::kVelocity && count_rate)) {
+  if ((quantity == ColumnQuantity::kPosition && counts) ||
+      (quantity == ColumnQuantity::kVelocity && count_rate)) {
     return SignalUnit{RawKind::kCounts, {}};
   }
-  if (quantity == Quantity::kTorque) {
+  if (quantity == ColumnQuantity::kTorque) {
     if (unit == "a" || unit == "ampere" || unit == "amp") return SignalUnit{RawKind::kCurrent, {}};
     // "MA" would be a million amperes
     if (unit == "ma" && inside.front() != 'M') {
@@ -26,18 +26,18 @@ std::optional<SignalUnit> signal_unit(std::string_view word, Quantity quantity) 
   return std::nullopt;
 }
 
-std::string known_signal_units(Quantity quantity) {
+std::string known_signal_units(ColumnQuantity quantity) {
   std::string units(known_units(quantity));
   switch (quantity) {
-    case Quantity::kPosition:
+    case ColumnQuantity::kPosition:
       return "rad, deg, rev, counts, m, mm or the like";
-    case Quantity::kVelocity:
+    case ColumnQuantity::kVelocity:
       return "rad/s, deg/s, rpm, counts/s, m/s, mm/s or the like";
-    case Quantity::kTorque:
+    case ColumnQuantity::kTorque:
       return "N m, mN m, N mm, N cm, kN m, N, mN, kN, A, mA or %";
-    case Quantity::kTime:
-    case Quantity::kAcceleration:
-    case Quantity::kTemperature:
+    case ColumnQuantity::kTime:
+    case ColumnQuantity::kAcceleration:
+    case ColumnQuantity::kTemperature:
       break;
   }
   return units;

@@ -26,10 +26,10 @@ struct SignalUnit {
 
 /// Knows besides unit_conversion(): counts, counts/s, of torques A, mA and %.
 /// @return nothing if the word is no unit of this quantity
-std::optional<SignalUnit> signal_unit(std::string_view word, Quantity quantity);
+std::optional<SignalUnit> signal_unit(std::string_view word, ColumnQuantity quantity);
 
 /// For messages.
-std::string known_signal_units(Quantity quantity);
+std::string known_signal_units(ColumnQuantity quantity);
 
 /// A name without a unit in brackets at its end: "A1" of "A1 [deg]"; what is in the brackets.
 struct NameAndUnit {

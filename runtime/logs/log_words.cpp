@@ -153,9 +153,9 @@ bool is_log_unit(std::string_view word) {
   // single letters are names more often than not
   constexpr std::string_view kLetters = "AVWJFCKNsmg1%-";
   if (word.size() == 1) return kLetters.find(word.front()) != kLetters.npos;
-  for (const Quantity quantity :
-       {Quantity::kTime, Quantity::kPosition, Quantity::kVelocity, Quantity::kAcceleration,
-        Quantity::kTorque, Quantity::kTemperature}) {
+  for (const ColumnQuantity quantity :
+       {ColumnQuantity::kTime, ColumnQuantity::kPosition, ColumnQuantity::kVelocity,
+        ColumnQuantity::kAcceleration, ColumnQuantity::kTorque, ColumnQuantity::kTemperature}) {
     if (unit_conversion(word, quantity)) return true;
   }
   const std::string plain = word == "-" ? "-" : plain_unit(word);

@@ -58,25 +58,25 @@ std::optional<Meaning> meaning_of_word(std::string_view name) {
   return Meaning{spelled->kind, value};
 }
 
-Quantity quantity_of(Kind kind) {
+ColumnQuantity quantity_of(Kind kind) {
   switch (kind) {
     case Kind::kTime:
-      return Quantity::kTime;
+      return ColumnQuantity::kTime;
     case Kind::kDq:
-      return Quantity::kVelocity;
+      return ColumnQuantity::kVelocity;
     case Kind::kDdq:
-      return Quantity::kAcceleration;
+      return ColumnQuantity::kAcceleration;
     case Kind::kTau:
     case Kind::kTauSim:
-      return Quantity::kTorque;
+      return ColumnQuantity::kTorque;
     case Kind::kTemperature:
-      return Quantity::kTemperature;
+      return ColumnQuantity::kTemperature;
     case Kind::kQ:
     case Kind::kLinkQ:
     case Kind::kSegment:
       break;
   }
-  return Quantity::kPosition;
+  return ColumnQuantity::kPosition;
 }
 
 /// The meaning of a name that may end with a unit. What stands in brackets is always one; what
@@ -210,7 +210,7 @@ void HeaderReader::read_unit(const Field& field, const Meaning& meaning, std::si
 
 void HeaderReader::sort_out_names() {
   columns_.target.assign(fields_.size(), Columns::kIgnored);
-  columns_.quantities.assign(fields_.size(), Quantity::kPosition);
+  columns_.quantities.assign(fields_.size(), ColumnQuantity::kPosition);
   columns_.conversions.assign(fields_.size(), {});
   units_.assign(fields_.size(), {});
   for (std::size_t i = 0; i < fields_.size(); ++i) {

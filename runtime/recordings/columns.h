@@ -26,9 +26,9 @@ struct Columns {
   static constexpr int kSegment = -2;
 
   Separator separator;
-  std::vector<int> target;           ///< per field: place among the values, kIgnored or kSegment
-  std::vector<std::string> names;    ///< per field, as in the file
-  std::vector<Quantity> quantities;  ///< per field, where target >= 0
+  std::vector<int> target;         ///< per field: place among the values, kIgnored or kSegment
+  std::vector<std::string> names;  ///< per field, as in the file
+  std::vector<ColumnQuantity> quantities;   ///< per field, where target >= 0
   std::vector<UnitConversion> conversions;  ///< per field, to SI
   bool converts = false;                    ///< a conversion changes something
   SampleLayout layout;

@@ -136,41 +136,42 @@ std::string plain_unit(std::string_view word) {
   return normal;
 }
 
-std::optional<UnitConversion> unit_conversion(std::string_view word, Quantity quantity) {
+std::optional<UnitConversion> unit_conversion(std::string_view word, ColumnQuantity quantity) {
   word = without_brackets(word);
   // "MNm" would be a million N m; nobody means that, and nobody should get a thousandth of it.
-  if (word.empty() || (quantity == Quantity::kTorque && word.front() == 'M')) return std::nullopt;
+  if (word.empty() || (quantity == ColumnQuantity::kTorque && word.front() == 'M'))
+    return std::nullopt;
   const std::string normal = plain_unit(word);
   switch (quantity) {
-    case Quantity::kTime:
+    case ColumnQuantity::kTime:
       return find_unit(kTimes, normal);
-    case Quantity::kPosition:
+    case ColumnQuantity::kPosition:
       return find_unit(kLengths, normal);
-    case Quantity::kVelocity:
+    case ColumnQuantity::kVelocity:
       return rate_unit(normal, 1);
-    case Quantity::kAcceleration:
+    case ColumnQuantity::kAcceleration:
       return rate_unit(normal, 2);
-    case Quantity::kTorque:
+    case ColumnQuantity::kTorque:
       return find_unit(kTorques, normal);
-    case Quantity::kTemperature:
+    case ColumnQuantity::kTemperature:
       return find_unit(kTemperatures, normal);
   }
   return std::nullopt;
 }
 
-std::string_view known_units(Quantity quantity) {
+std::string_view known_units(ColumnQuantity quantity) {
   switch (quantity) {
-    case Quantity::kTime:
+    case ColumnQuantity::kTime:
       return "s, ms, us, ns or min";
-    case Quantity::kPosition:
+    case ColumnQuantity::kPosition:
       return "rad, deg, turn, m, mm or the like";
-    case Quantity::kVelocity:
+    case ColumnQuantity::kVelocity:
       return "rad/s, deg/s, rpm, m/s, mm/s or the like";
-    case Quantity::kAcceleration:
+    case ColumnQuantity::kAcceleration:
       return "rad/s^2, deg/s^2, m/s^2, mm/s^2 or the like";
-    case Quantity::kTorque:
+    case ColumnQuantity::kTorque:
       return "N m, mN m, N mm, N cm, kN m, N, mN or kN";
-    case Quantity::kTemperature:
+    case ColumnQuantity::kTemperature:
       return "C or K";
   }
   return {};

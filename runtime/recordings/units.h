@@ -8,7 +8,7 @@
 namespace dyngen::runtime {
 
 /// What a column of a recording measures.
-enum class Quantity { kTime, kPosition, kVelocity, kAcceleration, kTorque, kTemperature };
+enum class ColumnQuantity { kTime, kPosition, kVelocity, kAcceleration, kTorque, kTemperature };
 
 /// A value in SI units is value * factor / divisor + offset. The divisor keeps decimals: 14 ms are
 /// the same number as 0.014 s.
@@ -23,10 +23,10 @@ struct UnitConversion {
 /// The conversion of a unit as programs write it ("deg", "[ms]", "(N m)", "°/s"), to s, rad or m,
 /// rad/s or m/s, rad/s^2 or m/s^2, N m or N, degrees Celsius; nothing if the word is no unit of
 /// this quantity.
-std::optional<UnitConversion> unit_conversion(std::string_view word, Quantity quantity);
+std::optional<UnitConversion> unit_conversion(std::string_view word, ColumnQuantity quantity);
 
 /// Units of a quantity that are known, for messages: "s, ms, us, ns or min".
-std::string_view known_units(Quantity quantity);
+std::string_view known_units(ColumnQuantity quantity);
 
 /// A unit in small ASCII letters, without signs of multiplication: "deg/s" of "[°/s]".
 std::string plain_unit(std::string_view word);

@@ -38,12 +38,12 @@ struct Candidate {
 
 std::optional<ColumnRole> role_of_unit(const std::string& unit) {
   if (unit.empty()) return std::nullopt;
-  constexpr std::array<std::pair<Quantity, ColumnRole>, 5> kRoles = {
-      {{Quantity::kVelocity, ColumnRole::kVelocity},
-       {Quantity::kAcceleration, ColumnRole::kAcceleration},
-       {Quantity::kTorque, ColumnRole::kTorque},
-       {Quantity::kPosition, ColumnRole::kPosition},
-       {Quantity::kTemperature, ColumnRole::kTemperature}}};
+  constexpr std::array<std::pair<ColumnQuantity, ColumnRole>, 5> kRoles = {
+      {{ColumnQuantity::kVelocity, ColumnRole::kVelocity},
+       {ColumnQuantity::kAcceleration, ColumnRole::kAcceleration},
+       {ColumnQuantity::kTorque, ColumnRole::kTorque},
+       {ColumnQuantity::kPosition, ColumnRole::kPosition},
+       {ColumnQuantity::kTemperature, ColumnRole::kTemperature}}};
   for (const auto& [quantity, role] : kRoles) {
     const auto known = signal_unit(unit, quantity);
     if (known && known->kind == RawKind::kCurrent) return ColumnRole::kCurrent;
@@ -64,7 +64,8 @@ std::string yaml_text(const std::string& text) {
 
 std::string yaml_numbers(const std::vector<double>& values) {
   std::string text;
-  for (const double value : values) text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", value);
+  for (const double value : values)
+    text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", value);
   return "[" + text + "]";
 }
 
@@ -108,8 +109,8 @@ class MapGuess {
   std::vector<std::string> lines_;
   std::size_t joints_ = 0;
   int questions_ = 0;
-  double step_ = 0;       ///< s; 0: not known
-  Recording recording_;   ///< time and positions of the first rows, in SI units as guessed
+  double step_ = 0;      ///< s; 0: not known
+  Recording recording_;  ///< time and positions of the first rows, in SI units as guessed
   std::vector<double> gears_;
   std::string position_unit_;
 };
@@ -143,8 +144,8 @@ std::string MapGuess::columns_of(const Candidate& candidate) const {
     text += "]";
   }
   const SampledTable& own = logs_.tables[candidate.table];
-  const bool several = std::any_of(
-      logs_.tables.begin(), logs_.tables.end(), [&](const SampledTable& other) {
+  const bool several =
+      std::any_of(logs_.tables.begin(), logs_.tables.end(), [&](const SampledTable& other) {
         return &other != &own && other.log == own.log && !other.table.name.empty();
       });
   if (several && !own.table.name.empty() && own.table.columns.size() > 1) {
@@ -170,7 +171,7 @@ void MapGuess::find_candidates() {
       if (candidate.unit.empty()) {
         candidate.unit = std::string(name_and_unit(table.columns[first]).unit);
         if (!role_of_unit(candidate.unit) &&
-            !unit_conversion(candidate.unit, Quantity::kTime)) {
+            !unit_conversion(candidate.unit, ColumnQuantity::kTime)) {
           candidate.unit.clear();
         }
       }
@@ -182,7 +183,8 @@ void MapGuess::find_candidates() {
       }
       std::optional<ColumnRole> role = role_of_words(words);
       const std::optional<ColumnRole> by_unit = role_of_unit(candidate.unit);
-      if (by_unit && (!role || *role == ColumnRole::kTime || family.words.size() < 2)) role = by_unit;
+      if (by_unit && (!role || *role == ColumnRole::kTime || family.words.size() < 2))
+        role = by_unit;
       if (by_unit == ColumnRole::kCurrent) role = by_unit;
       if (!role) continue;
       candidate.commanded = commanded_word(words);
@@ -197,8 +199,8 @@ void MapGuess::find_candidates() {
 /// joints are positions, velocities if they are their slopes, and torques.
 void MapGuess::name_headerless() {
   const auto numbered = [](const std::string& name) {
-    return !name.empty() && std::all_of(name.begin(), name.end(),
-                                        [](char c) { return c >= '0' && c <= '9'; });
+    return !name.empty() &&
+           std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
   };
   if (logs_.tables.size() != 1) return;
   const SampledTable& own = logs_.tables.front();
@@ -213,8 +215,12 @@ void MapGuess::name_headerless() {
   }
   std::size_t next = 0;
   if (time >= 0) {
-    candidates_.push_back({0, {names[static_cast<std::size_t>(time)], {static_cast<std::size_t>(time)}, {}},
-                           ColumnRole::kTime, "", ""});
+    candidates_.push_back(
+        {0,
+         {names[static_cast<std::size_t>(time)], {static_cast<std::size_t>(time)}, {}},
+         ColumnRole::kTime,
+         "",
+         ""});
     next = time == 0 ? 1 : 0;
   }
   const std::size_t left = names.size() - (time >= 0 ? 1 : 0);
@@ -342,7 +348,7 @@ void MapGuess::guess_time() {
                    steps.end());
   const double step = steps[steps.size() / 2];
   std::string why = "the log says so", unit = best->unit;
-  if (unit.empty() || !unit_conversion(unit, Quantity::kTime)) {
+  if (unit.empty() || !unit_conversion(unit, ColumnQuantity::kTime)) {
     unit = time_unit(best->family.pattern, step, why);
   }
   const std::string column = yaml_text(best->family.pattern);
@@ -351,7 +357,7 @@ void MapGuess::guess_time() {
     line(fmt::format("time: {{column: {}, unit: \"?\"}}", column));
     return;
   }
-  const UnitConversion seconds = *unit_conversion(unit, Quantity::kTime);
+  const UnitConversion seconds = *unit_conversion(unit, ColumnQuantity::kTime);
   step_ = seconds(step);
   reason(why == "the log says so" ? 99 : kSure,
          fmt::format("{} rises from row to row; unit {}: {}; {:.6g} Hz", best->family.pattern, unit,
@@ -408,9 +414,10 @@ void MapGuess::guess_position() {
                                         : ": as radians they would turn several times");
     } else {
       asks = true;
-      why = fmt::format("values up to {:.4g} are beyond any joint in degrees: are they the motors', "
-                        "or counts",
-                        most);
+      why = fmt::format(
+          "values up to {:.4g} are beyond any joint in degrees: are they the motors', "
+          "or counts",
+          most);
     }
   }
   if (asks) {
@@ -418,8 +425,8 @@ void MapGuess::guess_position() {
     line(fmt::format("position: {{{}, unit: \"?\"}}", columns_of(*chosen)));
     return;
   }
-  reason(sure, fmt::format("{} by name; unit {}: {}", chosen->family.pattern.empty()
-                                                          ? "the first columns are positions"
+  reason(sure, fmt::format("{} by name; unit {}: {}",
+                           chosen->family.pattern.empty() ? "the first columns are positions"
                                                           : chosen->family.pattern,
                            unit, why));
   position_unit_ = unit;
@@ -429,7 +436,7 @@ void MapGuess::guess_position() {
     return;
   }
   line(fmt::format("position: {{{}, unit: {}}}", columns_of(*chosen), unit));
-  const auto conversion = unit_conversion(unit, Quantity::kPosition);
+  const auto conversion = unit_conversion(unit, ColumnQuantity::kPosition);
   if (!conversion || values.rows() != recording_.time.size()) return;
   recording_.q = values.unaryExpr([&](double value) { return (*conversion)(value); });
   recording_.run_starts = {0};
@@ -481,17 +488,18 @@ void MapGuess::guess_velocity() {
     }
   }
   if (unit.empty()) {
-    question(fmt::format("velocities are {} times the slopes of the positions: which unit or gear "
-                         "is it?",
-                         yaml_numbers(slopes)));
+    question(
+        fmt::format("velocities are {} times the slopes of the positions: which unit or gear "
+                    "is it?",
+                    yaml_numbers(slopes)));
     line(fmt::format("velocity: {{{}, unit: \"?\"}}", columns_of(*chosen)));
     return;
   }
   for (const DerivativeFit& fit : all) signs.push_back(fit.judged && fit.slope < 0 ? -1 : 1);
-  reason(sure, fmt::format("{} by name; unit {}: {}", chosen->family.pattern.empty()
-                                                          ? "the second block"
-                                                          : chosen->family.pattern,
-                           unit, why));
+  reason(sure,
+         fmt::format("{} by name; unit {}: {}",
+                     chosen->family.pattern.empty() ? "the second block" : chosen->family.pattern,
+                     unit, why));
   if (std::abs(lag) > step_) {
     remark(fmt::format("it {} the positions by {:.3g} ms: 'delay' takes that off",
                        lag > 0 ? "lags behind" : "is ahead of", 1e3 * std::abs(lag)));
@@ -540,10 +548,10 @@ void MapGuess::note_torque_lag(const MatrixXd& torque) {
   }
   constexpr double kTrusted = 0.6;
   if (best_all > kTrusted && std::abs(lag_all) > step_) {
-    remark(fmt::format("torque seems to {} the motion by some {:.2g} ms (correlation {:.2f}); "
-                       "'dynid check' and 'dynid fit' say it better",
-                       lag_all > 0 ? "lag behind" : "be ahead of", 1e3 * std::abs(lag_all),
-                       best_all));
+    remark(
+        fmt::format("torque seems to {} the motion by some {:.2g} ms (correlation {:.2f}); "
+                    "'dynid check' and 'dynid fit' say it better",
+                    lag_all > 0 ? "lag behind" : "be ahead of", 1e3 * std::abs(lag_all), best_all));
   }
 }
 
@@ -564,13 +572,15 @@ void MapGuess::guess_torque() {
     if (!lines_.empty() && lines_.back().starts_with("torque:")) return;
     if (const Candidate* duty = choose(ColumnRole::kDuty, "torque")) {
       used_.push_back(duty);
-      reason(kPlausible, fmt::format("no torque is recorded; {} is a duty cycle",
-                                     duty->family.pattern));
-      question("which value is full voltage, which voltage, resistance (ohm) and torque constant "
-               "(N m/A) has the servo?");
-      line(fmt::format("torque: {{duty: {}, full: \"?\", voltage: \"?\", resistance: \"?\", "
-                       "constant: \"?\"}}",
-                       yaml_text(duty->family.pattern)));
+      reason(kPlausible,
+             fmt::format("no torque is recorded; {} is a duty cycle", duty->family.pattern));
+      question(
+          "which value is full voltage, which voltage, resistance (ohm) and torque constant "
+          "(N m/A) has the servo?");
+      line(
+          fmt::format("torque: {{duty: {}, full: \"?\", voltage: \"?\", resistance: \"?\", "
+                      "constant: \"?\"}}",
+                      yaml_text(duty->family.pattern)));
       return;
     }
     question("which columns are the torques of the joints?");
@@ -606,9 +616,10 @@ void MapGuess::guess_torque() {
         why = fmt::format("a thousand times the robot's weight ({:.4g} N m)", weight);
       } else {
         asks = true;
-        why = fmt::format("joint {} reaches {:.4g}, its weight takes {:.4g} N m: the motor's side, "
-                          "percent, or another unit",
-                          j + 1, values.col(j).cwiseAbs().maxCoeff(), weight);
+        why = fmt::format(
+            "joint {} reaches {:.4g}, its weight takes {:.4g} N m: the motor's side, "
+            "percent, or another unit",
+            j + 1, values.col(j).cwiseAbs().maxCoeff(), weight);
       }
     }
   }
@@ -617,10 +628,10 @@ void MapGuess::guess_torque() {
     line(fmt::format("torque: {{{}, unit: \"?\"}}", columns_of(*chosen)));
     return;
   }
-  reason(sure, fmt::format("{} by name; unit {}: {}", chosen->family.pattern.empty()
-                                                          ? "the last block"
-                                                          : chosen->family.pattern,
-                           unit, why));
+  reason(sure,
+         fmt::format("{} by name; unit {}: {}",
+                     chosen->family.pattern.empty() ? "the last block" : chosen->family.pattern,
+                     unit, why));
   note_torque_lag(values);
   line(fmt::format("torque: {{{}, unit: {}}}", columns_of(*chosen), unit));
 }
@@ -670,9 +681,10 @@ GuessedMap MapGuess::make() {
     }
   }
   if (!robot_.joints.names.empty()) {
-    const bool by_name = std::any_of(candidates_.begin(), candidates_.end(), [](const Candidate& one) {
-      return one.family.pattern.find("{joint}") != std::string::npos;
-    });
+    const bool by_name =
+        std::any_of(candidates_.begin(), candidates_.end(), [](const Candidate& one) {
+          return one.family.pattern.find("{joint}") != std::string::npos;
+        });
     if (by_name) {
       std::string names;
       for (const std::string& name : robot_.joints.names) {
@@ -691,9 +703,8 @@ GuessedMap MapGuess::make() {
   GuessedMap map;
   map.questions = questions_;
   if (questions_ > 0) {
-    lines_.insert(lines_.begin() + 1,
-                  fmt::format("# {} question{} to be answered: look for \"?\".", questions_,
-                              questions_ == 1 ? " is" : "s are"));
+    lines_.insert(lines_.begin() + 1, fmt::format("# {} question{} to be answered: look for \"?\".",
+                                                  questions_, questions_ == 1 ? " is" : "s are"));
   }
   map.yaml = fmt::format("{}\n", fmt::join(lines_, "\n"));
   return map;

@@ -14,72 +14,72 @@
 namespace dyngen::test {
 namespace {
 
+using runtime::ColumnQuantity;
 using runtime::NumberStyle;
-using runtime::Quantity;
 using runtime::Recording;
 using runtime::unit_conversion;
 
 struct Spelled {
   const char* word;
-  Quantity quantity;
+  ColumnQuantity quantity;
   double si;  ///< of one unit
 };
 
 TEST(Units, AreKnownAsProgramsWriteThem) {
   const double deg = M_PI / 180;
-  const std::vector<Spelled> all = {{"s", Quantity::kTime, 1},
-                                    {"[ms]", Quantity::kTime, 1e-3},
-                                    {"msec", Quantity::kTime, 1e-3},
-                                    {"\xC2\xB5s", Quantity::kTime, 1e-6},
-                                    {"(ns)", Quantity::kTime, 1e-9},
-                                    {"seconds", Quantity::kTime, 1},
-                                    {"rad", Quantity::kPosition, 1},
-                                    {"Deg", Quantity::kPosition, deg},
-                                    {"[\xC2\xB0]", Quantity::kPosition, deg},
-                                    {"\xB0", Quantity::kPosition, deg},  // Latin-1
-                                    {"degrees", Quantity::kPosition, deg},
-                                    {"m", Quantity::kPosition, 1},
-                                    {" mm ", Quantity::kPosition, 1e-3},
-                                    {"turns", Quantity::kPosition, 2 * M_PI},
-                                    {"rad/s", Quantity::kVelocity, 1},
-                                    {"\xC2\xB0/s", Quantity::kVelocity, deg},
-                                    {"deg/sec", Quantity::kVelocity, deg},
-                                    {"mm/s", Quantity::kVelocity, 1e-3},
-                                    {"rpm", Quantity::kVelocity, 2 * M_PI / 60},
-                                    {"rad s^-1", Quantity::kVelocity, 1},
-                                    {"rad/s^2", Quantity::kAcceleration, 1},
-                                    {"deg/s\xC2\xB2", Quantity::kAcceleration, deg},
-                                    {"m/s2", Quantity::kAcceleration, 1},
-                                    {"N m", Quantity::kTorque, 1},
-                                    {"Nm", Quantity::kTorque, 1},
-                                    {"N*m", Quantity::kTorque, 1},
-                                    {"N\xC2\xB7m", Quantity::kTorque, 1},
-                                    {"N.m", Quantity::kTorque, 1},
-                                    {"mNm", Quantity::kTorque, 1e-3},
-                                    {"mN m", Quantity::kTorque, 1e-3},
-                                    {"N mm", Quantity::kTorque, 1e-3},
-                                    {"Ncm", Quantity::kTorque, 1e-2},
-                                    {"kN m", Quantity::kTorque, 1e3},
-                                    {"N", Quantity::kTorque, 1},
-                                    {"C", Quantity::kTemperature, 1}};
+  const std::vector<Spelled> all = {{"s", ColumnQuantity::kTime, 1},
+                                    {"[ms]", ColumnQuantity::kTime, 1e-3},
+                                    {"msec", ColumnQuantity::kTime, 1e-3},
+                                    {"\xC2\xB5s", ColumnQuantity::kTime, 1e-6},
+                                    {"(ns)", ColumnQuantity::kTime, 1e-9},
+                                    {"seconds", ColumnQuantity::kTime, 1},
+                                    {"rad", ColumnQuantity::kPosition, 1},
+                                    {"Deg", ColumnQuantity::kPosition, deg},
+                                    {"[\xC2\xB0]", ColumnQuantity::kPosition, deg},
+                                    {"\xB0", ColumnQuantity::kPosition, deg},  // Latin-1
+                                    {"degrees", ColumnQuantity::kPosition, deg},
+                                    {"m", ColumnQuantity::kPosition, 1},
+                                    {" mm ", ColumnQuantity::kPosition, 1e-3},
+                                    {"turns", ColumnQuantity::kPosition, 2 * M_PI},
+                                    {"rad/s", ColumnQuantity::kVelocity, 1},
+                                    {"\xC2\xB0/s", ColumnQuantity::kVelocity, deg},
+                                    {"deg/sec", ColumnQuantity::kVelocity, deg},
+                                    {"mm/s", ColumnQuantity::kVelocity, 1e-3},
+                                    {"rpm", ColumnQuantity::kVelocity, 2 * M_PI / 60},
+                                    {"rad s^-1", ColumnQuantity::kVelocity, 1},
+                                    {"rad/s^2", ColumnQuantity::kAcceleration, 1},
+                                    {"deg/s\xC2\xB2", ColumnQuantity::kAcceleration, deg},
+                                    {"m/s2", ColumnQuantity::kAcceleration, 1},
+                                    {"N m", ColumnQuantity::kTorque, 1},
+                                    {"Nm", ColumnQuantity::kTorque, 1},
+                                    {"N*m", ColumnQuantity::kTorque, 1},
+                                    {"N\xC2\xB7m", ColumnQuantity::kTorque, 1},
+                                    {"N.m", ColumnQuantity::kTorque, 1},
+                                    {"mNm", ColumnQuantity::kTorque, 1e-3},
+                                    {"mN m", ColumnQuantity::kTorque, 1e-3},
+                                    {"N mm", ColumnQuantity::kTorque, 1e-3},
+                                    {"Ncm", ColumnQuantity::kTorque, 1e-2},
+                                    {"kN m", ColumnQuantity::kTorque, 1e3},
+                                    {"N", ColumnQuantity::kTorque, 1},
+                                    {"C", ColumnQuantity::kTemperature, 1}};
   for (const Spelled& spelled : all) {
     const auto found = unit_conversion(spelled.word, spelled.quantity);
     ASSERT_TRUE(found) << spelled.word;
     EXPECT_DOUBLE_EQ((*found)(1), spelled.si) << spelled.word;
   }
-  EXPECT_DOUBLE_EQ((*unit_conversion("K", Quantity::kTemperature))(300), 300 - 273.15);
+  EXPECT_DOUBLE_EQ((*unit_conversion("K", ColumnQuantity::kTemperature))(300), 300 - 273.15);
 }
 
 TEST(Units, OfAnotherQuantityAreNone) {
-  EXPECT_FALSE(unit_conversion("rad", Quantity::kTime));
-  EXPECT_FALSE(unit_conversion("deg", Quantity::kVelocity));
-  EXPECT_FALSE(unit_conversion("rad/s", Quantity::kPosition));
-  EXPECT_FALSE(unit_conversion("rad/s", Quantity::kAcceleration));
-  EXPECT_FALSE(unit_conversion("A", Quantity::kTorque));
-  EXPECT_FALSE(unit_conversion("%", Quantity::kTorque));
-  EXPECT_FALSE(unit_conversion("MN m", Quantity::kTorque));
-  EXPECT_FALSE(unit_conversion("", Quantity::kPosition));
-  EXPECT_FALSE(unit_conversion("[]", Quantity::kPosition));
+  EXPECT_FALSE(unit_conversion("rad", ColumnQuantity::kTime));
+  EXPECT_FALSE(unit_conversion("deg", ColumnQuantity::kVelocity));
+  EXPECT_FALSE(unit_conversion("rad/s", ColumnQuantity::kPosition));
+  EXPECT_FALSE(unit_conversion("rad/s", ColumnQuantity::kAcceleration));
+  EXPECT_FALSE(unit_conversion("A", ColumnQuantity::kTorque));
+  EXPECT_FALSE(unit_conversion("%", ColumnQuantity::kTorque));
+  EXPECT_FALSE(unit_conversion("MN m", ColumnQuantity::kTorque));
+  EXPECT_FALSE(unit_conversion("", ColumnQuantity::kPosition));
+  EXPECT_FALSE(unit_conversion("[]", ColumnQuantity::kPosition));
 }
 
 /// Twenty rows of one joint in degrees, milliseconds, mN m and degrees per second.

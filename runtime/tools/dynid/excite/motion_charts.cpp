@@ -22,14 +22,14 @@ constexpr Index kSlices = 600;    // of a signal: two values each
 constexpr double kNearly = 0.95;  // of a limit
 
 /// A quantity of all joints over time, and between what it has to stay.
-struct Quantity {
+struct ChartQuantity {
   const char* name;
   const char *of_revolute, *of_prismatic;  ///< units
   const MatrixXd& values;
   VectorXd lower, upper;  ///< infinite: not limited
 };
 
-ReportView view_of(const Quantity& own, const VectorXd& time, const LinearModel& model) {
+ReportView view_of(const ChartQuantity& own, const VectorXd& time, const LinearModel& model) {
   const ThinnedSignals thin = thinned_signals(time, own.values, kSlices);
   ReportView view{own.name, {}};
   for (Index j = 0; j < own.values.cols(); ++j) {

@@ -41,7 +41,8 @@ struct ImportedCount {
 };
 
 /// What the first rows say of their time base, of derivatives, slow columns and, where there is a
-/// robot, of units and signs. The recording is written all the same: whoever reads it hears it again.
+/// robot, of units and signs. The recording is written all the same: whoever reads it hears it
+/// again.
 void tell_doubts(const Recording& first, bool whole, const DescribedRobot* robot) {
   const TimeBase base = examine_time_base(first);
   const std::string where = whole ? "" : " (of the first rows)";
@@ -197,19 +198,19 @@ Eigen::VectorXd gravity_torque(const DescribedRobot& robot, const GuessRobot& gu
   for (Eigen::Index j = 0; j < n; ++j) {
     const bool limits = guess.lowest.size() == n && std::isfinite(guess.lowest[j]) &&
                         std::isfinite(guess.highest[j]);
-    std::uniform_real_distribution<double> place(
-        limits ? guess.lowest[j] : -std::numbers::pi, limits ? guess.highest[j] : std::numbers::pi);
+    std::uniform_real_distribution<double> place(limits ? guess.lowest[j] : -std::numbers::pi,
+                                                 limits ? guess.highest[j] : std::numbers::pi);
     for (Eigen::Index k = 0; k < kPoses; ++k) q(k, j) = place(random);
   }
   const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(kPoses, n);
   return model.torque(q, still, still, beta).cwiseAbs().colwise().maxCoeff().transpose();
 }
 
-GuessRobot guess_robot(const std::string& path) {
+GuessRobot guess_robot(const RobotSource& source) {
   GuessRobot guess;
-  guess.joints = imported_robot(path);
-  if (path.empty()) return guess;
-  const DescribedRobot robot = describe_robot(path, OpenParameters::kAsWritten);
+  guess.joints = imported_robot(source);
+  if (source.empty()) return guess;
+  const DescribedRobot robot = describe_robot(source, OpenParameters::kAsWritten);
   guess.lowest = row_values(robot, RowKey::kQmin);
   guess.highest = row_values(robot, RowKey::kQmax);
   guess.gravity_torque = gravity_torque(robot, guess);
@@ -228,9 +229,10 @@ int write_guess(const ToolOptions& options) {
     std::cout << "written to " << options.output << "\n";
   }
   if (guess.questions > 0) {
-    std::cerr << fmt::format("{} question{} to be answered in the map before it can be used: look "
-                             "for \"?\"\n",
-                             guess.questions, guess.questions == 1 ? " is" : "s are");
+    std::cerr << fmt::format(
+        "{} question{} to be answered in the map before it can be used: look "
+        "for \"?\"\n",
+        guess.questions, guess.questions == 1 ? " is" : "s are");
   }
   return kDone;
 }

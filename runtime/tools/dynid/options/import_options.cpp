@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "gen/tool/robot_options.h"
+
 namespace dyngen::runtime {
 
 std::string ImportOptions::settle(const std::string& output) {
@@ -18,16 +20,19 @@ std::string ImportOptions::settle(const std::string& output) {
   return "";
 }
 
-void add_import(CLI::App& tool, std::string& robot, std::string& output, ImportOptions& options) {
+void add_import(CLI::App& tool, RobotSource& robot, std::string& output, ImportOptions& options) {
   CLI::App* import = tool.add_subcommand(
       "import", "make a recording of logs as they are, by a map of their columns");
-  import->add_option("files", options.files,
-                     "MAP.yaml and logs (CSV and other text, .mat, HDF5, npz, bags, JSON); with "
-                     "--list and --guess logs alone")
+  import
+      ->add_option("files", options.files,
+                   "MAP.yaml and logs (CSV and other text, .mat, HDF5, npz, bags, JSON); with "
+                   "--list and --guess logs alone")
       ->required();
   import->add_option("-o,--output", output,
                      "the recording (.csv, .csv.gz); of --guess the map, else it is printed");
-  import->add_option("--robot", robot, "robot file: its joints, their names and limits");
+  import->add_option("--robot", robot.path,
+                     "robot (.robot, URDF, MJCF or .par): its joints, their names and limits");
+  add_robot_part(*import, robot);
   import->add_flag("--list", options.list, "say which tables and columns the logs have");
   import->add_flag("--guess", options.guess,
                    "write a map: what the columns are, with reasons, and with questions that are "

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "gen/robot_input/robot_source.h"
+
 namespace CLI {
 class App;
 }
@@ -23,6 +25,6 @@ struct ImportOptions {
 };
 
 /// The command import. Each outlives the tool.
-void add_import(CLI::App& tool, std::string& robot, std::string& output, ImportOptions& options);
+void add_import(CLI::App& tool, RobotSource& robot, std::string& output, ImportOptions& options);
 
 }  // namespace dyngen::runtime

@@ -321,10 +321,11 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   if (parsed.options.command == Command::kSimulate || parsed.options.command == Command::kEffects) {
     return parsed;
   }
-  const std::string message =
-      parsed.options.command == Command::kExcite   ? parsed.options.excite.usage_error()
-      : parsed.options.command == Command::kImport ? parsed.options.import.settle(parsed.options.output)
-                                                   : understand(words, parsed.options);
+  const std::string message = parsed.options.command == Command::kExcite
+                                  ? parsed.options.excite.usage_error()
+                              : parsed.options.command == Command::kImport
+                                  ? parsed.options.import.settle(parsed.options.output)
+                                  : understand(words, parsed.options);
   if (!message.empty()) parsed.exit_code = usage(message);
   return parsed;
 }

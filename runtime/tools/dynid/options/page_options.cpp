@@ -7,7 +7,7 @@
 namespace dyngen::runtime {
 namespace {
 
-std::string quoted(const std::string& word) {
+std::string shell_word(const std::string& word) {
   const std::string plain = "_-+./:,=@%^";
   bool needed = word.empty();
   for (const char c : word) {
@@ -30,7 +30,7 @@ void add_page_options(CLI::App& command, PageOptions& options) {
 
 std::string command_text(int argc, const char* const* argv) {
   std::string text = "dynid";
-  for (int i = 1; i < argc; ++i) text += " " + quoted(argv[i]);
+  for (int i = 1; i < argc; ++i) text += " " + shell_word(argv[i]);
   return text;
 }
 

@@ -6,15 +6,15 @@
 #include <memory>
 
 #include "gen/model/robot_model.h"
-#include "gen/robot_file/robot_file.h"
+#include "gen/robot_input/robot_input.h"
 #include "runtime/import/map_file.h"
 
 namespace dyngen::runtime {
 
-ImportedRobot imported_robot(const std::string& path) {
+ImportedRobot imported_robot(const RobotSource& source) {
   ImportedRobot robot;
-  if (path.empty()) return robot;
-  const RobotModel model = build_model(read_robot_file(path));
+  if (source.empty()) return robot;
+  const RobotModel model = build_model(read_robot_file(source));
   for (const JointModel& joint : model.joints) {
     if (joint.type == JointType::kFixed) continue;
     ++robot.joints;
@@ -43,9 +43,8 @@ std::vector<RecordingInput> recording_inputs(const std::vector<std::string>& pat
 RecordingInput recording_input(const std::string& path, const ToolOptions& options) {
   const std::vector<RecordingInput> inputs = recording_inputs({path}, options);
   if (inputs.size() == 1) return inputs.front();
-  throw ImportError(
-      fmt::format("{}: error: found {} recordings in it by --map, expected one here", path,
-                  inputs.size()));
+  throw ImportError(fmt::format("{}: error: found {} recordings in it by --map, expected one here",
+                                path, inputs.size()));
 }
 
 }  // namespace dyngen::runtime

@@ -12,7 +12,7 @@ namespace dyngen::runtime {
 
 /// What a log's map may ask of the robot: how many joints move, and their names.
 /// @param path  of the robot file; empty: nothing is known  @throws ModelError
-ImportedRobot imported_robot(const std::string& path);
+ImportedRobot imported_robot(const RobotSource& source);
 
 /// Recordings of the command line, as they stand or through --map. Every command opens them here.
 /// @throws ImportError, ModelError

@@ -41,8 +41,7 @@ LoadedRecordings load_recordings(const std::vector<std::string>& paths, const To
 }
 
 LoadedRecordings load_recordings(const std::vector<RecordingInput>& inputs,
-                                 const ToolOptions& options, bool heldout,
-                                 ProgressLine& progress) {
+                                 const ToolOptions& options, bool heldout, ProgressLine& progress) {
   LoadedRecordings loaded;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     progress.show("reading " + inputs[i].name, i, inputs.size());
