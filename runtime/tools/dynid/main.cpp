@@ -22,6 +22,7 @@
 #include "runtime/tools/dynid/options/parts.h"
 #include "runtime/tools/dynid/process/memory.h"
 #include "runtime/tools/dynid/process/process_group.h"
+#include "runtime/tools/dynid/robot/identified_description.h"
 
 namespace dyngen::runtime {
 namespace {

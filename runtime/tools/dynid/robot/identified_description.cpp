@@ -339,8 +339,10 @@ class WriteBack {
       edit.body = grouping.bodies[i];
       edit.mass = ten[9];
       edit.centre = {{ten[6] / edit.mass, ten[7] / edit.mass, ten[8] / edit.mass}};
-      const RealMatrix about{
-          {{{ten[0], ten[1], ten[2]}}, {{ten[1], ten[3], ten[4]}}, {{ten[2], ten[4], ten[5]}}}};
+      RealMatrix about;
+      about[0] = {{ten[0], ten[1], ten[2]}};
+      about[1] = {{ten[1], ten[3], ten[4]}};
+      about[2] = {{ten[2], ten[4], ten[5]}};
       edit.inertia = about + Real{-1} * parallel_axes(edit.mass, edit.centre);
       edit_.bodies.push_back(edit);
     }
