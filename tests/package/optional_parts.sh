@@ -64,7 +64,7 @@ fi
 grep -q "apt-get install nodejs npm" build/bundle.log || fail "node's packages are not named"
 
 for package in libopenblas-pthread-dev zlib1g-dev libboost-dev nlohmann-json3-dev libceres-dev libnlopt-dev libopenmpi-dev \
-  libmatio-dev libhdf5-dev libzip-dev libsqlite3-dev liblz4-dev libzstd-dev libbz2-dev gnuplot-nox nodejs; do
+  libexpat1-dev libyaml-cpp-dev libmatio-dev libhdf5-dev libzip-dev libsqlite3-dev liblz4-dev libzstd-dev libbz2-dev gnuplot-nox nodejs; do
   apt-mark showmanual | sort >build/manual.before
   sh cmake/install_packages.sh "$package" >/dev/null
   rm -rf build/configured
@@ -113,6 +113,8 @@ fit="$dynid fit tests/package/pendulum.robot absent.csv"
   refused nlohmann-json3-dev $fit --json build/fit.json
   refused nlohmann-json3-dev $fit --report build/fit.html
   refused libceres-dev $fit --consistent
+  refused libexpat1-dev $dynid fit absent.urdf absent.csv
+  refused libyaml-cpp-dev $fit --map absent.yaml
   refused zlib1g-dev $fit.gz
   refused libopenmpi-dev env OMPI_COMM_WORLD_SIZE=2 $fit
   refused libnlopt-dev $dynid excite tests/package/pendulum.robot -o build/motion.csv
@@ -126,7 +128,7 @@ took "what remains" "$step"
 
 step=$(date +%s)
 all="libopenblas-pthread-dev zlib1g-dev libboost-dev nlohmann-json3-dev libceres-dev libnlopt-dev libopenmpi-dev gnuplot-nox
-  libmatio-dev libhdf5-dev libzip-dev libsqlite3-dev liblz4-dev libzstd-dev libbz2-dev"
+  libexpat1-dev libyaml-cpp-dev libmatio-dev libhdf5-dev libzip-dev libsqlite3-dev liblz4-dev libzstd-dev libbz2-dev"
 # shellcheck disable=SC2086  # one word each
 sh cmake/install_packages.sh $all >/dev/null
 rm -rf build/configured
