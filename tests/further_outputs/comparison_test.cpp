@@ -8,6 +8,7 @@
 #include <functional>
 #include <sstream>
 
+#include "gen/robot_input/robot_input.h"
 #include "tests/support/body_robots.h"
 #include "tests/support/model_bridge.h"
 

@@ -13,6 +13,7 @@
 
 #include "gen/evaluate/evaluation_text.h"
 #include "gen/evaluate/robot_numbers.h"
+#include "gen/robot_input/robot_input.h"
 #include "tests/support/body_robots.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/numeric_dynamics.h"
