@@ -32,7 +32,7 @@ std::string par_error(std::string text) {
   }
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string with_replaced(std::string text, const std::string& from, const std::string& to) {
   text.replace(text.find(from), from.size(), to);
   return text;
 }
@@ -57,8 +57,8 @@ TEST(Symoro, ReadsATreeWithItsFixedSteps) {
 }
 
 TEST(Symoro, SymbolsAreUnknownNumbers) {
-  std::string text = replaced(kTree, "M = {2,3,1}", "M = {M1,3,M3}");
-  text = replaced(text, "d = {0,0.3,0.1}", "d = {0,D2,-D3}");
+  std::string text = with_replaced(kTree, "M = {2,3,1}", "M = {M1,3,M3}");
+  text = with_replaced(text, "d = {0,0.3,0.1}", "d = {0,D2,-D3}");
   const RobotFile file = parse_robot(text, "arm.par");
   const RobotModel model = build_model(file);
   EXPECT_TRUE(model.joint(1).chi[index(Chi::kM)].unknown);
@@ -69,18 +69,22 @@ TEST(Symoro, SymbolsAreUnknownNumbers) {
 }
 
 TEST(Symoro, WhatIsNotModelledIsRefusedByName) {
-  EXPECT_NE(par_error(replaced(kTree, "NF = 3", "NF = 5")).find("closed loop"), std::string::npos);
-  EXPECT_NE(par_error(replaced(kTree, "Type = 1", "Type = 2")).find("arm.par:5:1: error: a closed"),
-            std::string::npos)
-      << par_error(replaced(kTree, "Type = 1", "Type = 2"));
-  EXPECT_NE(par_error(replaced(kTree, "is_mobile = 0", "is_mobile = 1")).find("is_mobile"),
+  EXPECT_NE(par_error(with_replaced(kTree, "NF = 3", "NF = 5")).find("closed loop"),
             std::string::npos);
-  EXPECT_NE(par_error(replaced(kTree, "Pi/2", "A2")).find("'A2' in alpha is a symbol"),
+  EXPECT_NE(
+      par_error(with_replaced(kTree, "Type = 1", "Type = 2")).find("arm.par:5:1: error: a closed"),
+      std::string::npos)
+      << par_error(with_replaced(kTree, "Type = 1", "Type = 2"));
+  EXPECT_NE(par_error(with_replaced(kTree, "is_mobile = 0", "is_mobile = 1")).find("is_mobile"),
             std::string::npos);
-  EXPECT_NE(par_error(replaced(kTree, "d = {0,0.3,0.1}", "d = {0,0.3}")).find("d has 2 values"),
+  EXPECT_NE(par_error(with_replaced(kTree, "Pi/2", "A2")).find("'A2' in alpha is a symbol"),
             std::string::npos);
-  EXPECT_NE(par_error(replaced(kTree, "mu =", "nu =")).find("'nu' is unknown"), std::string::npos);
-  EXPECT_NE(par_error(replaced(kTree, "th1 - pi/2", "2*th1")).find("variable plus a number"),
+  EXPECT_NE(
+      par_error(with_replaced(kTree, "d = {0,0.3,0.1}", "d = {0,0.3}")).find("d has 2 values"),
+      std::string::npos);
+  EXPECT_NE(par_error(with_replaced(kTree, "mu =", "nu =")).find("'nu' is unknown"),
+            std::string::npos);
+  EXPECT_NE(par_error(with_replaced(kTree, "th1 - pi/2", "2*th1")).find("variable plus a number"),
             std::string::npos);
   EXPECT_NE(par_error(kTree + "(* no end"), "");
   EXPECT_NE(par_error("NL = 3\nant = {0,1,5}\n").find("antecedent of link 3"), std::string::npos);
