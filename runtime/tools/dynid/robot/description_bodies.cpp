@@ -5,6 +5,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <random>
@@ -24,6 +25,9 @@ using Eigen::VectorXd;
 /// Two descriptions are of one arm if their torques agree to this, of the largest torque: some
 /// thousand times what rounding does in a chain of a few joints.
 constexpr double kSameArm = 1e-9;
+/// A parameter with less torque, of the largest, is none: rounding of the equations that it is
+/// found by.
+constexpr double kNoTorque = 1e-12;
 /// States for each base parameter on which they are compared.
 constexpr int kStatesPerParameter = 3;
 
@@ -171,7 +175,13 @@ VectorXd in_base_parameters_of(const DescriptionModel& description, const Descri
                                 own.joint_names[static_cast<std::size_t>(joint)], largest,
                                 own.revolute[static_cast<std::size_t>(joint)] ? "N m" : "N"));
   }
-  return found;
+  // what rounding has left of a parameter that the arm does not have
+  const double least = kNoTorque * tau.lpNorm<Eigen::Infinity>();
+  VectorXd clean = found;
+  for (Index i = 0; i < clean.size(); ++i) {
+    if (std::abs(clean[i]) * W.col(i).lpNorm<Eigen::Infinity>() < least) clean[i] = 0;
+  }
+  return clean;
 }
 
 double torque_difference(const LinearModel& model, const VectorXd& one, const VectorXd& other) {

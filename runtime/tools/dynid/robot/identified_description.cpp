@@ -29,8 +29,13 @@ using Eigen::VectorXd;
 
 /// What is written has the robot's torque to this, of the largest torque.
 constexpr double kSameTorque = 1e-9;
-/// A body whose ten parameters change by less, relative to each, is not written: it is as it was.
-constexpr double kUnchangedBody = 1e-12;
+/// A number that changes by less, relative to it, is not written: it is as it was. Of the ten of a
+/// body, relative to the largest.
+constexpr double kUnchanged = 1e-12;
+
+bool changes(Real value, Real before) {
+  return std::fabs(value - before) > kUnchanged * std::max(std::fabs(value), std::fabs(before));
+}
 
 Index place_of_chi(int link, Chi kind) {
   return static_cast<Index>(kChiCount) * (link - 1) + static_cast<Index>(index(kind));
@@ -165,7 +170,7 @@ class WriteBack {
           description_.bodies.robot.tree.joints[static_cast<std::size_t>(tree_joint(j))];
       const auto set = [&](std::optional<Real> JointEdit::*field, const std::optional<Real>& value,
                            const std::optional<Real>& before) {
-        if (value && *value != before.value_or(0)) edit_of(j).*field = value;
+        if (value && changes(*value, before.value_or(0))) edit_of(j).*field = value;
       };
       const double fv = identified_number(j, Chi::kFV), fs = identified_number(j, Chi::kFS);
       set(&JointEdit::damping, checked(result, j, Chi::kFV, fv, "viscous friction"), joint.damping);
@@ -270,7 +275,7 @@ class WriteBack {
       const double value = expected_[own];
       if (is_mjcf_ && value >= 0) {
         armature_[j] = value;
-        if (value + extra != before) edit_of(j).armature = value + extra;
+        if (changes(value + extra, before)) edit_of(j).armature = value + extra;
       } else if (value != 0) {
         leave_out(result, fmt::format("rotor inertia of {}", joint_name(j)),
                   is_mjcf_ ? fmt::format("{:.4g} is negative: no inertia is", value)
@@ -334,7 +339,7 @@ class WriteBack {
       const Eigen::Matrix<double, 10, 1> before =
           grouping.prior.segment<10>(10 * static_cast<Index>(i));
       const double change = (ten - before).cwiseAbs().maxCoeff();
-      if (change <= kUnchangedBody * before.cwiseAbs().maxCoeff()) continue;
+      if (change <= kUnchanged * before.cwiseAbs().maxCoeff()) continue;
       BodyEdit edit;
       edit.body = grouping.bodies[i];
       edit.mass = ten[9];
