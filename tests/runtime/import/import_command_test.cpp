@@ -153,7 +153,7 @@ TEST_F(ImportCommand, SaysWhereTheMapIsWrong) {
 }
 
 TEST_F(ImportCommand, LeavesNoFileWhereALogIsRefused) {
-  write("log.csv", motor_log(50) + "1,2,oops,4,5\n" + "7,8,9,10,11\n");
+  write("log.csv", "\x89HDF\r\n\x1a\n cut off");
   const Outcome outcome = dynid("import " DYNGEN_MAPS "/currents.yaml " + made("log.csv") + " -o " +
                                 made("run.csv"));
   EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
