@@ -221,7 +221,8 @@ TEST_F(Input, RepairsAreToldAlsoWhereTheRunFails) {
   EXPECT_NE(simulate.out.find("found a blank line"), std::string::npos) << simulate.out;
 }
 
-TEST_F(Input, AJitteredRecordingIsResampledAndNobodyIsAskedTo) {
+/// Samples that were taken evenly and stamped late: positions tell.
+TEST_F(Input, AJitteredRecordingGetsAClockAndNobodyIsAskedTo) {
   const std::string arm = robot();
   Recording recording = test::multisine(
       describe_robot(arm, OpenParameters::kAbsentRows).linear,
@@ -229,7 +230,7 @@ TEST_F(Input, AJitteredRecordingIsResampledAndNobodyIsAskedTo) {
   for (Eigen::Index k = 1; k + 1 < recording.samples(); k += 3) recording.time[k] += 4e-4;
   write_recording(recording, path("jitter.csv"));
   const Outcome fit = dynid("fit " + arm + " " + path("jitter.csv"));
-  EXPECT_NE(fit.out.find("resampled to"), std::string::npos) << fit.out;
+  EXPECT_NE(fit.out.find("the clock is rebuilt"), std::string::npos) << fit.out;
   EXPECT_EQ(fit.out.find("resample before"), std::string::npos);
 }
 
