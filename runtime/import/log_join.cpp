@@ -40,6 +40,13 @@ std::size_t LogJoin::table_of(const ColumnPlace& place) {
   return tables_.size() - 1;
 }
 
+/// Of a table, for messages; of a log that is one table, the log's.
+std::string LogJoin::name_of(const Table& table) const {
+  const OpenedLog& log = (*logs_)[table.log];
+  const std::string& name = log.log->tables()[table.table].name;
+  return name.empty() ? log.path : name;
+}
+
 UnitConversion LogJoin::seconds_of(const ImportMap& map, const ColumnLookup& lookup,
                                    const ColumnPlace& place) const {
   const std::string& unit = map.time.unit.empty() ? place.unit : map.time.unit;
@@ -306,7 +313,7 @@ bool LogJoin::next(double& time, std::vector<double>& values, std::uint64_t& pla
               fmt::format("found {} rows in {} and more where positions are, expected as many, or "
                           "a time column in each table",
                           row_,
-                          runtime::quoted((*logs_)[table.log].log->tables()[table.table].name)));
+                          runtime::quoted(std::string_view(name_of(table)))));
         }
         values[i] = tables_[source.table].window.value(row_, source.kept);
         continue;
@@ -316,7 +323,7 @@ bool LogJoin::next(double& time, std::vector<double>& values, std::uint64_t& pla
       const Table& table = tables_[source.table];
       log_->add(found == Found::kBefore ? "join before" : "join after", place, 0,
                 fmt::format("at {:.6g} s {} has {}; the row is left out", time,
-                            runtime::quoted((*logs_)[table.log].log->tables()[table.table].name),
+                            runtime::quoted(std::string_view(name_of(table))),
                             found == Found::kBefore ? "not begun" : "ended"));
       covered = false;
       break;

@@ -83,6 +83,7 @@ class LogJoin {
   };
 
   std::size_t table_of(const ColumnPlace& place);
+  [[nodiscard]] std::string name_of(const Table& table) const;
   void set_clock(const ImportMap& map, const ColumnLookup& lookup,
                  const std::vector<JoinedColumn>& columns);
   UnitConversion seconds_of(const ImportMap& map, const ColumnLookup& lookup,

@@ -20,7 +20,7 @@ struct RoleWord {
 };
 
 // Words of English and German logs, and of the usual drivers. Short ones last: they say least.
-constexpr std::array<RoleWord, 62> kRoleWords = {{{"timestamp", ColumnRole::kTime},
+constexpr std::array<RoleWord, 61> kRoleWords = {{{"timestamp", ColumnRole::kTime},
                                                   {"stamp", ColumnRole::kTime},
                                                   {"time", ColumnRole::kTime},
                                                   {"zeit", ColumnRole::kTime},
@@ -66,7 +66,6 @@ constexpr std::array<RoleWord, 62> kRoleWords = {{{"timestamp", ColumnRole::kTim
                                                   {"drehmoment", ColumnRole::kTorque},
                                                   {"mom", ColumnRole::kTorque},
                                                   {"force", ColumnRole::kTorque},
-                                                  {"load", ColumnRole::kTorque},
                                                   {"m", ColumnRole::kTorque},
                                                   {"position", ColumnRole::kPosition},
                                                   {"positions", ColumnRole::kPosition},
@@ -84,10 +83,10 @@ constexpr std::array<RoleWord, 62> kRoleWords = {{{"timestamp", ColumnRole::kTim
                                                   {"ts", ColumnRole::kTime}}};
 
 constexpr std::array<std::string_view, 25> kCommanded = {
-    {"cmd",   "command", "commanded", "target", "desired", "des",      "goal", "ref",   "reference",
-     "soll",  "setpoint", "sp",       "cmptd",  "computed", "error",   "err",  "model", "sim",
-     "planned", "plan",  "wanted",    "set",    "ideal",   "estimate", "estimated"}};
-
+    {"cmd",   "command",   "commanded", "target",   "desired", "des",   "goal",
+     "ref",   "reference", "soll",      "setpoint", "sp",      "cmptd", "computed",
+     "error", "err",       "model",     "sim",      "planned", "plan",  "wanted",
+     "set",   "ideal",     "estimate",  "estimated"}};
 
 /// Where the numbers of a name stand: begin and length.
 std::vector<std::pair<std::size_t, std::size_t>> numbers_in(const std::string& name) {
@@ -137,6 +136,24 @@ void add_named(const std::vector<std::string>& columns, const std::vector<std::s
 
 }  // namespace
 
+std::vector<std::string> bracketed_names(const std::vector<std::string>& columns) {
+  std::map<std::string, std::vector<std::string>> by_prefix;
+  std::vector<std::string> order;
+  for (const std::string& column : columns) {
+    const std::size_t open = column.find('[');
+    if (open == column.npos || open == 0 || column.back() != ']') continue;
+    const std::string name = column.substr(open + 1, column.size() - open - 2);
+    if (name.empty() || std::all_of(name.begin(), name.end(), is_digit)) continue;
+    const std::string prefix = column.substr(0, open);
+    if (by_prefix[prefix].empty()) order.push_back(prefix);
+    by_prefix[prefix].push_back(name);
+  }
+  for (const std::string& prefix : order) {
+    if (role_of_words(words_of(prefix)) == ColumnRole::kPosition) return by_prefix[prefix];
+  }
+  return {};
+}
+
 std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> words;
   std::string word;
@@ -164,6 +181,8 @@ std::optional<ColumnRole> role_of_words(const std::vector<std::string>& words) {
   const auto has = [&](std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
+  // "torque_enable" is a flag, whatever it enables
+  if (has("enable") || has("enabled")) return ColumnRole::kFlag;
   for (const RoleWord& known : kRoleWords) {
     if (!has(known.word)) continue;
     // "TorqueCur": torque that was made of currents
@@ -199,9 +218,8 @@ std::vector<ColumnFamily> column_families(const std::vector<std::string>& column
   // the largest first: each column belongs to one
   std::vector<std::pair<std::string, std::map<int, std::size_t>>> sorted(numbered.begin(),
                                                                          numbered.end());
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
-    return a.second.size() > b.second.size();
-  });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
   for (auto& [pattern, members] : sorted) {
     const int first = members.begin()->first;
     const bool whole = members.rbegin()->first - first + 1 == static_cast<int>(members.size());

@@ -38,6 +38,10 @@ struct ColumnFamily {
   std::vector<std::string> words;    ///< of the pattern, without the number
 };
 
+/// Names of joints that stand in brackets behind a word for positions: "position[elbow]"; empty:
+/// there are none.
+std::vector<std::string> bracketed_names(const std::vector<std::string>& columns);
+
 /// Sorts columns into families: as many columns of one as can be.
 /// @param joints  names; may be empty
 std::vector<ColumnFamily> column_families(const std::vector<std::string>& columns,

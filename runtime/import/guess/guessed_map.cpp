@@ -76,6 +76,7 @@ class MapGuess {
   GuessedMap make();
 
  private:
+  void choose_names();
   void find_candidates();
   void name_headerless();
   void count_joints();
@@ -104,6 +105,7 @@ class MapGuess {
 
   const SampledLog& logs_;
   const GuessRobot& robot_;
+  std::vector<std::string> names_;  ///< of joints, as the log has them
   std::vector<Candidate> candidates_;
   std::vector<const Candidate*> used_;
   std::vector<std::string> lines_;
@@ -160,10 +162,24 @@ std::vector<DerivativeFit> MapGuess::fits(const MatrixXd& upper) const {
   return derivative_fits(recording_, recording_.q, upper, step_);
 }
 
+/// The robot's names of joints if the log has them, else those of the log.
+void MapGuess::choose_names() {
+  std::vector<std::string> of_log;
+  for (const SampledTable& own : logs_.tables) {
+    if (of_log.empty()) of_log = bracketed_names(own.table.columns);
+  }
+  const std::vector<std::string>& of_robot = robot_.joints.names;
+  const bool robot_has_them =
+      !of_robot.empty() && std::all_of(of_robot.begin(), of_robot.end(), [&](const auto& name) {
+        return of_log.empty() || std::find(of_log.begin(), of_log.end(), name) != of_log.end();
+      });
+  names_ = robot_has_them ? of_robot : of_log;
+}
+
 void MapGuess::find_candidates() {
   for (std::size_t t = 0; t < logs_.tables.size(); ++t) {
     const LogTable& table = logs_.tables[t].table;
-    for (ColumnFamily& family : column_families(table.columns, robot_.joints.names)) {
+    for (ColumnFamily& family : column_families(table.columns, names_)) {
       Candidate candidate;
       candidate.table = t;
       const std::size_t first = family.columns.front();
@@ -668,6 +684,7 @@ GuessedMap MapGuess::make() {
   if (logs_.tables.empty()) {
     throw ImportError(fmt::format("{}: error: found no rows, expected a log", logs_.paths.front()));
   }
+  choose_names();
   find_candidates();
   name_headerless();
   count_joints();
@@ -680,17 +697,20 @@ GuessedMap MapGuess::make() {
       line(fmt::format("  file{}: {}", i + 1, yaml_text(path.substr(path.find_last_of('/') + 1))));
     }
   }
-  if (!robot_.joints.names.empty()) {
+  if (!names_.empty()) {
     const bool by_name =
         std::any_of(candidates_.begin(), candidates_.end(), [](const Candidate& one) {
           return one.family.pattern.find("{joint}") != std::string::npos;
         });
     if (by_name) {
       std::string names;
-      for (const std::string& name : robot_.joints.names) {
+      for (const std::string& name : names_) {
         names += (names.empty() ? "" : ", ") + yaml_text(name);
       }
-      reason(kSure, "the robot's joints have these names");
+      reason(names_ == robot_.joints.names ? kSure : kLikely,
+             names_ == robot_.joints.names
+                 ? "the robot's joints have these names"
+                 : "the log names its joints so, in this order; is it that of the robot file?");
       line("joints: [" + names + "]");
     }
   }

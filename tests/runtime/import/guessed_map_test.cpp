@@ -127,6 +127,17 @@ TEST(GuessedMap, NamesGearsAndColumnsWithoutNames) {
   EXPECT_THAT(bare.yaml, HasSubstr("velocity: {columns: [\"4\", \"5\"], unit: rad/s}"));
 }
 
+TEST(GuessedMap, TakesNamesOfJointsFromBrackets) {
+  const GuessedMap guess = runtime::guess_map(
+      moving_log({"stamp", "position[elbow_joint]", "position[wrist_1_joint]", "velocity[elbow_joint]",
+                  "velocity[wrist_1_joint]", "effort[elbow_joint]", "effort[wrist_1_joint]"},
+                 {1, 1, 1, 1}),
+      {});
+  EXPECT_THAT(guess.yaml, HasSubstr("joints: [\"elbow_joint\", \"wrist_1_joint\"]"));
+  EXPECT_THAT(guess.yaml, HasSubstr("position: {columns: \"position[{joint}]\""));
+  EXPECT_EQ(guess.questions, 0) << guess.yaml;
+}
+
 TEST(GuessedMap, RefusesALogWithoutPositions) {
   EXPECT_THROW(runtime::guess_map(moving_log({"t", "x", "y", "z", "u", "v", "w"}, {1, 1, 1, 1}), {}),
                runtime::ImportError);
