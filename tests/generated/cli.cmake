@@ -208,7 +208,7 @@ file(WRITE ${WORK}/several.robot
   "number_link 1\nd L\ngy 9.81\neffect stribek joint=1\neffect stribeck joint=2\nstop\n")
 refuse(1 "several mistakes" ARGUMENTS several.robot -o out/x.c SAYS "several.robot:2:3: error: unknown symbol 'L'"
   "several.robot:4:8: error: unknown effect 'stribek'" "several.robot:5:23: error: '2' is no joint")
-refuse(1 URDF ARGUMENTS ${cases}/urdf/rr.urdf --count SAYS "rr.urdf:1:1: error: this is XML")
+refuse(1 URDF ARGUMENTS ${cases}/urdf/rr.urdf --count SAYS "rr.urdf:2:1: error: the robot is one link")
 
 # Misspelt options are corrected, and no link leads to an input.
 refuse(2 "a misspelt option" ARGUMENTS ${robot} --functons id -o out/x.c

@@ -19,7 +19,7 @@ refuse("no robot file" "dyngen_add_robot(arm ROBOT leg.robot)"
   "dyngen_add_robot(arm): ROBOT: there is no file" "project/leg.robot'")
 refuse("a folder as robot" "dyngen_add_robot(arm ROBOT .)" "ROBOT: there is no file")
 refuse("unknown keyword" "dyngen_add_robot(arm SPEED fast ${good})"
-  "dyngen_add_robot(arm): unknown argument 'SPEED'; expected ROBOT, PREFIX" "FUNCTIONS")
+  "dyngen_add_robot(arm): unknown argument 'SPEED'; expected ROBOT, BASE" "FUNCTIONS")
 refuse("unknown function" "dyngen_add_robot(arm ${good} FUNCTIONS id inverse)"
   "FUNCTIONS: unknown value 'inverse'; expected all, id, id_rigid")
 refuse("PARAMETERS" "dyngen_add_robot(arm ${good} PARAMETERS hot)"
