@@ -67,10 +67,11 @@ function(dyngen_add_robot target)
   # fk_3 is fk of link 3; id_batch is id over many samples
   set(functions ${arg_FUNCTIONS})
   list(TRANSFORM functions REPLACE "_batch$" "")
-  list(TRANSFORM functions REPLACE "^(fk|jacobian)_[1-9][0-9]*$" "\\1")
-  _dyngen_check_choice(FUNCTIONS functions all id id_rigid gravity coriolis friction effects mass_matrix fd
-    regressor base_regressor base_regressor_gradient gravity_regressor energy_regressor power
-    id_dq_pos id_dq id_ddq id_derivatives fk jacobian)
+  list(TRANSFORM functions REPLACE "^(fk|jacobian|external_torque)_[1-9][0-9]*$" "\\1")
+  _dyngen_check_choice(FUNCTIONS functions all id id_rigid gravity coriolis friction effects mass_matrix
+    coriolis_matrix coriolis_matrix_fast fd regressor base_regressor base_regressor_gradient gravity_regressor
+    energy_regressor power id_dq_pos id_dq id_ddq id_derivatives fk jacobian external_torque com com_jacobian
+    momentum)
   _dyngen_check_choice(PARAMETERS arg_PARAMETERS baked runtime)
   _dyngen_check_choice(SCALAR arg_SCALAR double float)
   _dyngen_check_choice(TRIG arg_TRIG inline libm)
