@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "gen/robot_input/robot_input.h"
+#include "gen/tool/output_files.h"
 #include "runtime/tools/dynid/effects/effect_laws.h"
 
 namespace dyngen::runtime {
