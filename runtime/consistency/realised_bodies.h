@@ -29,10 +29,12 @@ struct RealisedBodies {
 ///
 ///     min  sum over bodies D(J || J0)   over positive definite J with K ten(J) = beta,
 ///
-/// D the log-det divergence of consistent_parameters.h. By Newton's method from the prior, which
-/// does not fulfil the equations: each step solves min 1/2 ||dx||_H^2 + g' dx for K dx = what is
-/// left of them, and stays within the cone.
-/// Source: Boyd and Vandenberghe, "Convex Optimization", 2004, section 10.3.
+/// D the log-det divergence of consistent_parameters.h. Newton's method follows the path of the
+/// bodies nearest to the prior whose base parameters are (1 - s) K ten(J0) + s beta, s from 0 to 1:
+/// the prior is its beginning, and where bodies have beta, bodies have all that lies between. D is
+/// self-concordant: from every point within the cone Newton's steps lead back to the path, which
+/// ends before s = 1 only at the edge of what can exist.
+/// Source: Boyd and Vandenberghe, "Convex Optimization", 2004, sections 9.6 and 10.2.
 ///
 /// @throws std::invalid_argument  if a size is wrong, or K or beta is not finite
 RealisedBodies realise_bodies(const RealisationProblem& problem);

@@ -10,6 +10,7 @@
 #include "tests/support/body_robots.h"
 #include "tests/support/compiled_model.h"
 #include "tests/support/model_bridge.h"
+#include "tests/support/numeric_centroid.h"
 #include "tests/support/numeric_derivatives.h"
 #include "tests/support/numeric_dynamics.h"
 #include "tests/support/relative_error.h"
@@ -25,22 +26,6 @@ namespace dyngen::test::external_torque_tests {
 namespace {
 
 constexpr double kTolerance = 1e-10;
-
-/// J' w of the wrench on a link (from 0), in the axes of frame 0, for the coordinates.
-std::vector<long double> work_of(const RobotModel& model, const NumericRobot& robot,
-                                 const std::vector<double>& q, std::size_t link,
-                                 const std::vector<long double>& wrench) {
-  std::vector<long double> torque;
-  const std::vector<long double> values = joint_values(model, q);
-  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
-    if (model.joints[joint].coordinate < 0) continue;
-    const std::array<long double, 6> screw = joint_screw(robot, values, joint, link);
-    long double work = 0;
-    for (std::size_t k = 0; k < 6; ++k) work += screw[k] * wrench[k];
-    torque.push_back(work);
-  }
-  return torque;
-}
 
 /// Of every link's function.
 double external_error(const RobotModel& model, const RobotModel& values, GeneratorOptions options,
@@ -58,7 +43,7 @@ double external_error(const RobotModel& model, const RobotModel& values, Generat
     for (int j = 0; j <= model.size(); ++j) {
       const std::string name = "external_torque" + (j == 0 ? "" : fmt::format("_{}", j));
       const auto link = static_cast<std::size_t>(j == 0 ? model.size() - 1 : j - 1);
-      error.add(evaluated.call(name, sample), work_of(values, robot, sample.q, link, w));
+      error.add(evaluated.call(name, sample), torque_of_wrench(values, robot, sample.q, link, w));
     }
   }
   return error.value();
@@ -90,7 +75,7 @@ double wrench_error(const RobotModel& model, const RobotModel& values, Generator
         MotionSample moved = sample;
         moved.q = q;
         std::vector<double> torque = judge(values, robot, "id", moved);
-        const std::vector<long double> work = work_of(values, robot, q, link, w);
+        const std::vector<long double> work = torque_of_wrench(values, robot, q, link, w);
         for (std::size_t i = 0; i < torque.size(); ++i) {
           torque[i] -= static_cast<double>(work[i]);
         }

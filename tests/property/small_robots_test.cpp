@@ -14,6 +14,7 @@
 #include "tests/support/compiled_model.h"
 #include "tests/support/frame_error.h"
 #include "tests/support/model_bridge.h"
+#include "tests/support/numeric_centroid.h"
 #include "tests/support/numeric_derivatives.h"
 #include "tests/support/relative_error.h"
 
@@ -91,6 +92,9 @@ class Judged {
     check_derivatives();
     check_gradient();
     check_frames();
+    check_coriolis_matrices();
+    check_wrenches();
+    check_centroid();
     std::set<std::string> unchecked;
     for (const RobotFunction& function : code_.functions()) unchecked.insert(function.name);
     for (const std::string& name : checked_) unchecked.erase(name);
@@ -218,6 +222,45 @@ class Judged {
   void check_frames() {
     EXPECT_LT(frame_error(model_, values_, options_, 3), 1e-12);
     checked_.insert({"fk", "jacobian"});
+  }
+
+  void check_coriolis_matrices() {
+    RelativeError christoffel = against_one(), torque = against_one();
+    for (const MotionSample& sample : samples_) {
+      const Vector c = judge(values_, numbers_, "coriolis", sample);
+      christoffel.add(call("coriolis_matrix", sample),
+                      christoffel_matrix(values_, numbers_, sample));
+      torque.add(times(call("coriolis_matrix_fast", sample), sample.dq), c);
+    }
+    EXPECT_LT(christoffel.value(), kTolerance) << "coriolis_matrix";
+    EXPECT_LT(torque.value(), kTolerance) << "coriolis_matrix_fast";
+  }
+
+  void check_wrenches() {
+    RelativeError error = against_one();
+    for (const MotionSample& sample : samples_) {
+      const std::vector<long double> w(sample.wrench.begin(), sample.wrench.end());
+      const auto last = static_cast<std::size_t>(model_.size() - 1);
+      error.add(call("external_torque", sample),
+                torque_of_wrench(values_, numbers_, sample.q, last, w));
+    }
+    EXPECT_LT(error.value(), kTolerance) << "external_torque";
+  }
+
+  /// Of robots whose bodies the code knows.
+  void check_centroid() {
+    if (!has("com")) return;
+    std::vector<RelativeError> errors(3, against_one());
+    for (const MotionSample& sample : samples_) {
+      const NumericCentroid expected = numeric_centroid(values_, numbers_, sample);
+      const auto list = [](const auto& array) {
+        return std::vector<long double>(array.begin(), array.end());
+      };
+      errors[0].add(call("com", sample), list(expected.center));
+      errors[1].add(call("com_jacobian", sample), expected.jacobian);
+      errors[2].add(call("momentum", sample), list(expected.momentum));
+    }
+    for (const RelativeError& error : errors) EXPECT_LT(error.value(), kTolerance) << "com";
   }
 
   static RelativeError against_one() {

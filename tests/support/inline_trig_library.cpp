@@ -22,7 +22,7 @@ std::string source(Scalar scalar) {
   EmitOptions options;
   options.prefix = "t";
   options.scalar = scalar;
-  return "#include <math.h>\n" + pack_helper(options) + sincos_helper(options, sizes, false) +
+  return "#include <math.h>\n#define T_HELPER static\n" + pack_helper(options) + sincos_helper(options, sizes, false) +
          "void sincos_of(int n, const double *x, double *s, double *c);\n"
          "void sincos_of(int n, const double *x, double *s, double *c) {\n"
          "  t_pack sine[8], cosine[8];\n  int i;\n  switch (n) {\n" +

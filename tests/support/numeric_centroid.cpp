@@ -2,6 +2,7 @@
 #include "tests/support/numeric_centroid.h"
 
 #include <Eigen/Geometry>
+#include <numeric>
 
 #include "tests/support/numeric_derivatives.h"
 #include "tests/support/numeric_dynamics.h"
@@ -88,6 +89,18 @@ std::vector<Real> christoffel_matrix(const RobotModel& model, const NumericRobot
     }
   }
   return C;
+}
+
+std::vector<Real> torque_of_wrench(const RobotModel& model, const NumericRobot& robot,
+                                   const std::vector<double>& q, std::size_t link,
+                                   const std::vector<Real>& wrench) {
+  std::vector<Real> torque;
+  const std::vector<Real> values = joint_values(model, q);
+  for (const std::size_t joint : moving(model)) {
+    const std::array<Real, 6> screw = joint_screw(robot, values, joint, link);
+    torque.push_back(std::inner_product(screw.begin(), screw.end(), wrench.begin(), 0.0L));
+  }
+  return torque;
 }
 
 NumericCentroid numeric_centroid(const RobotModel& model, const NumericRobot& robot,

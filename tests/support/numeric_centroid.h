@@ -12,13 +12,20 @@
 namespace dyngen::test {
 
 /// Coriolis matrix of the Christoffel symbols over the coordinates, row-major: from differences of
-/// the judge's mass matrix. Steps of 1e-4 of fourth order: truncation and rounding some 1e-15 of it.
+/// the judge's mass matrix. Steps of 1e-4 of fourth order: truncation and rounding some 1e-15 of
+/// it.
 std::vector<long double> christoffel_matrix(const RobotModel& model, const NumericRobot& robot,
                                             const MotionSample& sample);
 
 /// dM/dt along dq, the same way.
 std::vector<long double> mass_matrix_rate(const RobotModel& model, const NumericRobot& robot,
                                           const MotionSample& sample);
+
+/// J' w, N m or N, over the coordinates: w[6] N, N m acts on a link (from 0), about its origin, in
+/// the axes of frame 0.
+std::vector<long double> torque_of_wrench(const RobotModel& model, const NumericRobot& robot,
+                                          const std::vector<double>& q, std::size_t link,
+                                          const std::vector<long double>& wrench);
 
 struct NumericCentroid {
   long double mass = 0;                   ///< kg

