@@ -82,9 +82,18 @@ const XmlElement* element_at(const XmlElement& root, SourcePosition position) {
 
 void insert_comment(TextPatches& patches, const XmlDocument& document,
                     const std::vector<std::string>& lines) {
-  if (lines.empty()) return;
-  std::string text = "\n  <!--\n";
-  for (const std::string& line : lines) text += line.empty() ? "\n" : "    " + line + "\n";
+  std::string text = "\n  <!--\n", before;
+  bool empty = true;
+  for (const std::string& line : lines) {
+    if (line.empty()) {
+      before = empty ? "" : "\n";  // between paragraphs, one
+      continue;
+    }
+    text += before + "    " + line + "\n";
+    before.clear();
+    empty = false;
+  }
+  if (empty) return;
   for (std::size_t at = text.find("--", 8); at != text.npos; at = text.find("--", at)) {
     text.insert(at + 1, " ");
   }

@@ -10,15 +10,14 @@
 namespace dyngen::test {
 namespace {
 
-using Real = long double;
-using Vector = Eigen::Matrix<Real, 3, 1>;
-using Matrix = Eigen::Matrix<Real, 3, 3>;
+using Vector3L = Eigen::Matrix<long double, 3, 1>;
+using Matrix3L = Eigen::Matrix<long double, 3, 3>;
 
-constexpr Real kMassStep = 1e-4L, kPoseStep = 1e-4L;
+constexpr long double kMassStep = 1e-4L, kPoseStep = 1e-4L;
 
 /// d f / d x at 0, f of any vector type: (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h.
 template <typename Function>
-auto slope(const Function& f, Real h) {
+auto slope(const Function& f, long double h) {
   using Value = decltype(f(h));
   return Value((8 * (f(h) - f(-h)) - (f(2 * h) - f(-2 * h))) / (12 * h));
 }
@@ -31,32 +30,34 @@ std::vector<std::size_t> moving(const RobotModel& model) {
   return joints;
 }
 
-std::vector<Real> moved(std::vector<Real> q, const std::vector<Real>& direction, Real step) {
+std::vector<long double> moved(std::vector<long double> q,
+                               const std::vector<long double>& direction, long double step) {
   for (std::size_t j = 0; j < q.size(); ++j) q[j] += step * direction[j];
   return q;
 }
 
 /// First moment of all links about the origin of frame 0.
-Vector first_moment(const NumericRobot& robot, const std::vector<Real>& q) {
-  const std::vector<Transform<Real>> frames = forward_kinematics(robot, q);
-  Vector sum = Vector::Zero();
+Vector3L first_moment(const NumericRobot& robot, const std::vector<long double>& q) {
+  const std::vector<Transform<long double>> frames = forward_kinematics(robot, q);
+  Vector3L sum = Vector3L::Zero();
   for (std::size_t j = 0; j < robot.size(); ++j) {
     const auto& body = robot.joints[j].inertial;
-    const Matrix R = frames[j].topLeftCorner<3, 3>();
-    const Vector origin = frames[j].topRightCorner<3, 1>();
-    sum += R * Vector(body[6], body[7], body[8]) + body[9] * origin;
+    const Matrix3L R = frames[j].topLeftCorner<3, 3>();
+    const Vector3L origin = frames[j].topRightCorner<3, 1>();
+    sum += R * Vector3L(body[6], body[7], body[8]) + body[9] * origin;
   }
   return sum;
 }
 
 }  // namespace
 
-std::vector<Real> mass_matrix_rate(const RobotModel& model, const NumericRobot& robot,
-                                   const MotionSample& sample) {
-  const std::vector<Real> q = joint_values(model, sample.q), dq = joint_values(model, sample.dq);
-  const SquareMatrix<Real> rate =
-      slope([&](Real h) { return mass_matrix(robot, moved(q, dq, h)); }, kMassStep);
-  std::vector<Real> result;
+std::vector<long double> mass_matrix_rate(const RobotModel& model, const NumericRobot& robot,
+                                          const MotionSample& sample) {
+  const std::vector<long double> q = joint_values(model, sample.q),
+                                 dq = joint_values(model, sample.dq);
+  const SquareMatrix<long double> rate =
+      slope([&](long double h) { return mass_matrix(robot, moved(q, dq, h)); }, kMassStep);
+  std::vector<long double> result;
   for (const std::size_t i : moving(model)) {
     for (const std::size_t j : moving(model)) {
       result.push_back(rate(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
@@ -65,23 +66,25 @@ std::vector<Real> mass_matrix_rate(const RobotModel& model, const NumericRobot& 
   return result;
 }
 
-std::vector<Real> christoffel_matrix(const RobotModel& model, const NumericRobot& robot,
-                                     const MotionSample& sample) {
-  const std::vector<Real> q = joint_values(model, sample.q), dq = joint_values(model, sample.dq);
+std::vector<long double> christoffel_matrix(const RobotModel& model, const NumericRobot& robot,
+                                            const MotionSample& sample) {
+  const std::vector<long double> q = joint_values(model, sample.q),
+                                 dq = joint_values(model, sample.dq);
   const std::vector<std::size_t> joints = moving(model);
-  std::vector<SquareMatrix<Real>> by_joint(robot.size());
+  std::vector<SquareMatrix<long double>> by_joint(robot.size());
   for (const std::size_t k : joints) {
-    std::vector<Real> unit(robot.size(), 0.0L);
+    std::vector<long double> unit(robot.size(), 0.0L);
     unit[k] = 1;
-    by_joint[k] = slope([&](Real h) { return mass_matrix(robot, moved(q, unit, h)); }, kMassStep);
+    by_joint[k] =
+        slope([&](long double h) { return mass_matrix(robot, moved(q, unit, h)); }, kMassStep);
   }
   const auto element = [&](std::size_t i, std::size_t j, std::size_t k) {
     return by_joint[k](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   };
-  std::vector<Real> C;
+  std::vector<long double> C;
   for (const std::size_t i : joints) {
     for (const std::size_t j : joints) {
-      Real sum = 0;
+      long double sum = 0;
       for (const std::size_t k : joints) {
         sum += (element(i, j, k) + element(i, k, j) - element(j, k, i)) / 2 * dq[k];
       }
@@ -91,13 +94,13 @@ std::vector<Real> christoffel_matrix(const RobotModel& model, const NumericRobot
   return C;
 }
 
-std::vector<Real> torque_of_wrench(const RobotModel& model, const NumericRobot& robot,
-                                   const std::vector<double>& q, std::size_t link,
-                                   const std::vector<Real>& wrench) {
-  std::vector<Real> torque;
-  const std::vector<Real> values = joint_values(model, q);
+std::vector<long double> torque_of_wrench(const RobotModel& model, const NumericRobot& robot,
+                                          const std::vector<double>& q, std::size_t link,
+                                          const std::vector<long double>& wrench) {
+  std::vector<long double> torque;
+  const std::vector<long double> values = joint_values(model, q);
   for (const std::size_t joint : moving(model)) {
-    const std::array<Real, 6> screw = joint_screw(robot, values, joint, link);
+    const std::array<long double, 6> screw = joint_screw(robot, values, joint, link);
     torque.push_back(std::inner_product(screw.begin(), screw.end(), wrench.begin(), 0.0L));
   }
   return torque;
@@ -105,39 +108,40 @@ std::vector<Real> torque_of_wrench(const RobotModel& model, const NumericRobot& 
 
 NumericCentroid numeric_centroid(const RobotModel& model, const NumericRobot& robot,
                                  const MotionSample& sample) {
-  const std::vector<Real> q = joint_values(model, sample.q), dq = joint_values(model, sample.dq);
+  const std::vector<long double> q = joint_values(model, sample.q),
+                                 dq = joint_values(model, sample.dq);
   NumericCentroid result;
   for (const NumericJoint& joint : robot.joints) result.mass += joint.inertial[9];
-  const Vector center = first_moment(robot, q) / result.mass;
+  const Vector3L center = first_moment(robot, q) / result.mass;
   for (int k = 0; k < 3; ++k) result.center[static_cast<std::size_t>(k)] = center[k];
 
   const std::vector<std::size_t> joints = moving(model);
   result.jacobian.assign(3 * joints.size(), 0.0L);
   for (std::size_t column = 0; column < joints.size(); ++column) {
-    std::vector<Real> unit(robot.size(), 0.0L);
+    std::vector<long double> unit(robot.size(), 0.0L);
     unit[joints[column]] = 1;
-    const Vector velocity =
-        slope([&](Real h) { return first_moment(robot, moved(q, unit, h)); }, kPoseStep) /
+    const Vector3L velocity =
+        slope([&](long double h) { return first_moment(robot, moved(q, unit, h)); }, kPoseStep) /
         result.mass;
     for (std::size_t k = 0; k < 3; ++k) {
       result.jacobian[k * joints.size() + column] = velocity[static_cast<Eigen::Index>(k)];
     }
   }
 
-  const std::vector<Transform<Real>> frames = forward_kinematics(robot, q);
-  Vector linear = Vector::Zero(), angular = Vector::Zero();
+  const std::vector<Transform<long double>> frames = forward_kinematics(robot, q);
+  Vector3L linear = Vector3L::Zero(), angular = Vector3L::Zero();
   for (std::size_t j = 0; j < robot.size(); ++j) {
     const auto& b = robot.joints[j].inertial;
-    const Transform<Real> rate =
-        slope([&](Real h) { return forward_kinematics(robot, moved(q, dq, h))[j]; }, kPoseStep);
-    const Matrix R = frames[j].topLeftCorner<3, 3>();
-    const Matrix spin = rate.topLeftCorner<3, 3>() * R.transpose();
-    const Vector w(spin(2, 1), spin(0, 2), spin(1, 0));
-    const Vector v = rate.topRightCorner<3, 1>(), origin = frames[j].topRightCorner<3, 1>();
-    const Vector h = R * Vector(b[6], b[7], b[8]);
-    Matrix J;
+    const Transform<long double> rate = slope(
+        [&](long double h) { return forward_kinematics(robot, moved(q, dq, h))[j]; }, kPoseStep);
+    const Matrix3L R = frames[j].topLeftCorner<3, 3>();
+    const Matrix3L spin = rate.topLeftCorner<3, 3>() * R.transpose();
+    const Vector3L w(spin(2, 1), spin(0, 2), spin(1, 0));
+    const Vector3L v = rate.topRightCorner<3, 1>(), origin = frames[j].topRightCorner<3, 1>();
+    const Vector3L h = R * Vector3L(b[6], b[7], b[8]);
+    Matrix3L J;
     J << b[0], b[1], b[2], b[1], b[3], b[4], b[2], b[4], b[5];
-    const Vector p = b[9] * v + w.cross(h);
+    const Vector3L p = b[9] * v + w.cross(h);
     linear += p;
     angular += origin.cross(p) + R * (J * (R.transpose() * w)) + h.cross(v);
   }

@@ -171,8 +171,8 @@ TEST(WriteBack, WhatHasNoFieldIsNamed) {
   const IdentifiedDescription result =
       into(path, pendulum_with({"effect stribeck joint=1 Fs=2 vs=0.05 delta=2"}, path));
   ASSERT_EQ(result.left_out.size(), 1U);
-  EXPECT_EQ(result.left_out[0].what, "stribeck of joint 1");
-  EXPECT_NE(result.text.find("stribeck of joint 1"), std::string::npos);
+  EXPECT_EQ(result.left_out[0].what, "stribeck of swing");
+  EXPECT_NE(result.text.find("stribeck of swing"), std::string::npos);
 }
 
 }  // namespace

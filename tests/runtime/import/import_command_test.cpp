@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "runtime/recordings/reader.h"
 #include "tests/runtime/dynid/run_dynid.h"
@@ -40,7 +41,9 @@ class ImportCommand : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  [[nodiscard]] std::string made(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string made(const std::string& name) const {
+    return (folder_ / name).string();
+  }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(made(name)) << text;
   }
@@ -55,10 +58,12 @@ class ImportCommand : public testing::Test {
     for (const ImportJson& one : fit.at("parameters")) found[one.at("name")] = one;
     for (const auto& [name, value] : kTruth) {
       ASSERT_TRUE(found.contains(name)) << name;
-      const double std = found[name].at("std").is_number() ? found[name].at("std").get<double>() : 0;
+      const double std =
+          found[name].at("std").is_number() ? found[name].at("std").get<double>() : 0;
       EXPECT_NEAR(found[name].at("value").get<double>(), value,
                   std::max(0.05 * std::abs(value), 5 * std))
-          << name << "\n" << outcome.out;
+          << name << "\n"
+          << outcome.out;
     }
   }
 
@@ -72,6 +77,28 @@ class ImportCommand : public testing::Test {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.out;
     EXPECT_THAT(outcome.out, HasSubstr("samples of 2 joints"));
     expect_truth(made("run.csv.gz"));
+  }
+
+  /// The commands of a tutorial, in its order, in a folder with copies of the example's files.
+  /// @return  how many there are
+  int run_tutorial(const std::string& page, const std::string& example) const {
+    for (const auto& entry : fs::directory_iterator(DYNGEN_SOURCE_DIR "/examples/" + example)) {
+      fs::copy_file(entry.path(), made(entry.path().filename().string()));
+    }
+    std::istringstream lines(content(DYNGEN_SOURCE_DIR "/docs/" + page));
+    int commands = 0;
+    bool shell = false;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("```")) shell = line == "```sh";
+      const bool identifies = line.starts_with("dynid ");
+      if (!shell || (!identifies && !line.starts_with("dyngen "))) continue;
+      const std::string tool = identifies ? DYNID : DYNGEN;
+      const std::string words = line.substr(line.find(' '));
+      const Outcome outcome = run_shell("cd " + folder_.string() + " && " + tool + words);
+      EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.out;
+      ++commands;
+    }
+    return commands;
   }
 
   fs::path folder_;
@@ -96,8 +123,8 @@ std::string motor_log(int rows) {
 
 TEST_F(ImportCommand, WritesWhatStandsAtTheJoints) {
   write("log.csv", motor_log(2000));
-  const Outcome outcome = dynid("import " DYNGEN_MAPS "/currents.yaml " + made("log.csv") + " -o " +
-                                made("run.csv"));
+  const Outcome outcome =
+      dynid("import " DYNGEN_MAPS "/currents.yaml " + made("log.csv") + " -o " + made("run.csv"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.out;
   const runtime::Recording run = runtime::read_recording(made("run.csv"));
   ASSERT_EQ(run.samples(), 2000);
@@ -110,8 +137,10 @@ TEST_F(ImportCommand, WritesWhatStandsAtTheJoints) {
 
 TEST_F(ImportCommand, JoinsFilesOfOneSignalEach) {
   std::string angles = "t;e1\n", torques = "some program\nt;m1\n";
-  for (int k = 0; k < 1000; ++k) angles += std::to_string(0.001 * k) + ";" + std::to_string(0.01 * k) + "\n";
-  for (int k = 0; k < 500; ++k) torques += std::to_string(0.002 * k) + ";" + std::to_string(0.1 * k) + "\n";
+  for (int k = 0; k < 1000; ++k)
+    angles += std::to_string(0.001 * k) + ";" + std::to_string(0.01 * k) + "\n";
+  for (int k = 0; k < 500; ++k)
+    torques += std::to_string(0.002 * k) + ";" + std::to_string(0.1 * k) + "\n";
   fs::create_directories(folder_ / "day");
   write("day/enc_1.csv", angles);
   write("day/drive_1.csv", torques);
@@ -120,8 +149,10 @@ TEST_F(ImportCommand, JoinsFilesOfOneSignalEach) {
         "time: {column: t, unit: s}\n"
         "position: {columns: e1, unit: rad, file: enc}\n"
         "torque: {columns: m1, unit: N m, file: drive}\n");
-  for (const std::string& logs : {made("day"), made("day/drive_1.csv") + " " + made("day/enc_1.csv")}) {
-    const Outcome outcome = dynid("import " + made("map.yaml") + " " + logs + " -o " + made("run.csv"));
+  for (const std::string& logs :
+       {made("day"), made("day/drive_1.csv") + " " + made("day/enc_1.csv")}) {
+    const Outcome outcome =
+        dynid("import " + made("map.yaml") + " " + logs + " -o " + made("run.csv"));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.out;
     const runtime::Recording run = runtime::read_recording(made("run.csv"));
     EXPECT_EQ(run.samples(), 999);
@@ -140,20 +171,22 @@ TEST_F(ImportCommand, SaysWhereTheMapIsWrong) {
   const Outcome outcome =
       dynid("import " + made("map.yaml") + " " + made("log.csv") + " -o " + made("run.csv"));
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.out, HasSubstr("map.yaml:2:12: error: unknown key 'colums' in 'position'; did "
-                                     "you mean 'columns'?"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("map.yaml:2:12: error: unknown key 'colums' in 'position'; did "
+                        "you mean 'columns'?"));
   EXPECT_FALSE(fs::exists(made("run.csv")));
   const Outcome usage = dynid("import " + made("map.yaml") + " " + made("log.csv"));
   EXPECT_EQ(usage.exit_code, 2);
-  const Outcome same = dynid("import " + made("map.yaml") + " " + made("log.csv") + " -o " + made("log.csv"));
+  const Outcome same =
+      dynid("import " + made("map.yaml") + " " + made("log.csv") + " -o " + made("log.csv"));
   EXPECT_EQ(same.exit_code, 2);
   EXPECT_THAT(same.out, HasSubstr("are the same file"));
 }
 
 TEST_F(ImportCommand, LeavesNoFileWhereALogIsRefused) {
   write("log.csv", "\x89HDF\r\n\x1a\n cut off");
-  const Outcome outcome = dynid("import " DYNGEN_MAPS "/currents.yaml " + made("log.csv") + " -o " +
-                                made("run.csv"));
+  const Outcome outcome =
+      dynid("import " DYNGEN_MAPS "/currents.yaml " + made("log.csv") + " -o " + made("run.csv"));
   EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
   EXPECT_FALSE(fs::exists(made("run.csv")));
   EXPECT_FALSE(fs::exists(made("run.csv.part")));
@@ -173,24 +206,29 @@ TEST_F(ImportCommand, ListsAndGuesses) {
   EXPECT_THAT(refused.out, HasSubstr("is a question that was not answered"));
 }
 
-/// The commands of the tutorial, in its order.
-TEST_F(ImportCommand, TheTutorialRuns) {
-  for (const char* name : {"log.csv.gz", "arm.robot", "map.yaml"}) {
-    fs::copy_file(std::string(DYNGEN_SOURCE_DIR "/examples/motor_currents/") + name, made(name));
-  }
-  const std::string page = content(DYNGEN_SOURCE_DIR "/docs/tutorial_motor_currents.md");
-  const std::string fence = "```sh\ndynid ";
-  int commands = 0;
-  for (std::size_t at = page.find(fence); at != page.npos; at = page.find(fence, at + 1)) {
-    const std::size_t begin = at + fence.size();
-    const std::string words = page.substr(begin, page.find('\n', begin) - begin);
-    const Outcome outcome = run_shell("cd " + folder_.string() + " && " DYNID " " + words);
-    EXPECT_EQ(outcome.exit_code, 0) << words << "\n" << outcome.out;
-    ++commands;
-  }
-  EXPECT_EQ(commands, 5);
+TEST_F(ImportCommand, TheTutorialOfMotorCurrentsRuns) {
+  EXPECT_EQ(run_tutorial("tutorial_motor_currents.md", "motor_currents"), 5);
   // the map of the page is the file's
-  EXPECT_THAT(page, HasSubstr(content(made("map.yaml")).substr(content(made("map.yaml")).find('\n') + 1)));
+  const std::string page = content(DYNGEN_SOURCE_DIR "/docs/tutorial_motor_currents.md");
+  EXPECT_THAT(
+      page, HasSubstr(content(made("map.yaml")).substr(content(made("map.yaml")).find('\n') + 1)));
+}
+
+TEST_F(ImportCommand, TheTutorialOfUrdfAndBagRuns) {
+  EXPECT_EQ(run_tutorial("tutorial_urdf_and_bag.md", "urdf_and_bag"), 9);
+  EXPECT_THAT(content(made("report.html")), HasSubstr("linear_spring"));
+  EXPECT_THAT(content(made("identified.robot")), HasSubstr("effect linear_spring joint="));
+  EXPECT_THAT(content(made("identified.xml")), HasSubstr("springref="));
+  // the truth of record.py: m2 c2 = 0.513 kg m, and viscous friction of 1.8 and 0.7 N m s/rad
+  const std::string fitted = content(made("fitted.urdf"));
+  double friction[2] = {0, 0};
+  std::size_t at = 0;
+  for (double& one : friction) {
+    at = fitted.find("damping=\"", at + 1) + 9;
+    one = std::stod(fitted.substr(at));
+  }
+  EXPECT_NEAR(friction[0], 1.8, 0.06);
+  EXPECT_NEAR(friction[1], 0.7, 0.02);
 }
 
 TEST_F(ImportCommand, TellsWhatVelocitiesSay) {

@@ -13,6 +13,7 @@
 #include "runtime/tools/dynid/effects/effect_code_text.h"
 #include "runtime/tools/dynid/effects/effect_formula.h"
 #include "runtime/tools/dynid/effects/effect_report.h"
+#include "runtime/tools/dynid/robot/joint_words.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -41,6 +42,7 @@ DiagnosisReport diagnosis_report(Diagnosis diagnosis, const DescribedRobot& robo
                                  const EffectCatalogue& catalogue) {
   DiagnosisReport report;
   report.robot = robot.linear.name;
+  report.joint_legend = joint_legend(robot.model);
   report.revolute = robot.linear.revolute;
   for (const Finding& finding : diagnosis.findings) {
     report.words.push_back(words_of(finding.effect, catalogue, robot.linear));

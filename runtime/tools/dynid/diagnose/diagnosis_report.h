@@ -38,6 +38,7 @@ struct DiagnosedRecording {
 /// A diagnosis with all that its JSON, its page and its text say.
 struct DiagnosisReport {
   std::string robot;
+  std::string joint_legend;    ///< "joints: 1 shoulder, ..."; empty: joints have no names
   std::vector<bool> revolute;  ///< (n)
   Diagnosis diagnosis;
   std::vector<EffectWords> words;              ///< of each finding

@@ -196,6 +196,7 @@ std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style
   std::string text =
       coloured(fmt::format("{}: {}", report.robot, diagnosis.sentence), TextColour::kMark, style) +
       "\n";
+  if (!report.joint_legend.empty()) text += "  " + report.joint_legend + "\n";
   for (std::size_t i = 0; i < diagnosis.findings.size(); ++i) {
     text += finding_line(report, i);
     if (i < kMostShapes) text += shape_lines(report, i, style);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gen/effect_file/units.h"
+#include "runtime/tools/dynid/robot/joint_words.h"
 
 namespace dyngen::runtime {
 
@@ -47,7 +48,7 @@ std::vector<std::vector<std::string>> effect_units(const std::vector<EffectInsta
 std::string place_of(const EffectInstance& effect, const RobotModel& model) {
   const int joint = file_joint(effect, model);
   if (joint == 0) return "";
-  if (effect.other < 0) return fmt::format("joint {}", joint);
+  if (effect.other < 0) return joint_words(model, joint);
   return fmt::format("joint {}, other {}", joint, file_joint(model, effect.other));
 }
 

@@ -29,7 +29,8 @@ int file_joint(const RobotModel& model, int coordinate);
 /// The same of the joint where an effect is; 0: it is of the whole robot.
 int file_joint(const EffectInstance& effect, const RobotModel& model);
 
-/// "joint 2", "joint 5, other 6", "": where an effect is, as the robot file counts.
+/// "joint 2", "joint 2 (shoulder)", "joint 5, other 6", "": where an effect is, as the robot file
+/// counts and names.
 std::string place_of(const EffectInstance& effect, const RobotModel& model);
 
 /// "effect stribeck joint=2 Fs=2.1 vs=0.05 delta=2": the row of a robot file.

@@ -7,6 +7,7 @@
 
 #include "runtime/estimation/covariance.h"
 #include "runtime/tools/dynid/fit/fit_report.h"
+#include "runtime/tools/dynid/robot/joint_words.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -48,6 +49,8 @@ std::string heading(const FitReport& report) {
       "{}: {} joints, {} base parameters; {} recording{}, {:.1f} s, {:.0f} equations a joint\n",
       model.name, model.joints(), model.size(), summary.recordings,
       summary.recordings == 1 ? "" : "s", summary.seconds(), summary.equations.samples());
+  const std::string legend = joint_legend(report.robot.model);
+  if (!legend.empty()) text += "  " + legend + "\n";
   for (const RecordingLine& line : report.recordings) {
     text +=
         fmt::format("  {}{}: {:.1f} s at {:.6g} Hz", line.name, line.heldout ? " (held out)" : "",

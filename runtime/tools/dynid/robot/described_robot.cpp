@@ -19,6 +19,7 @@
 #include "gen/robot_input/robot_input.h"
 #include "gen/symbols/exact.h"
 #include "runtime/tools/dynid/robot/base_grouping.h"
+#include "runtime/tools/dynid/robot/joint_words.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -120,19 +121,19 @@ std::string sum_of_few(const GroupedParameter& parameter, const Eigen::RowVector
 }
 
 /// "ZZ2 + IA2 + ...", or what the parameter is where nothing is grouped into it.
-std::string formula_of(const std::string& comment, const GroupedParameter& parameter,
-                       const Eigen::RowVectorXd& row) {
+std::string formula_of(const RobotModel& model, const std::string& comment,
+                       const GroupedParameter& parameter, const Eigen::RowVectorXd& row) {
   if (comment.starts_with("= ")) return comment.substr(2);
   const int link = parameter.column.link;
   switch (parameter.column.kind) {
     case Chi::kIA:
-      return fmt::format("rotor inertia of joint {}", link);
+      return "rotor inertia of " + joint_words(model, link);
     case Chi::kFV:
-      return fmt::format("viscous friction of joint {}", link);
+      return "viscous friction of " + joint_words(model, link);
     case Chi::kFS:
-      return fmt::format("Coulomb friction of joint {}", link);
+      return "Coulomb friction of " + joint_words(model, link);
     case Chi::kOFF:
-      return fmt::format("torque offset of joint {}", link);
+      return "torque offset of " + joint_words(model, link);
     default:
       return sum_of_few(parameter, row);
   }
@@ -302,7 +303,7 @@ void add_linear_model(const RobotModel& model, const DescribeOptions& options,
     parameter.name = grouped.name();
     parameter.unit = code.chi[i].unit;
     parameter.formula =
-        formula_of(code.chi[i].comment, grouped, grouping.row(static_cast<Index>(i)));
+        formula_of(model, code.chi[i].comment, grouped, grouping.row(static_cast<Index>(i)));
     parameter.link = grouped.column.link;
     parameter.kind = kind_in(grouped, grouping.row(static_cast<Index>(i)));
     parameter.value = file_value(grouped, symbolic);

@@ -19,6 +19,7 @@
 #include "runtime/tools/dynid/effects/effect_report.h"
 #include "runtime/tools/dynid/effects/robot_tangents.h"
 #include "runtime/tools/dynid/robot/description_bodies.h"
+#include "runtime/tools/dynid/robot/joint_words.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -43,6 +44,7 @@ Index place_of_chi(int link, Chi kind) {
 
 /// What was left out and what it carries, lines.
 std::vector<std::string> left_out_table(const std::vector<LeftOut>& left_out,
+                                        const RobotModel& model,
                                         const std::vector<bool>& revolute) {
   std::vector<std::string> lines;
   if (left_out.empty()) return lines;
@@ -51,8 +53,9 @@ std::vector<std::string> left_out_table(const std::vector<LeftOut>& left_out,
     std::string carried;
     for (Index j = 0; j < left.rms.size(); ++j) {
       if (left.rms[j] == 0) continue;
-      carried += fmt::format("{}{:.3g} {} on joint {}", carried.empty() ? "" : ", ", left.rms[j],
-                             revolute[static_cast<std::size_t>(j)] ? "N m" : "N", j + 1);
+      carried += fmt::format("{}{:.3g} {} on {}", carried.empty() ? "" : ", ", left.rms[j],
+                             revolute[static_cast<std::size_t>(j)] ? "N m" : "N",
+                             coordinate_words(model, static_cast<int>(j)));
     }
     if (carried.empty()) carried = "not known: no recordings";
     lines.push_back(fmt::format("  {}: {}", left.what, carried));
@@ -97,7 +100,7 @@ class WriteBack {
       }
     }
     measure(result.left_out);
-    result.table = left_out_table(result.left_out, robot_.linear.revolute);
+    result.table = left_out_table(result.left_out, robot_.model, robot_.linear.revolute);
     if (!result.table.empty()) {
       edit_.comment.emplace_back();
       edit_.comment.insert(edit_.comment.end(), result.table.begin(), result.table.end());
@@ -126,7 +129,7 @@ class WriteBack {
     return converted.robot.groups[static_cast<std::size_t>(group)].joint;
   }
   [[nodiscard]] std::string joint_name(int coordinate) const {
-    return fmt::format("joint {}", coordinate + 1);
+    return coordinate_words(robot_.model, coordinate);
   }
   [[nodiscard]] std::string form() const { return is_mjcf_ ? "MuJoCo" : "URDF"; }
 
@@ -193,8 +196,8 @@ class WriteBack {
     for (const EffectInstance& effect : effects_) {
       if (effect.recording >= 0) continue;
       if (is_mjcf_ && became_field(effect, offset)) continue;
-      const std::string place = place_of(effect, robot_.model);
-      leave_out(result, effect.law.name + (place.empty() ? "" : " of " + place),
+      leave_out(result,
+                effect.law.name + (effect.joint < 0 ? "" : " of " + joint_name(effect.joint)),
                 form() + " has no field for it");
       effect_of_[result.left_out.size() - 1] = &effect;
     }

@@ -22,7 +22,7 @@ class NoBodiesError : public std::runtime_error {
 
 /// Torque of the identified robot that a description has no field for.
 struct LeftOut {
-  std::string what;     ///< "rotor inertia of joint 2", "stribeck of joint 3"
+  std::string what;     ///< "rotor inertia of shoulder", "stribeck of joint 3"
   std::string reason;   ///< a phrase
   Eigen::VectorXd rms;  ///< (n) N m or N in the recordings; empty: not known
 };
