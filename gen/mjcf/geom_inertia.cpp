@@ -60,7 +60,8 @@ class GeomReader {
   std::optional<GeomInertia> read(const RigidPose& around) {
     const XmlAttribute* type = attributes_.find("type");
     const std::string name = type == nullptr ? "sphere" : type->value;
-    if (const std::optional<Real> mass = number("mass"); mass && *mass == 0) return GeomInertia{};
+    const std::optional<Real> mass = number("mass");
+    if (mass && *mass == 0) return GeomInertia{};
     if (name == "plane" || name == "hfield") return GeomInertia{};
     if (const XmlAttribute* shell = attributes_.find("shellinertia")) {
       if (shell->value == "true") return refuse("a shell (shellinertia)");
@@ -76,8 +77,7 @@ class GeomReader {
     if (!size) return std::nullopt;
     const Solid solid = solid_of(name, *size);
     GeomInertia result;
-    result.mass =
-        number("mass").value_or(number("density").value_or(kDefaultDensity) * solid.volume);
+    result.mass = mass.value_or(number("density").value_or(kDefaultDensity) * solid.volume);
     pose = around * pose;
     result.centre = pose.p;
     RealMatrix own;
@@ -95,7 +95,13 @@ class GeomReader {
 
   std::optional<Real> number(std::string_view name) {
     const XmlAttribute* attribute = attributes_.find(name);
-    return attribute == nullptr ? std::nullopt : values_.number(*attribute);
+    if (attribute == nullptr) return std::nullopt;
+    const std::optional<Real> value = values_.number(*attribute);
+    if (value && *value < 0) {
+      values_.error(*attribute, fmt::format("the {} of the geom is negative", name),
+                    "expected 0 or more");
+    }
+    return value;
   }
 
   /// Half lengths; the pose is that of `fromto` where it is given.

@@ -15,6 +15,7 @@
 #include "gen/mjcf/geom_inertia.h"
 #include "gen/mjcf/mjcf_defaults.h"
 #include "gen/mjcf/mjcf_settings.h"
+#include "gen/mjcf/mjcf_words.h"
 
 namespace dyngen {
 
@@ -51,6 +52,7 @@ class MjcfReader {
     world.place = world.inertial_place = place_in_mjcf(root);
     tree_.bodies.push_back(std::move(world));
     bool any = false;
+    check_mjcf_words(root, values_);
     for (const XmlElement& child : root.children) {
       refuse_element(child);
       if (child.name != "worldbody") continue;

@@ -173,6 +173,7 @@ class ParReader {
           fmt::format("{} is {}: a base that moves is not modelled", own->name, printable(value)),
           "expected a base that stands");
     }
+    refuse_elastic_joints();
     for (const std::string name : {"w0", "wp0", "vp0"}) {
       const ParAssignment* own = find(name);
       if (own == nullptr) continue;
@@ -181,6 +182,16 @@ class ParReader {
         error(value, fmt::format("{} is not 0: a base that moves is not modelled", own->name),
               "expected 0, 0, 0; gravity stands in G");
       }
+    }
+  }
+
+  void refuse_elastic_joints() {
+    const ParAssignment* own = find("eta");
+    if (own == nullptr) return;
+    for (const ParValue& value : own->values) {
+      if (value.text == "0") continue;
+      error(value, fmt::format("eta is {}: an elastic joint", printable(value.text)),
+            "expected 0: joints are rigid here; an effect row of the robot file adds elasticity");
     }
   }
 
@@ -260,6 +271,10 @@ class ParReader {
                         printable(value.text), name),
             fmt::format("expected {}, or {}+pi/2", printable(variable), printable(variable)));
       return "0";
+    }
+    if (!variables_.insert(variable).second) {
+      error(value, fmt::format("'{}' moves a second joint", printable(variable)),
+            "expected a variable of each joint's own: joints that move together are not modelled");
     }
     rest.erase(plus ? at - 1 : at, variable.size() + (plus ? 1 : 0));
     if (rest.empty()) return "0";
@@ -401,6 +416,7 @@ class ParReader {
   std::map<std::string, ParAssignment> assignments_;  // by names in small letters
   int links_ = 0;
   std::size_t columns_ = 0;
+  std::set<std::string> variables_;  ///< of joints so far
   std::map<RowKey, Column> rows_;
   std::map<RowKey, std::string> gravity_;
   std::map<std::pair<RowKey, std::size_t>, MadeText::Place> places_;

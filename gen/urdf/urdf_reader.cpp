@@ -16,6 +16,7 @@
 
 #include "gen/bodies/body_judgement.h"
 #include "gen/bodies/decimal.h"
+#include "gen/urdf/urdf_words.h"
 #include "gen/xml/xml_values.h"
 
 namespace dyngen {
@@ -65,6 +66,7 @@ class UrdfReader {
     tree_.place = tree_.gravity_place = place_in_urdf(robot);
     tree_.base_acceleration = {{0, 0, kStandardGravity}};
     if (const XmlAttribute* name = robot.attribute("name")) tree_.name = name->value;
+    check_urdf_attributes(robot, values_);
     for (const XmlElement& child : robot.children) {
       if (child.name == "link") read_link(child);
     }

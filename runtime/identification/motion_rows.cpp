@@ -121,8 +121,11 @@ class RowBuffer {
 
 void check_joints(const LinearModel& model, const MotionSource& source) {
   if (model.joints() == source.joints()) return;
-  throw std::invalid_argument(fmt::format("{}: {} joints, but {} has {} that move", source.name,
-                                          source.joints(), model.name, model.joints()));
+  throw std::invalid_argument(
+      fmt::format("{}: {} joints, but {} has {} that move: expected the "
+                  "columns of all, or '--base' and '--tip' for an arm of "
+                  "a larger robot",
+                  source.name, source.joints(), model.name, model.joints()));
 }
 
 }  // namespace

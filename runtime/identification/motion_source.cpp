@@ -59,8 +59,8 @@ Recording with_uniform_time(Recording recording, RecordingCondition& condition) 
   condition.resampled = true;
   ClockChoice clock = choose_clock(recording);
   if (!clock.rebuilt) {
-    condition.messages.push_back(base.message + fmt::format("; resampled to {:.6g} s; {}",
-                                                            base.sample_time, clock.message));
+    condition.messages.push_back(
+        base.message + fmt::format("; resampled to {:.6g} s; {}", base.sample_time, clock.message));
     return resample(recording, base.sample_time);
   }
   condition.messages.push_back(base.message + "; " + clock.message);
@@ -74,6 +74,14 @@ Recording with_uniform_time(Recording recording, RecordingCondition& condition) 
 std::optional<Recording> averaged_periods(const Recording& recording, const MotionOptions& options,
                                           RecordingCondition& condition) {
   if (!options.average_periods) return std::nullopt;
+  if (recording.run_starts.size() > 1) {
+    // the mean of one run's periods would stand for all runs
+    condition.messages.push_back(
+        fmt::format("{} runs: all of them are used as they are; periods are averaged where a file "
+                    "holds one run",
+                    recording.run_starts.size()));
+    return std::nullopt;
+  }
   const Periods periods = find_periods(recording, options.period);
   if (periods.samples == 0) {
     if (options.period) condition.messages.push_back(periods.message);

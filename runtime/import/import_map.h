@@ -45,10 +45,10 @@ struct ColumnNames {
 /// k N m/A, ke V s/rad, R ohm (a direct-current motor without inductance).
 struct DutyTorque {
   ColumnNames duty;
-  PerJoint full_scale;             ///< value of the column at full voltage
-  ColumnNames voltage;             ///< V; no names: `supply`
-  PerJoint supply;                 ///< V
-  PerJoint resistance, back_emf;   ///< ohm, V s/rad
+  PerJoint full_scale;            ///< value of the column at full voltage
+  ColumnNames voltage;            ///< V; no names: `supply`
+  PerJoint supply;                ///< V
+  PerJoint resistance, back_emf;  ///< ohm, V s/rad
 };
 
 /// One measured quantity of all joints. Value in SI = raw * unit * sign * gain; it is brought to
@@ -60,7 +60,8 @@ struct SignalMap {
   ColumnNames columns;
   std::vector<std::string> units;  ///< one, one for each joint, or none: the log's own
   MapPlace unit_place;
-  PerJoint counts_per_turn;     ///< of unit "counts"
+  PerJoint counts_per_turn;  ///< of unit "counts"
+  int bits = 0;  ///< 8, 16, 32: the log holds signed numbers of so many bits as unsigned; 0: not
   std::vector<GearSide> sides;  ///< one, one for each joint, or none: joint
   PerJoint sign, gain;
   PerJoint offset;    ///< rad or m, N m or N, at the joint
@@ -83,9 +84,9 @@ struct TimeMap {
 struct RunsMap {
   MapPlace place;
   std::string file, table;
-  ColumnNames split;                             ///< a new run begins where a value changes
-  ColumnNames keep;                              ///< rows where one is 0 are left out
-  double skip_first = 0, skip_last = 0;          ///< s, of each log
+  ColumnNames split;                            ///< a new run begins where a value changes
+  ColumnNames keep;                             ///< rows where one is 0 are left out
+  double skip_first = 0, skip_last = 0;         ///< s, of each log
   std::vector<std::pair<double, double>> cuts;  ///< s from the first row: left out, ends included
 };
 
@@ -104,6 +105,7 @@ struct ImportMap {
   int joints = 0;    ///< 0: as many as the robot has, or as the log has columns
   std::vector<std::string> joint_names;
   MapPlace joints_place;
+  bool joints_by_a_list = false;  ///< nothing but the length of a list says how many there are
   LogTextSettings text;
   std::vector<FileMap> files;  ///< empty: a log is one file
   std::string table;           ///< empty: the one that has the columns

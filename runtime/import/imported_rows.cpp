@@ -97,9 +97,12 @@ class ImportedRows : public SampleSource {
  private:
   void find_signals(const ColumnLookup& lookup);
   void choose_joints(const ColumnLookup& lookup);
+  void check_list(const ColumnLookup& lookup) const;
   void add_signal(const ColumnLookup& lookup, const std::optional<SignalMap>& signal,
                   ColumnQuantity quantity, std::size_t& target);
-  void add_columns(const std::vector<ColumnPlace>& columns, double delay, Between between);
+  void add_columns(const std::vector<ColumnPlace>& columns, double delay, Between between,
+                   int bits = 0);
+  void tell_of_unsigned();
   void find_duty(const ColumnLookup& lookup);
   void tell_unit_conflicts(const SignalMap& signal, const std::vector<ColumnPlace>& columns);
   bool next_used(double& time, std::uint64_t& place);
@@ -138,9 +141,42 @@ void ImportedRows::choose_joints(const ColumnLookup& lookup) {
   layout_.joints = static_cast<int>(joints_);
 }
 
+/// Without a robot, a list that is too short would drop joints.
+void ImportedRows::check_list(const ColumnLookup& lookup) const {
+  const SignalMap& position = *map_.position;
+  if (!map_.joints_by_a_list || !names_.empty() ||
+      !is_column_pattern(position.columns.names.front())) {
+    return;
+  }
+  const std::size_t columns =
+      lookup.find_all(position.columns, position.file, position.table, 0, ColumnQuantity::kPosition)
+          .size();
+  if (columns <= joints_) return;
+  throw ImportError(map_error(
+      map_, map_.joints_place,
+      fmt::format("found a list for {} joints, expected one for {}, as there are columns {}; or "
+                  "'joints: {}' if the others are not wanted",
+                  joints_, columns, runtime::quoted(position.columns.names.front()), joints_)));
+}
+
 void ImportedRows::add_columns(const std::vector<ColumnPlace>& columns, double delay,
-                               Between between) {
-  for (const ColumnPlace& column : columns) columns_.push_back({column, delay, between});
+                               Between between, int bits) {
+  for (const ColumnPlace& column : columns) columns_.push_back({column, delay, between, bits});
+}
+
+void ImportedRows::tell_of_unsigned() {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const JoinedColumn& column = columns_[i];
+    const UnsignedWatch& watch = join_->watch(i);
+    if (column.bits > 0 || column.between == Between::kHold || watch.bits() == 0) continue;
+    log_->add_once("unsigned " + column.place.name, 0, 0,
+                   fmt::format("{} has whole numbers up to {:.0f} and none between {:.0f} and "
+                               "{:.0f}: they look like signed numbers of {} bits; 'bits: {}' in "
+                               "the map takes them as such",
+                               runtime::quoted(column.place.name), watch.largest(),
+                               std::ldexp(1.0, watch.bits() - 2),
+                               3 * std::ldexp(1.0, watch.bits() - 2), watch.bits(), watch.bits()));
+  }
 }
 
 void ImportedRows::tell_unit_conflicts(const SignalMap& signal,
@@ -176,7 +212,8 @@ void ImportedRows::add_signal(const ColumnLookup& lookup, const std::optional<Si
   placed.transform.emplace(map_, *signal, quantity, found, lookup);
   tell_unit_conflicts(*signal, found);
   add_columns(found, signal->delay,
-              quantity == ColumnQuantity::kPosition ? Between::kCubic : Between::kLine);
+              quantity == ColumnQuantity::kPosition ? Between::kCubic : Between::kLine,
+              signal->bits);
   if (temperature) layout_.temperatures = static_cast<int>(found.size());
   target += found.size();
   signals_.push_back(std::move(placed));
@@ -190,7 +227,7 @@ void ImportedRows::find_duty(const ColumnLookup& lookup) {
   duty_first_ = columns_.size();
   add_columns(
       lookup.find_all(law.duty, signal.file, signal.table, joints_, ColumnQuantity::kTorque),
-      signal.delay, Between::kLine);
+      signal.delay, Between::kLine, signal.bits);
   voltage_first_ = columns_.size();
   if (law.voltage.names.empty()) return;
   ColumnNames names = law.voltage;
@@ -234,6 +271,7 @@ ImportedRows::ImportedRows(const ImportMap& map, std::vector<OpenedLog> logs,
   if (robot.joints > 0) map_.joints = robot.joints;
   const ColumnLookup lookup(map_, logs_, names_);
   choose_joints(lookup);
+  if (robot.joints == 0) check_list(lookup);
   find_signals(lookup);
   const RunsMap& runs = map_.runs;
   const std::size_t split = columns_.size();
@@ -278,6 +316,7 @@ bool ImportedRows::next_used(double& time, std::uint64_t& place) {
     if (why.empty()) return true;
     log_->add("chosen " + why, place_, 0, fmt::format("the row is left out: {}", why));
   }
+  tell_of_unsigned();
   for (const OpenedLog& one : logs_) {
     for (const std::string& notice : one.log->notices()) tell_of_log(one.path, notice);
   }

@@ -97,7 +97,7 @@ LogJoin::LogJoin(const ImportMap& map, std::vector<OpenedLog>& logs, const Colum
   for (const JoinedColumn& column : columns) {
     Source source;
     source.table = table_of(column.place);
-    source.kept = tables_[source.table].window.keep_column(column.place.column);
+    source.kept = tables_[source.table].window.keep_column(column.place.column, column.bits);
     source.delay = column.delay;
     source.between = column.between;
     const bool other_clock =
@@ -106,6 +106,11 @@ LogJoin::LogJoin(const ImportMap& map, std::vector<OpenedLog>& logs, const Colum
     other_clocks_ = other_clocks_ || !source.by_row;
     sources_.push_back(source);
   }
+}
+
+const UnsignedWatch& LogJoin::watch(std::size_t column) const {
+  const Source& source = sources_[column];
+  return tables_[source.table].window.watch(source.kept);
 }
 
 bool LogJoin::pull(std::size_t log) {
@@ -191,6 +196,25 @@ void LogJoin::count_from_base(Table& table) {
   table.counted = true;
 }
 
+/// Learns the usual step of a table from its own rows, each step once: the median of those around a
+/// row, of which a gap changes nothing.
+void LogJoin::learn_step(std::size_t t, std::size_t row) {
+  Table& table = tables_[t];
+  const bool by_lead = table.clock == ClockKind::kOfLead && rate_ == 0;
+  const std::size_t last = row + kStepsOfTable / 2;
+  for (std::size_t at = std::max(row, table.steps_learnt); at < last; ++at) {
+    if (!ensure(t, at + 1) || (by_lead && !ensure(clock_table_, at + 1))) break;
+    const double step = time_of(t, at + 1) - time_of(t, at);
+    if (step > 0) table.steps[table.step_count++ % kStepsOfTable] = step;
+    table.steps_learnt = at + 1;
+  }
+  const auto count = static_cast<std::ptrdiff_t>(std::min(table.step_count, kStepsOfTable));
+  if (count == 0) return;
+  std::array<double, kStepsOfTable> steps = table.steps;
+  std::nth_element(steps.begin(), steps.begin() + count / 2, steps.begin() + count);
+  table.usual_step = steps[static_cast<std::size_t>(count / 2)];
+}
+
 /// The value of a source with a clock or a delay of its own.
 LogJoin::Found LogJoin::interpolate(Source& source, double time, double& value) {
   const std::size_t t = source.table;
@@ -211,12 +235,8 @@ LogJoin::Found LogJoin::interpolate(Source& source, double time, double& value) 
   if (!there(row + 1)) return Found::kAfter;
   const double t1 = time_of(t, row + 1), x1 = table.window.value(row + 1, source.kept);
   const double step = t1 - t0;
-  if (table.usual_step == 0) table.usual_step = step;
-  const bool gap = step > kJoinGapSteps * table.usual_step;
-  constexpr double kLearn = 0.02;  // of each new step
-  table.usual_step +=
-      kLearn * (std::min(step, kJoinGapSteps * table.usual_step) - table.usual_step);
-  if (gap) {
+  learn_step(t, row);
+  if (step > kJoinGapSteps * table.usual_step) {
     value = kNoValue;
     return Found::kValue;
   }
@@ -312,8 +332,7 @@ bool LogJoin::next(double& time, std::vector<double>& values, std::uint64_t& pla
               place, 0,
               fmt::format("found {} rows in {} and more where positions are, expected as many, or "
                           "a time column in each table",
-                          row_,
-                          runtime::quoted(std::string_view(name_of(table)))));
+                          row_, runtime::quoted(std::string_view(name_of(table)))));
         }
         values[i] = tables_[source.table].window.value(row_, source.kept);
         continue;

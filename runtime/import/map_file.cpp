@@ -259,19 +259,19 @@ std::optional<SignalMap> MapFileReader::read_signal(const MapEntries& top, const
   const bool torque = quantity == ColumnQuantity::kTorque;
   const auto entries = [&] {
     if (torque) {
-      return MapEntries(
-          *node, key,
-          {"columns", "column", "unit", "side", "sign", "gain", "offset", "delay", "file", "table",
-           "constant", "efficiency", "rated", "duty", "full", "voltage", "resistance", "back_emf"},
-          faults_);
+      return MapEntries(*node, key,
+                        {"columns", "column", "unit", "side", "sign", "gain", "offset", "delay",
+                         "file", "table", "constant", "efficiency", "rated", "duty", "full",
+                         "voltage", "resistance", "back_emf", "bits"},
+                        faults_);
     }
     if (quantity == ColumnQuantity::kTemperature) {
-      return MapEntries(*node, key, {"columns", "column", "unit", "delay", "file", "table"},
+      return MapEntries(*node, key, {"columns", "column", "unit", "delay", "file", "table", "bits"},
                         faults_);
     }
     return MapEntries(*node, key,
                       {"columns", "column", "unit", "side", "sign", "gain", "offset", "delay",
-                       "file", "table", "counts_per_rev"},
+                       "file", "table", "counts_per_rev", "bits"},
                       faults_);
   }();
   SignalMap signal;
@@ -295,6 +295,11 @@ std::optional<SignalMap> MapFileReader::read_signal(const MapEntries& top, const
       faults_.add(entries.place_of_value("sign"),
                   fmt::format("found sign {}, expected 1 or -1", value));
     }
+  }
+  signal.bits = static_cast<int>(entries.number("bits", MapNumber::kRatio).value_or(0));
+  if (entries.has("bits") && signal.bits != 8 && signal.bits != 16 && signal.bits != 32) {
+    faults_.add(entries.place_of_value("bits"),
+                fmt::format("found {} bits, expected 8, 16 or 32", signal.bits));
   }
   signal.gain = numbers("gain", MapNumber::kRatio);
   signal.offset = numbers("offset", torque ? MapNumber::kTorque : MapNumber::kPosition);
@@ -450,7 +455,10 @@ void MapFileReader::check_lengths() {
                                          one.length, one.what, expected, by));
     }
   }
-  if (map_.joints == 0) map_.joints = static_cast<int>(expected);
+  if (map_.joints > 0 || lengths_.empty()) return;
+  map_.joints = static_cast<int>(expected);
+  map_.joints_place = lengths_.front().place;
+  map_.joints_by_a_list = true;
 }
 
 /// What keys of several places mean together.

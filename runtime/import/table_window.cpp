@@ -5,11 +5,14 @@
 
 namespace dyngen::runtime {
 
-std::size_t TableWindow::keep_column(std::size_t column) {
-  const auto found = std::find(columns_.begin(), columns_.end(), column);
-  const auto kept = static_cast<std::size_t>(found - columns_.begin());
-  if (found == columns_.end()) columns_.push_back(column);
-  return kept;
+std::size_t TableWindow::keep_column(std::size_t column, int bits) {
+  for (std::size_t kept = 0; kept < columns_.size(); ++kept) {
+    if (columns_[kept] == column && bits_[kept] == bits) return kept;
+  }
+  columns_.push_back(column);
+  bits_.push_back(bits);
+  watches_.emplace_back();
+  return columns_.size() - 1;
 }
 
 void TableWindow::append(const LogRows& rows) {
@@ -26,7 +29,9 @@ void TableWindow::append(const LogRows& rows) {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const auto column = rows.values.col(static_cast<Eigen::Index>(columns_[c]));
     for (std::size_t k = 0; k < count; ++k) {
-      values_[begin + k * columns_.size() + c] = column[static_cast<Eigen::Index>(k)];
+      const double value = column[static_cast<Eigen::Index>(k)];
+      watches_[c].look(value);
+      values_[begin + k * columns_.size() + c] = signed_value(value, bits_[c]);
     }
   }
   for (std::size_t k = 0; k < count; ++k) {

@@ -50,10 +50,11 @@ void add_sign_remarks(const LinearModel& model, const TrialSamples& samples, con
     if (!mends) continue;
     remarks.push_back(
         {"torque_sign", true, static_cast<int>(j) + 1, "",
-         fmt::format("{} of joint {} comes out negative: is the sign of tau{} turned? With the "
-                     "other sign {:.2g} % of its torque is left, as it stands {:.2g} %",
-                     plain.inertia[j] < 0 ? "inertia" : "friction", j + 1, j + 1,
-                     100 * other.left[j], 100 * plain.left[j])});
+         fmt::format("{} of joint {} comes out negative: is the sign of tau{}, or of q{}, turned? "
+                     "With the other sign it comes out positive, and the torque is explained as "
+                     "well: {:.2g} % of it is left",
+                     plain.inertia[j] < 0 ? "inertia" : "friction", j + 1, j + 1, j + 1,
+                     100 * other.left[j])});
   }
 }
 

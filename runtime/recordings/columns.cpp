@@ -278,7 +278,9 @@ Columns HeaderReader::read(char separator, int joints, bool torque_required) {
       fmt::format("expected a header such as 'time,q1,q2{}'", torque_required ? ",tau1,tau2" : "");
   if (group(Kind::kTime).fields.empty()) {
     fail(fields_.empty() ? 1 : fields_.front().column,
-         fmt::format("found no column 'time' in {}, {}", quoted(trimmed(line_)), example));
+         fmt::format("found no column 'time' in {}, {}; other names and units are read by a map "
+                     "('dynid import --guess' writes one)",
+                     quoted(trimmed(line_)), example));
   }
   for (const auto& [kind, word] : {std::pair{Kind::kQ, "q"}, std::pair{Kind::kTau, "tau"}}) {
     if (group(kind).fields.empty() && (kind == Kind::kQ || torque_required)) {

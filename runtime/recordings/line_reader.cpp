@@ -62,8 +62,10 @@ void LineReader::take(Line& line, std::size_t stop, std::size_t end_size) {
                           "found a line of more than 1 MB, expected one row a line");
   }
   if (const std::size_t nul = line.text.find('\0'); nul != line.text.npos) {
-    throw recording_error(log_->file(), number_, nul + 1,
-                          "found a NUL byte, expected text (a binary file?)");
+    throw recording_error(
+        log_->file(), number_, nul + 1,
+        "found a NUL byte, expected text (a binary file? 'dynid import --list' says what "
+        "is in a log, and '--map' reads it)");
   }
   if (number_ == 1 && line.text.starts_with("\xEF\xBB\xBF")) {
     line.text.remove_prefix(3);

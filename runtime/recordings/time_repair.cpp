@@ -30,34 +30,51 @@ TimeRepair::TimeRepair(std::size_t width, BadValueRepair& next, NoticeLog& log, 
       ahead_(width),
       last_(width) {}
 
+/// Steps from stamp to stamp of what lies ahead and of the groups before it: their median.
+double TimeRepair::usual_stamp_step() const {
+  std::array<double, kLookAhead> steps{};
+  std::size_t count = std::min(stamp_step_count_, stamp_steps_.size());
+  std::copy_n(stamp_steps_.begin(), count, steps.begin());
+  for (std::size_t i = 1; i < ahead_.size() && count < steps.size(); ++i) {
+    const double step = ahead_.time(i) - ahead_.time(i - 1);
+    if (ahead_.info(i).segment == ahead_.info(0).segment && step > 0) steps[count++] = step;
+  }
+  return median(steps, count);
+}
+
 /// Rows at the front that share a stamp get times of their own, up to the next stamp.
 void TimeRepair::spread_front() {
+  if (rows_spread_ > 0) {  // of the group before
+    --rows_spread_;
+    return;
+  }
   const double stamp = ahead_.time(0);
   std::size_t count = 1;
   while (count < ahead_.size() && ahead_.time(count) == stamp &&
          ahead_.info(count).segment == ahead_.info(0).segment) {
     ++count;
   }
-  if (count < 2) return;
-  double step = usual_step_ < kUnknown ? usual_step_ : 0;
   const bool has_next = count < ahead_.size() &&
                         ahead_.info(count).segment == ahead_.info(0).segment &&
                         ahead_.time(count) > stamp;
-  if (has_next) {
-    const double to_next = ahead_.time(count) - stamp;
-    step = step > 0 ? std::min(step, to_next) : to_next;  // a gap is no place for rows
-  }
+  const double to_next = has_next ? ahead_.time(count) - stamp : kUnknown;
+  if (to_next <= kGapSteps * usual_stamp_step() && to_next < kUnknown) {
+    stamp_steps_[stamp_step_count_++ % stamp_steps_.size()] = to_next;
+    spacing_ = to_next / static_cast<double>(count);
+  }  // else a gap, which is no place for rows, or the end: they come as those before
+  if (count < 2) return;
   log_->add("repeated stamp", ahead_.info(1).line, 0,
             fmt::format("found time {} {} times, with other values each time; the rows are spread "
                         "evenly up to the next time",
                         stamp, count));
   for (std::size_t i = 1; i < count; ++i) {
-    ahead_.values(i)[0] = stamp + step * static_cast<double>(i) / static_cast<double>(count);
+    ahead_.values(i)[0] = stamp + spacing_ * static_cast<double>(i);
   }
+  rows_spread_ = count - 1;
 }
 
 void TimeRepair::pushed() {
-  if (ahead_.size() > kLookAhead) process_front();
+  if (ahead_.size() > (spread_stamps_ ? kLargestGroup : kLookAhead)) process_front();
 }
 
 void TimeRepair::finish() {

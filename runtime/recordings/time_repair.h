@@ -18,6 +18,8 @@ namespace dyngen::runtime {
 class TimeRepair {
  public:
   static constexpr std::size_t kLookAhead = 32;
+  /// Rows that share a stamp are at most so many: seconds of a log at 4 kHz.
+  static constexpr std::size_t kLargestGroup = 4096;
   /// No gap is shorter than this many usual steps; a gap of kLongGap seconds is one in any case.
   static constexpr double kGapSteps = 5, kLongGap = 1.5;
   /// A step back of more usual steps than this is a new start.
@@ -35,6 +37,7 @@ class TimeRepair {
 
  private:
   void process_front();
+  [[nodiscard]] double usual_stamp_step() const;
   void spread_front();
   void process_backward(double step);
   void begin_run(const char* why);
@@ -55,8 +58,12 @@ class TimeRepair {
   bool step_noticed_ = false;
   std::int64_t segment_ = 0;
   double run_begin_ = 0, last_time_ = 0;
-  std::size_t untimed_ = 0;  ///< rows with a bad time since last_time_
-  double usual_step_ = 0;    ///< s; infinite if unknown
+  std::size_t untimed_ = 0;              ///< rows with a bad time since last_time_
+  double usual_step_ = 0;                ///< s; infinite if unknown
+  std::array<double, 8> stamp_steps_{};  ///< s, of the last groups of rows that share a stamp
+  std::size_t stamp_step_count_ = 0;
+  std::size_t rows_spread_ = 0;  ///< at the front, whose times are their own now
+  double spacing_ = 0;           ///< s, of the rows of the last group
   std::array<double, kLookAhead> steps_{};
   std::size_t step_count_ = 0;
 };

@@ -14,6 +14,7 @@
 #include "runtime/import/guess/column_words.h"
 #include "runtime/import/guess/map_guess.h"
 #include "runtime/import/signal_units.h"
+#include "runtime/import/signed_numbers.h"
 #include "runtime/import/spelling.h"
 #include "runtime/plausibility/derivative_remarks.h"
 #include "runtime/recordings/notice_log.h"
@@ -58,6 +59,19 @@ std::string yaml_numbers(const std::vector<double>& values) {
     text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", value);
   return "[" + text + "]";
 }
+int MapGuess::bits_of(const Candidate& candidate) const {
+  int bits = 0;
+  for (const std::size_t column : candidate.family.columns) {
+    UnsignedWatch watch;
+    for (const double value :
+         logs_.tables[candidate.table].values.col(static_cast<Index>(column))) {
+      watch.look(value);
+    }
+    bits = std::max(bits, watch.bits());
+  }
+  return bits;
+}
+
 MatrixXd MapGuess::values_of(const Candidate& candidate) const {
   const MatrixXd& all = logs_.tables[candidate.table].values;
   MatrixXd values(all.rows(), static_cast<Index>(candidate.family.columns.size()));
@@ -65,6 +79,8 @@ MatrixXd MapGuess::values_of(const Candidate& candidate) const {
     values.col(j) =
         all.col(static_cast<Index>(candidate.family.columns[static_cast<std::size_t>(j)]));
   }
+  const int bits = bits_of(candidate);
+  values = values.unaryExpr([bits](double value) { return signed_value(value, bits); }).eval();
   // a value that is missing is that before it
   for (Index j = 0; j < values.cols(); ++j) {
     double last = 0;
@@ -95,6 +111,7 @@ std::string MapGuess::columns_of(const Candidate& candidate) const {
     text += ", table: " + yaml_text(own.table.name);
   }
   if (logs_.paths.size() > 1) text += fmt::format(", file: file{}", own.log + 1);
+  if (const int bits = bits_of(candidate); bits > 0) text += fmt::format(", bits: {}", bits);
   return text;
 }
 
@@ -249,7 +266,9 @@ const Candidate* MapGuess::choose(ColumnRole role, const char* key) {
   std::vector<std::string> patterns;
   for (const Candidate* one : fitting) patterns.push_back(one->family.pattern);
   question(fmt::format("which columns are the {}: {}?", key, listed(patterns)));
-  line(fmt::format("{}: {{columns: \"?\"}}", key));
+  const bool told = std::all_of(fitting.begin(), fitting.end(),
+                                [](const Candidate* one) { return !one->unit.empty(); });
+  line(fmt::format("{}: {{columns: \"?\"{}}}", key, told ? "" : ", unit: \"?\""));
   for (const Candidate* one : fitting) used_.push_back(one);
   return nullptr;
 }

@@ -12,6 +12,7 @@
 #include "runtime/import/guess/column_words.h"
 #include "runtime/import/guess/map_guess.h"
 #include "runtime/import/signal_units.h"
+#include "runtime/import/signed_numbers.h"
 #include "runtime/import/spelling.h"
 #include "runtime/plausibility/derivative_remarks.h"
 #include "runtime/recordings/notice_log.h"
@@ -238,10 +239,11 @@ void MapGuess::guess_torque() {
       question(
           "which value is full voltage, which voltage, resistance (ohm) and torque constant "
           "(N m/A) has the servo?");
-      line(
-          fmt::format("torque: {{duty: {}, full: \"?\", voltage: \"?\", resistance: \"?\", "
-                      "constant: \"?\"}}",
-                      yaml_text(duty->family.pattern)));
+      const int bits = bits_of(*duty);
+      line(fmt::format(
+          "torque: {{duty: {}, full: \"?\", voltage: \"?\", resistance: \"?\", "
+          "constant: \"?\"{}}}",
+          yaml_text(duty->family.pattern), bits > 0 ? fmt::format(", bits: {}", bits) : ""));
       return;
     }
     question("which columns are the torques of the joints?");
@@ -293,6 +295,11 @@ void MapGuess::guess_torque() {
          fmt::format("{} by name; unit {}: {}",
                      chosen->family.pattern.empty() ? "the last block" : chosen->family.pattern,
                      unit, why));
+  if (robot_.gravity_torque.size() != values.cols()) {
+    remark(
+        "taken as torque at the joints; what is measured at the motors needs 'side: motor' and "
+        "'gears'");
+  }
   note_torque_lag(values);
   line(fmt::format("torque: {{{}, unit: {}}}", columns_of(*chosen), unit));
 }

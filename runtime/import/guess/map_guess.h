@@ -54,6 +54,8 @@ class MapGuess {
   void guess_temperature();
   void note_others();
   void note_torque_lag(const Eigen::MatrixXd& torque);
+  /// Of signed numbers that the log holds as unsigned ones; 0: it does not look so.
+  [[nodiscard]] int bits_of(const Candidate& candidate) const;
   [[nodiscard]] Eigen::MatrixXd values_of(const Candidate& candidate) const;
   [[nodiscard]] std::string columns_of(const Candidate& candidate) const;
   [[nodiscard]] std::vector<DerivativeFit> fits(const Eigen::MatrixXd& upper) const;

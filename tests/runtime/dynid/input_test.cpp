@@ -74,6 +74,17 @@ std::vector<std::string> calls(const std::string& robot, const std::string& out)
           "excite " + robot + " --evaluations 1 -o " + out};
 }
 
+TEST_F(Input, ARecordingThatStandsTwiceIsNamed) {
+  const std::string robot = kCases + "gap/arm2.robot", run = kCases + "gap/run.csv.gz";
+  fs::copy_file(run, path("copy.csv.gz"), fs::copy_options::overwrite_existing);
+  const Outcome twice = dynid("fit " + robot + " " + run + " " + path("copy.csv.gz"));
+  EXPECT_EQ(count_of(twice.out, "again: its equations count twice"), 1U) << twice.out;
+  const Outcome heldout = dynid("fit " + robot + " " + run + " --holdout " + run);
+  EXPECT_EQ(count_of(heldout.out, "is held out and fitted"), 1U) << heldout.out;
+  const Outcome right = dynid("fit " + robot + " " + run);
+  EXPECT_EQ(count_of(right.out, "twice") + count_of(right.out, "held out"), 0U) << right.out;
+}
+
 TEST_F(Input, EveryCommandGivesTheWarningsOfTheRobotFileOnce) {
   const std::string nog = kCases + "no_gravity_row/nog.robot";
   for (const std::string& call : calls(nog, path("out"))) {

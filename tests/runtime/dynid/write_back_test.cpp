@@ -92,6 +92,49 @@ TEST(WriteBack, UrdfHasTheTorqueOfTheFit) {
   }
 }
 
+std::vector<std::size_t> moving_links(const std::vector<MadeLink>& links) {
+  std::vector<std::size_t> moving;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (links[i].parent >= 0 && links[i].type != 2) moving.push_back(i);
+  }
+  return moving;
+}
+
+/// Friction that is 0 in the description of one joint and not of others.
+TEST(WriteBack, AZeroOfTheDescriptionIsNoKnowledge) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<MadeLink> links = test::made_robot(seed);
+    std::vector<MadeLink> nominal = with_other_bodies(links, seed);
+    const std::vector<std::size_t> moving = moving_links(links);
+    nominal[moving.front()].damping = 0;
+    nominal[moving.back()].friction = 0;
+    const std::string path = written(test::temporary_path("zeros.urdf"), urdf_of(nominal));
+    IdentifiedDescription result;
+    ASSERT_NO_THROW(result = into(path, identified_base_parameters(links)));
+    expect_torques(result.text, links);
+  }
+}
+
+/// A fit estimates the bodies of links that have none in the description, and zeros of friction.
+TEST(WriteBack, WhatIsMissingInTheDescriptionIsEstimated) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<MadeLink> links = test::made_robot(seed);
+    std::vector<MadeLink> bare = links;
+    for (const std::size_t moving : moving_links(links)) {
+      bare[moving].mass = bare[moving].damping = 0;
+      bare[moving].inertia.setZero();
+    }
+    for (const OpenParameters open : {OpenParameters::kAbsentRows, OpenParameters::kEverything}) {
+      const auto parameters = [&](const std::vector<MadeLink>& of) {
+        return describe_robot(parse_robot(urdf_of(of), "arm.urdf"), open).linear.size();
+      };
+      EXPECT_EQ(parameters(bare), parameters(links));
+    }
+  }
+}
+
 TEST(WriteBack, OfItsOwnNumbersChangesNothing) {
   const std::vector<MadeLink> links = test::made_robot(4);
   const std::string before = urdf_of(links);

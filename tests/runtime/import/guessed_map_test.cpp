@@ -59,10 +59,10 @@ TEST(ColumnFamilies, AreFoundByNumbersAndNames) {
 
 TEST(GuessedMap, SaysUnitsAndReasons) {
   constexpr double kDegrees = 180 / std::numbers::pi;
-  const GuessedMap guess = runtime::guess_map(
-      moving_log({"Time", "Pos1", "Pos2", "Vel1", "Vel2", "Effort1", "Effort2"},
-                 {1000, 1, kDegrees, 1}),
-      {});
+  const GuessedMap guess =
+      runtime::guess_map(moving_log({"Time", "Pos1", "Pos2", "Vel1", "Vel2", "Effort1", "Effort2"},
+                                    {1000, 1, kDegrees, 1}),
+                         {});
   EXPECT_EQ(guess.questions, 0) << guess.yaml;
   EXPECT_THAT(guess.yaml, HasSubstr("time: {column: \"Time\", unit: ms}"));
   EXPECT_THAT(guess.yaml, HasSubstr("; 500 Hz"));
@@ -120,27 +120,28 @@ TEST(GuessedMap, NamesGearsAndColumnsWithoutNames) {
   const std::vector<std::string> names = {"t", "q1", "q2", "qd1", "qd2", "tau1", "tau2"};
   const GuessedMap gears = runtime::guess_map(moving_log(names, {1, 1, -51, 1}), {});
   EXPECT_THAT(gears.yaml, HasSubstr("velocities are [-51"));
-  const GuessedMap bare =
-      runtime::guess_map(moving_log({"1", "2", "3", "4", "5", "6", "7"}, {1, 1, 1, 1}),
-                         {{2, {}}, {}, {}, {}});
+  const GuessedMap bare = runtime::guess_map(
+      moving_log({"1", "2", "3", "4", "5", "6", "7"}, {1, 1, 1, 1}), {{2, {}}, {}, {}, {}});
   EXPECT_THAT(bare.yaml, HasSubstr("position: {columns: [\"2\", \"3\"], unit: rad}"));
   EXPECT_THAT(bare.yaml, HasSubstr("velocity: {columns: [\"4\", \"5\"], unit: rad/s}"));
 }
 
 TEST(GuessedMap, TakesNamesOfJointsFromBrackets) {
-  const GuessedMap guess = runtime::guess_map(
-      moving_log({"stamp", "position[elbow_joint]", "position[wrist_1_joint]", "velocity[elbow_joint]",
-                  "velocity[wrist_1_joint]", "effort[elbow_joint]", "effort[wrist_1_joint]"},
-                 {1, 1, 1, 1}),
-      {});
+  const GuessedMap guess =
+      runtime::guess_map(moving_log({"stamp", "position[elbow_joint]", "position[wrist_1_joint]",
+                                     "velocity[elbow_joint]", "velocity[wrist_1_joint]",
+                                     "effort[elbow_joint]", "effort[wrist_1_joint]"},
+                                    {1, 1, 1, 1}),
+                         {});
   EXPECT_THAT(guess.yaml, HasSubstr("joints: [\"elbow_joint\", \"wrist_1_joint\"]"));
   EXPECT_THAT(guess.yaml, HasSubstr("position: {columns: \"position[{joint}]\""));
   EXPECT_EQ(guess.questions, 0) << guess.yaml;
 }
 
 TEST(GuessedMap, RefusesALogWithoutPositions) {
-  EXPECT_THROW(runtime::guess_map(moving_log({"t", "x", "y", "z", "u", "v", "w"}, {1, 1, 1, 1}), {}),
-               runtime::ImportError);
+  EXPECT_THROW(
+      runtime::guess_map(moving_log({"t", "x", "y", "z", "u", "v", "w"}, {1, 1, 1, 1}), {}),
+      runtime::ImportError);
 }
 
 }  // namespace

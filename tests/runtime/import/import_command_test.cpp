@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "runtime/recordings/reader.h"
@@ -229,6 +230,80 @@ TEST_F(ImportCommand, TheTutorialOfUrdfAndBagRuns) {
   }
   EXPECT_NEAR(friction[0], 1.8, 0.06);
   EXPECT_NEAR(friction[1], 0.7, 0.02);
+}
+
+TEST_F(ImportCommand, NamesSignedNumbersThatStandAsUnsigned) {
+  std::string text = "time,q1,tau1\n";
+  for (int k = 0; k < 2000; ++k) {
+    const double t = 0.002 * k;
+    const int torque = static_cast<int>(std::lround(300 * std::sin(3 * t)));
+    text += std::to_string(t) + "," + std::to_string(std::sin(3 * t)) + "," +
+            std::to_string(torque < 0 ? torque + 65536 : torque) + "\n";
+  }
+  write("log.csv", text);
+  const std::string plain =
+      "time: {column: time, unit: s}\nposition: {columns: q1, unit: rad}\n"
+      "torque: {columns: tau1, unit: N m";
+  write("plain.yaml", plain + "}\n");
+  write("bits.yaml", plain + ", bits: 16}\n");
+  const std::string behind = " " + made("log.csv") + " -o " + made("run.csv");
+  const Outcome told = dynid("import " + made("plain.yaml") + behind);
+  EXPECT_THAT(told.out, HasSubstr("they look like signed numbers of 16 bits")) << told.out;
+  const Outcome right = dynid("import " + made("bits.yaml") + behind);
+  EXPECT_EQ(right.exit_code, 0);
+  EXPECT_EQ(right.out.find("signed numbers"), std::string::npos) << right.out;
+  const runtime::Recording run = runtime::read_recording(made("run.csv"));
+  EXPECT_EQ(run.tau.minCoeff(), -300);
+  EXPECT_EQ(run.tau.maxCoeff(), 300);
+  const Outcome guess = dynid("import --guess " + made("log.csv") + " -o " + made("guess.yaml"));
+  EXPECT_THAT(content(made("guess.yaml")), HasSubstr("bits: 16")) << guess.out;
+}
+
+TEST_F(ImportCommand, AListThatIsTooShortDropsNoJoint) {
+  write("log.csv", motor_log(500));
+  write("map.yaml",
+        "time: {column: t, unit: ms}\n"
+        "position: {columns: \"motor_angle_{n}\", unit: deg, side: motor}\n"
+        "torque: {columns: \"motor_current_{n}\", unit: A, side: motor, constant: 0.1}\n"
+        "coupling: [[101]]\n");
+  const std::string behind = " " + made("log.csv") + " -o " + made("run.csv");
+  const Outcome outcome = dynid("import " + made("map.yaml") + behind);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("found a list for 1 joints, expected one for 2"));
+  EXPECT_THAT(outcome.out, HasSubstr("map.yaml:4:"));
+}
+
+TEST_F(ImportCommand, EveryRunOfSeveralLogsIsFitted) {
+  // two periodic runs with another torque each: one alone would have its own offset
+  for (const int run : {1, 2}) {
+    std::string text = "time,q1,q2,tau1,tau2\n";
+    for (int k = 0; k < 4000; ++k) {
+      const double t = 0.002 * k, w = std::numbers::pi;
+      text += std::to_string(t) + "," + std::to_string(std::sin(w * t)) + "," +
+              std::to_string(std::cos(w * t)) + "," + std::to_string(10 * run) + "," +
+              std::to_string(-10 * run) + "\n";
+    }
+    write("log" + std::to_string(run) + ".csv", text);
+  }
+  write("map.yaml",
+        "time: {column: time, unit: s}\nposition: {columns: \"q{n}\", unit: rad}\n"
+        "torque: {columns: \"tau{n}\", unit: N m}\n");
+  write("plane.robot", "name plane\nnumber_link 2\nd 0 0.5\nsigma 0 0\nFv * *\noff * *\nstop\n");
+  const Outcome joined = dynid("import " + made("map.yaml") + " " + made("log1.csv") + " " +
+                               made("log2.csv") + " -o " + made("run.csv"));
+  ASSERT_EQ(joined.exit_code, 0) << joined.out;
+  const Outcome fit = dynid("fit " + made("plane.robot") + " " + made("run.csv") +
+                            " --as-recorded --json " + made("fit.json"));
+  EXPECT_THAT(fit.out, HasSubstr("2 runs: all of them are used")) << fit.out;
+  const ImportJson answer = ImportJson::parse(content(made("fit.json")));
+  for (const ImportJson& one : answer.at("parameters")) {
+    if (one.at("name") == "OFF1") {
+      EXPECT_NEAR(one.at("value").get<double>(), 15, 1) << fit.out;
+    }
+    if (one.at("name") == "OFF2") {
+      EXPECT_NEAR(one.at("value").get<double>(), -15, 1) << fit.out;
+    }
+  }
 }
 
 TEST_F(ImportCommand, TellsWhatVelocitiesSay) {

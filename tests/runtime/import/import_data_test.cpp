@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Logs of real robots, each beside the file that was made of it by hand.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <fmt/format.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -26,11 +25,14 @@ namespace {
 using Eigen::Index;
 using runtime::Recording;
 
-std::string map_of(const std::string& name) { return std::string(DYNGEN_MAPS) + "/" + name + ".yaml"; }
+std::string map_of(const std::string& name) {
+  return std::string(DYNGEN_MAPS) + "/" + name + ".yaml";
+}
 
 /// As the log has it, rows repaired but no signals.
 Recording imported_log(const std::string& map_name, const std::string& path, int joints) {
-  const auto map = std::make_shared<const runtime::ImportMap>(runtime::read_import_map(map_of(map_name)));
+  const auto map =
+      std::make_shared<const runtime::ImportMap>(runtime::read_import_map(map_of(map_name)));
   runtime::ReadOptions options;
   options.repair_signals = false;
   return runtime::read_recording(runtime::imported_recording(map, {{path}}, {joints, {}}), options);
@@ -58,7 +60,8 @@ TEST(ImportedData, MapsHaveFewLines) {
   for (const auto& entry : std::filesystem::directory_iterator(DYNGEN_MAPS)) {
     std::ifstream file(entry.path());
     int lines = 0;
-    for (std::string line; std::getline(file, line);) lines += line.empty() || line[0] == '#' ? 0 : 1;
+    for (std::string line; std::getline(file, line);)
+      lines += line.empty() || line[0] == '#' ? 0 : 1;
     EXPECT_LE(lines, 15) << entry.path();
     runtime::read_import_map(entry.path().string());
   }
@@ -99,7 +102,8 @@ TEST(ImportedData, Kr300IsTheFirstOfItsTrainingFiles) {
   try {
     made = imported_log("kr300", *log, 6);
   } catch (const runtime::RecordingError& error) {
-    if (std::string(error.what()).find("built without") != std::string::npos) GTEST_SKIP() << error.what();
+    if (std::string(error.what()).find("built without") != std::string::npos)
+      GTEST_SKIP() << error.what();
     throw;
   }
   const Recording converted = unrepaired(*csv);
@@ -128,7 +132,8 @@ TEST(ImportedData, Ur10IsReadFromItsBag) {
   try {
     made = imported_log("ur10_bag", *log, 6);
   } catch (const runtime::RecordingError& error) {
-    if (std::string(error.what()).find("built without") != std::string::npos) GTEST_SKIP() << error.what();
+    if (std::string(error.what()).find("built without") != std::string::npos)
+      GTEST_SKIP() << error.what();
     throw;
   }
   EXPECT_EQ(made.samples(), 3441);
@@ -138,7 +143,8 @@ TEST(ImportedData, Ur10IsReadFromItsBag) {
 }
 
 TEST(ImportedData, TorqueOfTheServoIsThatOfItsDutyCycle) {
-  const auto log = shared_data("xl330/raw_one.json"), other = shared_data("xl330/kp400_sin_sin.csv.gz");
+  const auto log = shared_data("xl330/raw_one.json"),
+             other = shared_data("xl330/kp400_sin_sin.csv.gz");
   if (!log || !other) GTEST_SKIP() << skip_sentence("xl330/raw_one.json");
   const Recording made = imported_log("xl330", *log, 1);
   std::ifstream file(*log);
@@ -146,14 +152,17 @@ TEST(ImportedData, TorqueOfTheServoIsThatOfItsDutyCycle) {
   ASSERT_GT(made.samples(), 1000);
   for (const Index k : {Index{0}, Index{7}, Index{500}, Index{1000}}) {
     const auto& entry = entries[static_cast<std::size_t>(k)];
-    const double volts = entry.at("load").get<double>() / 885 * entry.at("input_volts").get<double>();
+    const auto load = static_cast<std::int16_t>(entry.at("load").get<std::uint16_t>());
+    const double volts = load / 885.0 * entry.at("input_volts").get<double>();
     const double tau = 0.463 * (volts - 0.463 * entry.at("speed").get<double>()) / 3.4;
     EXPECT_NEAR(made.tau(k, 0), tau, 1e-12) << k;
     EXPECT_EQ(made.q(k, 0), entry.at("position").get<double>());
   }
+  EXPECT_LT(made.tau.cwiseAbs().maxCoeff(), 1);  // the servo's stall torque is 0.52 N m
   // the same numbers make the torque of the converted file: 3 of 885 at 7.3 V
   const Recording converted = unrepaired(*other);
-  EXPECT_NEAR(converted.tau(0, 0), 0.463 * (3.0 / 885 * 7.3 - 0.463 * converted.dq(0, 0)) / 3.4, 1e-10);
+  EXPECT_NEAR(converted.tau(0, 0), 0.463 * (3.0 / 885 * 7.3 - 0.463 * converted.dq(0, 0)) / 3.4,
+              1e-10);
 }
 
 /// No word of what is right.
@@ -189,7 +198,8 @@ TEST(ImportedData, TheLagOfTheServosSpeedIsSaid) {
   recording = runtime::resample(recording, step);
   const auto remarks = runtime::derivative_remarks(recording, step);
   ASSERT_EQ(remarks.size(), 1U);
-  EXPECT_THAT(remarks.front().text, testing::ContainsRegex("qd1 lags behind q1 by 2[01][.0-9]* ms"));
+  EXPECT_THAT(remarks.front().text,
+              testing::ContainsRegex("qd1 lags behind q1 by 2[01][.0-9]* ms"));
 }
 
 }  // namespace

@@ -67,7 +67,8 @@ TEST(ImportedRows, TakesEachJointFromItsOwnSide) {
   const Imported found = imported(
       "time: {column: t, unit: s}\n"
       "position: {columns: \"q{n}\", unit: rad, side: [joint, motor]}\n"
-      "torque: {columns: \"m{n}\", unit: \"%\", rated: [10, 20 N m], side: motor, efficiency: 0.8}\n"
+      "torque: {columns: \"m{n}\", unit: \"%\", rated: [10, 20 N m], side: motor, efficiency: "
+      "0.8}\n"
       "gears: [10, -100]\n",
       {table_of("", kNames, plain_motion(20))});
   const MatrixXd raw = plain_motion(20);
@@ -115,7 +116,8 @@ TEST(ImportedRows, JoinsTablesByTime) {
       "time: {column: t, unit: s}\n"
       "position: {columns: q1, table: a, unit: rad}\n"
       "torque: {columns: x, table: b, unit: N m}\n",
-      {table_of("a", kNames, plain_motion(3000)), table_of("b", {"t", "x"}, other_clock(333, 0.5, 2))});
+      {table_of("a", kNames, plain_motion(3000)),
+       table_of("b", {"t", "x"}, other_clock(333, 0.5, 2))});
   const auto& recording = found.recording;
   ASSERT_GT(recording.samples(), 1900);
   EXPECT_GE(recording.time[0], 0.5);
@@ -180,14 +182,15 @@ TEST(ImportedRows, SplitsKeepsAndCuts) {
   MatrixXd values(1000, 7);
   values.leftCols(5) = plain_motion(1000);
   for (Eigen::Index k = 0; k < 1000; ++k) {
-    values(k, 5) = k < 400 ? 1 : 2;                // phase
+    values(k, 5) = k < 400 ? 1 : 2;              // phase
     values(k, 6) = k >= 600 && k < 700 ? 0 : 1;  // on
   }
   const Imported found = imported(
       "time: {column: t, unit: s}\n"
       "position: {columns: q1, unit: rad}\n"
       "torque: {columns: m1, unit: N m}\n"
-      "runs: {split: phase, keep: on, skip_first: 100 ms, skip_last: 99.5 ms, cut: [[0.2 s, 0.25 s]]}\n",
+      "runs: {split: phase, keep: on, skip_first: 100 ms, skip_last: 99.5 ms, cut: [[0.2 s, 0.25 "
+      "s]]}\n",
       {table_of("", {"t", "q1", "q2", "m1", "m2", "phase", "on"}, values)});
   const auto& recording = found.recording;
   EXPECT_NEAR(recording.time[0], 0.1, 1e-12);

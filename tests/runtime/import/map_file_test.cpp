@@ -33,7 +33,8 @@ std::string fault_of(const std::string& text) {
 TEST(MapFile, ReadsWhatAnEngineerWrites) {
   const ImportMap map = parse_import_map(
       "time: {column: Time, unit: ms}\n"
-      "position: {columns: \"Position{n}\", unit: rad, side: motor, offset: [0, -90 deg, pi/2 rad]}\n"
+      "position: {columns: \"Position{n}\", unit: rad, side: motor, offset: [0, -90 deg, pi/2 "
+      "rad]}\n"
       "torque: {columns: [a, b, c], unit: A, side: motor, constant: 0.1 N m/A, delay: 3 ms}\n"
       "gears: [32, 1798/7, -48]\n"
       "runs: {split: phase, keep: [on, ok], skip_first: 500 ms, cut: [[1 s, 2 s]]}\n",
@@ -51,8 +52,8 @@ TEST(MapFile, ReadsWhatAnEngineerWrites) {
 }
 
 TEST(MapFile, ExpandsNumberedColumnsOfAFileWithoutHeader) {
-  const ImportMap map =
-      parse_import_map("format: {columns: [time, \"q{1..3}\"], separator: tab, skip: 2}\n" + kPlain, "m");
+  const ImportMap map = parse_import_map(
+      "format: {columns: [time, \"q{1..3}\"], separator: tab, skip: 2}\n" + kPlain, "m");
   ASSERT_TRUE(map.text.columns);
   EXPECT_EQ(*map.text.columns, (std::vector<std::string>{"time", "q1", "q2", "q3"}));
   EXPECT_EQ(map.text.separator, '\t');
@@ -63,7 +64,8 @@ TEST(MapFile, NamesTheNearestKey) {
   EXPECT_THAT(fault_of(kPlain + "velocty: {columns: v, unit: rad/s}\n"),
               HasSubstr("map.yaml:4:1: error: unknown key 'velocty' in 'the map'; did you mean "
                         "'velocity'?"));
-  EXPECT_THAT(fault_of("time: {colum: t}\n"), HasSubstr("map.yaml:1:8: error: unknown key 'colum'"));
+  EXPECT_THAT(fault_of("time: {colum: t}\n"),
+              HasSubstr("map.yaml:1:8: error: unknown key 'colum'"));
 }
 
 TEST(MapFile, RefusesWhatCannotBeMeant) {
@@ -73,9 +75,10 @@ TEST(MapFile, RefusesWhatCannotBeMeant) {
   EXPECT_THAT(fault_of("time: {rate: 0 Hz}\n"), HasSubstr("expected more than 0"));
   EXPECT_THAT(fault_of(kPlain + "joints: 2\n" + "gears: [1, 2, 3]\n"),
               HasSubstr("found 3 gears, expected 2 as there are joints, or one for all"));
-  EXPECT_THAT(fault_of("time: {column: t, unit: s}\nposition: {columns: q, unit: rad, offset: -90}\n"),
-              HasSubstr("map.yaml:2:43: error: found '-90' in 'position', expected an angle or a "
-                        "length with its unit"));
+  EXPECT_THAT(
+      fault_of("time: {column: t, unit: s}\nposition: {columns: q, unit: rad, offset: -90}\n"),
+      HasSubstr("map.yaml:2:43: error: found '-90' in 'position', expected an angle or a "
+                "length with its unit"));
   EXPECT_THAT(fault_of(kPlain + kPlain), HasSubstr("found key 'time' a second time"));
   EXPECT_THAT(fault_of("coupling: [[1, 0], [1, 0]]\n"), HasSubstr("has no inverse"));
   EXPECT_THAT(fault_of("[1, 2"), HasSubstr("map.yaml:1:"));
@@ -85,8 +88,9 @@ TEST(MapFile, RefusesWhatCannotBeMeant) {
 }
 
 TEST(MapFile, RefusesQuestionsThatAreOpen) {
-  EXPECT_THAT(fault_of("time: {column: t, unit: s}\nposition: {columns: \"q{n}\", unit: \"?\"}\n"),
-              HasSubstr("map.yaml:2:35: error: position: unit is a question that was not answered"));
+  EXPECT_THAT(
+      fault_of("time: {column: t, unit: s}\nposition: {columns: \"q{n}\", unit: \"?\"}\n"),
+      HasSubstr("map.yaml:2:35: error: position: unit is a question that was not answered"));
   EXPECT_THAT(fault_of("time: {rate: \"?\"}\n"), HasSubstr("not answered"));
   // without quotes too
   EXPECT_THAT(fault_of("time: {column: t, unit: s}\nposition:\n  columns: q\n  unit: ?\n"),

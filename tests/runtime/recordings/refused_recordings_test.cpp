@@ -71,7 +71,8 @@ std::vector<Refusal> refusals() {
        "run.csv:2:7: error: found 6 columns, expected 3 as in the header (line 1); numbers with a "
        "decimal comma need quotes, or semicolons between columns"},
       {"no time", with_header("t,q1,q2,tau1,tau2"),
-       "run.csv:1:1: error: found no column 'time' in 't,q1,q2,tau1,tau2', " + expected_header},
+       "run.csv:1:1: error: found no column 'time' in 't,q1,q2,tau1,tau2', " + expected_header +
+           "; other names and units are read by a map ('dynid import --guess' writes one)"},
       {"no positions", with_header("time,a,b,tau1,tau2"),
        "run.csv:1:15: error: found no column 'q1', " + expected_header},
       {"no torques", with_header("time,q1,q2,x,y"),
@@ -105,7 +106,8 @@ std::vector<Refusal> refusals() {
       {"too many columns", with_line(20, 7, "0.005,5,-5,2.5,7,8,9"),
        "run.csv:7:18: error: found 7 columns, expected 5 as in the header (line 1)"},
       {"a NUL byte", binary,
-       "run.csv:3:4: error: found a NUL byte, expected text (a binary file?)"},
+       "run.csv:3:4: error: found a NUL byte, expected text (a binary file? 'dynid import --list' "
+       "says what is in a log, and '--map' reads it)"},
       {"an endless line", joined(plain_lines(10)) + std::string(3 << 20, '1'),
        "run.csv:12:1: error: found a line of more than 1 MB, expected one row a line"},
       {"bad values everywhere", joined(scattered),

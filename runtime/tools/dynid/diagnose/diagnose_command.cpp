@@ -73,8 +73,8 @@ DiagnosedMotions read_motions(const std::vector<std::string>& paths, const std::
   for (std::size_t i = 0; i < loaded.sources.size(); ++i) {
     motions.sources.push_back(without_effects(loaded.sources[i], known));
     motions.recorded.push_back(loaded.sources[i]);
-    motions.recordings.push_back({loaded.lines[i].name, use, loaded.lines[i].seconds,
-                                  loaded.lines[i].condition.stretches});
+    motions.recordings.push_back(
+        {loaded.lines[i].name, use, loaded.lines[i].seconds, loaded.lines[i].condition.stretches});
   }
   return motions;
 }
@@ -277,6 +277,8 @@ int run_diagnose(const ToolOptions& options) {
   report.arm = arm_drawing(robot.model, posture, marked_joints(report.diagnosis));
   report.recordings = std::move(recordings);
   report.notes = notes_of_numbers(robot, false);
+  for (std::string& remark : repeated_recordings(options))
+    report.notes.push_back(std::move(remark));
   report.residual_only = settings.residual_only;
   report.false_alarm = settings.false_alarm;
   report.seed = settings.seed;

@@ -18,6 +18,7 @@
 #include "runtime/tools/dynid/fit/number_notes.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/page_output.h"
+#include "runtime/tools/dynid/recordings/inputs.h"
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
@@ -295,6 +296,8 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
   }
   refuse_with_hold(options, report.robot.held, file_by_file, summaries);
   report.notes = notes_of_numbers(report.robot, has_open_payload(task.effects));
+  for (std::string& remark : repeated_recordings(options))
+    report.notes.push_back(std::move(remark));
   if (file_by_file) {
     load_by_file(options, group, progress, report);
   } else if (summaries) {

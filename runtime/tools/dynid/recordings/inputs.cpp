@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "gen/model/robot_model.h"
@@ -38,6 +42,44 @@ std::vector<RecordingInput> recording_inputs(const std::vector<std::string>& pat
     inputs.push_back(imported_recording(map, group, robot));
   }
   return inputs;
+}
+
+namespace {
+
+bool same_content(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::is_regular_file(a, error) || !fs::is_regular_file(b, error)) return a == b;
+  if (fs::equivalent(a, b, error)) return true;
+  if (fs::file_size(a, error) != fs::file_size(b, error)) return false;
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  return std::equal(std::istreambuf_iterator<char>(first), std::istreambuf_iterator<char>(),
+                    std::istreambuf_iterator<char>(second));
+}
+
+}  // namespace
+
+std::vector<std::string> repeated_recordings(const ToolOptions& options) {
+  std::vector<std::string> sentences;
+  const std::vector<std::string>& fitted = options.recordings;
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!same_content(fitted[i], fitted[k])) continue;
+      sentences.push_back(fmt::format(
+          "{} is the recording {} again: its equations count twice, and standard deviations are "
+          "too small",
+          fitted[i], fitted[k]));
+      break;
+    }
+    for (const std::string& heldout : options.heldout) {
+      if (!same_content(fitted[i], heldout)) continue;
+      sentences.push_back(
+          fmt::format("{} is held out and fitted: what is held out proves nothing "
+                      "here ('--holdout-part' divides a recording)",
+                      heldout));
+    }
+  }
+  return sentences;
 }
 
 RecordingInput recording_input(const std::string& path, const ToolOptions& options) {

@@ -19,6 +19,11 @@ ImportedRobot imported_robot(const RobotSource& source);
 std::vector<RecordingInput> recording_inputs(const std::vector<std::string>& paths,
                                              const ToolOptions& options);
 
+/// Recordings that the command line names twice, by their content: sentences. Equations that count
+/// twice make standard deviations too small, and held-out residuals of what was fitted prove
+/// nothing.
+std::vector<std::string> repeated_recordings(const ToolOptions& options);
+
 /// The same of a path that is one recording: a file, or a folder of files that a map joins.
 RecordingInput recording_input(const std::string& path, const ToolOptions& options);
 

@@ -48,11 +48,12 @@ bool is_open(const Quantity& quantity, OpenParameters open) {
 /// @param zeros_are_numbers  of bodies in a description that knows no structure: they are estimated
 RobotModel opened(RobotModel model, OpenParameters open, bool zeros_are_numbers) {
   for (JointModel& joint : model.joints) {
+    const bool moves = joint.type != JointType::kFixed;
+    // what moves has a mass, also where nobody has written it down
     const bool body = zeros_are_numbers && open == OpenParameters::kAbsentRows &&
-                      !joint.chi[index(Chi::kM)].known_zero();
+                      (moves || !joint.chi[index(Chi::kM)].known_zero());
     for (std::size_t k = 0; body && k < kInertialCount; ++k) joint.chi[k].open = true;
-    const bool actuator =
-        zeros_are_numbers && open == OpenParameters::kAbsentRows && joint.type != JointType::kFixed;
+    const bool actuator = zeros_are_numbers && open != OpenParameters::kAsWritten && moves;
     for (const Chi kind : {Chi::kIA, Chi::kFV, Chi::kFS}) {
       Quantity& own = joint.chi[index(kind)];
       own.open = actuator && own.line != 0;
