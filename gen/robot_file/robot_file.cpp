@@ -30,6 +30,10 @@ SourcePosition position_of(std::string_view text, std::size_t offset) {
 /// Reports bytes on which reading row by row would make no sense.
 void check_is_text(std::string_view text, Diagnostics& diagnostics) {
   const std::size_t nul = text.find('\0');
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    diagnostics.error(position_of(text, 0), 1, "this text is UTF-16", "save the file as UTF-8");
+    return;
+  }
   if (nul != text.npos) {
     diagnostics.error(position_of(text, nul), 1,
                       "NUL byte: this is a binary file, not a robot file",

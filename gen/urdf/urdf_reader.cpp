@@ -151,6 +151,12 @@ class UrdfReader {
     for (std::size_t k = 0; k < 3; ++k) {
       const Real tolerance = std::max(kSameAngle, options_.round_angles);
       const Real written = rpy[k];
+      if (std::fabs(written) > 2 * kRealPi + kNearlyRight && attribute != nullptr) {
+        values_.warning(
+            *attribute,
+            fmt::format("rpy of {}: {} rad is more than a turn", whose, decimal(written)),
+            "URDF's angles are in rad: is it in degrees?");
+      }
       rpy[k] = rounded_angle(written, tolerance);
       const Real right = std::round(written / (kRealPi / 2)) * (kRealPi / 2);
       const bool nearly = right != 0 && rpy[k] == written && written != right &&

@@ -78,11 +78,12 @@ class XmlTreeReader {
   /// Ranges of bytes are looked for with ASCII's blanks and quotes.
   void refuse_wide_characters() {
     const std::string_view text = document_.text;
-    if (text.find('\0') == text.npos && !text.starts_with("\xff\xfe") &&
-        !text.starts_with("\xfe\xff")) {
-      return;
+    const std::size_t nul = text.find('\0');
+    // one of the first two characters of UTF-16 is ASCII
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || nul < 2) {
+      fail(0, "this XML is UTF-16, or no text", "save the file as UTF-8");
     }
-    fail(0, "this XML is UTF-16, or no text", "save the file as UTF-8");
+    if (nul != text.npos) fail(nul, "NUL byte: this is no text", "remove it");
   }
 
   [[noreturn]] void fail_as_expat_says() {

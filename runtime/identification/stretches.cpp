@@ -27,7 +27,7 @@ using PartMatrix = Eigen::Matrix<double, kParts, kParts>;
 
 /// What a stretch says of each joint.
 struct StretchInformation {
-  double first = 0, last = 0;       ///< s
+  double first = 0, last = 0;  ///< s
   Index rows = 0;
   std::vector<PartMatrix> joints;
 };
@@ -82,34 +82,35 @@ std::vector<StretchInformation> information_of(RecordingReader& reader, double s
   MatrixXd ring;
   VectorXd times(kRing);
   Index held = 0;
-  go_through(reader, seconds, [&](const Recording& chunk, Index k, std::size_t stretch, bool starts) {
-    if (ring.size() == 0) ring.resize(kRing, chunk.joints());
-    if (starts) held = 0;
-    if (stretch >= all.size()) {
-      all.push_back({chunk.time[k], chunk.time[k], 0,
-                     std::vector<PartMatrix>(static_cast<std::size_t>(chunk.joints()),
-                                             PartMatrix::Zero())});
-    }
-    StretchInformation& own = all.back();
-    own.last = chunk.time[k];
-    ++own.rows;
-    ring.row(held % kRing) = chunk.q.row(k);
-    times[held % kRing] = chunk.time[k];
-    ++held;
-    if (held < kRing) return;
-    const Index first = held % kRing, middle = (held + kSlopeSamples) % kRing;
-    const Index last = (held - 1) % kRing;
-    const double before = times[middle] - times[first], after = times[last] - times[middle];
-    if (!(before > 0 && after > 0)) return;
-    for (Index j = 0; j < chunk.joints(); ++j) {
-      const double q = ring(middle, j);
-      const double left = (q - ring(first, j)) / before, right = (ring(last, j) - q) / after;
-      const double dq = (left + right) / 2, ddq = 2 * (right - left) / (before + after);
-      Eigen::Matrix<double, kParts, 1> x;
-      x << ddq, dq, dq > 0 ? 1.0 : dq < 0 ? -1.0 : 0.0, std::sin(q), std::cos(q), 1.0;
-      own.joints[static_cast<std::size_t>(j)] += x * x.transpose();
-    }
-  });
+  go_through(
+      reader, seconds, [&](const Recording& chunk, Index k, std::size_t stretch, bool starts) {
+        if (ring.size() == 0) ring.resize(kRing, chunk.joints());
+        if (starts) held = 0;
+        if (stretch >= all.size()) {
+          all.push_back({chunk.time[k], chunk.time[k], 0,
+                         std::vector<PartMatrix>(static_cast<std::size_t>(chunk.joints()),
+                                                 PartMatrix::Zero())});
+        }
+        StretchInformation& own = all.back();
+        own.last = chunk.time[k];
+        ++own.rows;
+        ring.row(held % kRing) = chunk.q.row(k);
+        times[held % kRing] = chunk.time[k];
+        ++held;
+        if (held < kRing) return;
+        const Index first = held % kRing, middle = (held + kSlopeSamples) % kRing;
+        const Index last = (held - 1) % kRing;
+        const double before = times[middle] - times[first], after = times[last] - times[middle];
+        if (!(before > 0 && after > 0)) return;
+        for (Index j = 0; j < chunk.joints(); ++j) {
+          const double q = ring(middle, j);
+          const double left = (q - ring(first, j)) / before, right = (ring(last, j) - q) / after;
+          const double dq = (left + right) / 2, ddq = 2 * (right - left) / (before + after);
+          Eigen::Matrix<double, kParts, 1> x;
+          x << ddq, dq, dq > 0 ? 1.0 : dq < 0 ? -1.0 : 0.0, std::sin(q), std::cos(q), 1.0;
+          own.joints[static_cast<std::size_t>(j)] += x * x.transpose();
+        }
+      });
   return all;
 }
 
@@ -150,7 +151,8 @@ std::vector<std::size_t> chosen(const std::vector<StretchInformation>& all, Inde
     for (std::size_t s = 0; s < all.size(); ++s) {
       if (used[s] || rows + all[s].rows > most_rows) continue;
       double value = 0;
-      for (std::size_t j = 0; j < sum.size(); ++j) value += log_determinant(sum[j] + all[s].joints[j]);
+      for (std::size_t j = 0; j < sum.size(); ++j)
+        value += log_determinant(sum[j] + all[s].joints[j]);
       if (value > most) {
         most = value;
         best = s;
@@ -167,14 +169,21 @@ std::vector<std::size_t> chosen(const std::vector<StretchInformation>& all, Inde
 }
 
 std::string sentence_of(const Stretches& stretches) {
+  constexpr std::size_t kMostNamed = 8;
   std::string list;
   double used = 0;
-  for (const auto& [from, to] : stretches.times) {
-    list += fmt::format("{}{:.6g} to {:.6g} s", list.empty() ? "" : ", ", from, to);
+  for (std::size_t i = 0; i < stretches.times.size(); ++i) {
+    const auto& [from, to] = stretches.times[i];
     used += to - from;
+    if (i < kMostNamed) {
+      list += fmt::format("{}{:.6g} to {:.6g} s", i == 0 ? "" : ", ", from, to);
+    }
+  }
+  if (stretches.times.size() > kMostNamed) {
+    list += fmt::format(" and {} more, which --json names", stretches.times.size() - kMostNamed);
   }
   return fmt::format(
-      "too long for memory: of {:.6g} s the {} stretch{} that say most are used, {:.6g} s: {}",
+      "too long for a diagnosis: of {:.6g} s the {} stretch{} that say most are used, {:.6g} s: {}",
       stretches.seconds_in_all, stretches.times.size(), stretches.times.size() == 1 ? "" : "es",
       used, list);
 }
@@ -200,33 +209,34 @@ Stretches telling_stretches(const RecordingInput& input, const ReadOptions& read
   std::size_t next = 0, last_taken = all.size();
   go_through(again, options.seconds,
              [&](const Recording& chunk, Index k, std::size_t stretch, bool starts) {
-    while (next < taken.size() && taken[next] < stretch) ++next;
-    if (next >= taken.size() || taken[next] != stretch) return;
-    if (row == 0) {
-      out.file_name = chunk.file_name;
-      out.place_word = chunk.place_word;
-      out.time.resize(rows);
-      for (const auto part : kRecordingParts) {
-        const Index columns = (chunk.*part).cols();
-        (out.*part).resize(columns > 0 ? rows : 0, columns);
-      }
-    }
-    if (stretch != last_taken) {
-      const bool follows = row > 0 && stretch == last_taken + 1 && !starts;
-      if (!follows) {
-        out.run_starts.push_back(row);
-        result.times.emplace_back(chunk.time[k], chunk.time[k]);
-      }
-      last_taken = stretch;
-    }
-    result.times.back().second = chunk.time[k];
-    out.time[row] = chunk.time[k];
-    for (const auto part : kRecordingParts) {
-      if ((chunk.*part).cols() > 0) (out.*part).row(row) = (chunk.*part).row(k);
-    }
-    if (!chunk.lines.empty()) out.lines.push_back(chunk.lines[static_cast<std::size_t>(k)]);
-    ++row;
-  });
+               while (next < taken.size() && taken[next] < stretch) ++next;
+               if (next >= taken.size() || taken[next] != stretch) return;
+               if (row == 0) {
+                 out.file_name = chunk.file_name;
+                 out.place_word = chunk.place_word;
+                 out.time.resize(rows);
+                 for (const auto part : kRecordingParts) {
+                   const Index columns = (chunk.*part).cols();
+                   (out.*part).resize(columns > 0 ? rows : 0, columns);
+                 }
+               }
+               if (stretch != last_taken) {
+                 const bool follows = row > 0 && stretch == last_taken + 1 && !starts;
+                 if (!follows) {
+                   out.run_starts.push_back(row);
+                   result.times.emplace_back(chunk.time[k], chunk.time[k]);
+                 }
+                 last_taken = stretch;
+               }
+               result.times.back().second = chunk.time[k];
+               out.time[row] = chunk.time[k];
+               for (const auto part : kRecordingParts) {
+                 if ((chunk.*part).cols() > 0) (out.*part).row(row) = (chunk.*part).row(k);
+               }
+               if (!chunk.lines.empty())
+                 out.lines.push_back(chunk.lines[static_cast<std::size_t>(k)]);
+               ++row;
+             });
   if (notices != nullptr) {
     notices->insert(notices->end(), again.notices().begin(), again.notices().end());
   }

@@ -65,7 +65,7 @@ class RowChoice {
       }
     }
     const double since = time - start_;
-    if (since < runs_.skip_first) {
+    if (runs_.skip_first > 0 && since < runs_.skip_first) {
       return fmt::format("it is of the first {} s (skip_first)", runs_.skip_first);
     }
     for (const auto& [from, to] : runs_.cuts) {

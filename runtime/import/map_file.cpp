@@ -67,8 +67,15 @@ class MapFileReader {
   void read_duty(const MapEntries& entries, SignalMap& signal);
   void read_gears(const MapEntries& top);
   void read_runs(const YAML::Node& node);
-  void note_length(const MapPlace& place, std::string what, std::size_t length) {
-    if (length > 1) lengths_.push_back({place, std::move(what), length});
+  /// @param is_list  in brackets: one of a list is not one for all
+  void note_length(const MapPlace& place, std::string what, std::size_t length,
+                   bool is_list = false) {
+    if (length > 1 || (length == 1 && is_list))
+      lengths_.push_back({place, std::move(what), length});
+  }
+  static bool is_list(const MapEntries& entries, const char* key) {
+    const YAML::Node* node = entries.find(key);
+    return node != nullptr && node->IsSequence();
   }
   void check_lengths();
   void check_together();
@@ -200,7 +207,7 @@ void MapFileReader::read_units(const MapEntries& entries, ColumnQuantity quantit
                                SignalMap& signal) {
   signal.units = entries.texts("unit");
   signal.unit_place = entries.place_of_value("unit");
-  note_length(signal.unit_place, "units", signal.units.size());
+  note_length(signal.unit_place, "units", signal.units.size(), is_list(entries, "unit"));
   for (const std::string& unit : signal.units) {
     if (unit.empty()) continue;  // told
     const auto known = signal_unit(unit, quantity);
@@ -220,7 +227,8 @@ void MapFileReader::read_sides(const MapEntries& entries, SignalMap& signal) {
     }
     signal.sides.push_back(word == "motor" ? GearSide::kMotor : GearSide::kJoint);
   }
-  note_length(entries.place_of_value("side"), "sides", signal.sides.size());
+  note_length(entries.place_of_value("side"), "sides", signal.sides.size(),
+              is_list(entries, "side"));
 }
 
 void MapFileReader::read_duty(const MapEntries& entries, SignalMap& signal) {
@@ -286,7 +294,8 @@ std::optional<SignalMap> MapFileReader::read_signal(const MapEntries& top, const
   read_sides(entries, signal);
   const auto numbers = [&](const char* own, MapNumber kind) {
     PerJoint values = entries.numbers(own, kind);
-    note_length(entries.place_of_value(own), fmt::format("numbers in '{}'", own), values.size());
+    note_length(entries.place_of_value(own), fmt::format("numbers in '{}'", own), values.size(),
+                is_list(entries, own));
     return values;
   };
   signal.sign = numbers("sign", MapNumber::kRatio);
@@ -346,7 +355,7 @@ void MapFileReader::read_gears(const MapEntries& top) {
   if (top.has("gears")) {
     map_.gears_place = top.place_of_value("gears");
     map_.gears = top.numbers("gears", MapNumber::kRatio);
-    note_length(map_.gears_place, "gears", map_.gears.size());
+    note_length(map_.gears_place, "gears", map_.gears.size(), is_list(top, "gears"));
     for (const double ratio : map_.gears) {
       if (ratio == 0) {
         faults_.add(map_.gears_place,
@@ -364,7 +373,7 @@ void MapFileReader::read_gears(const MapEntries& top) {
                 "= K * joint");
     return;
   }
-  note_length(map_.gears_place, "rows", rows);
+  note_length(map_.gears_place, "rows", rows, true);
   map_.coupling.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(rows));
   Eigen::Index row = 0;
   for (const auto& line : *node) {

@@ -193,5 +193,47 @@ TEST(Mjcf, WhatIsNotModelledIsRefusedByName) {
   EXPECT_NO_THROW(parse_robot(in_world(arm, "<equality><joint joint1=\"k\"/></equality>"), source));
 }
 
+TEST(Mjcf, WordsThatItDoesNotHaveAreNamed) {
+  const std::string joint = "<joint name=\"j\"/>";
+  const auto body = [&](const std::string& inner) {
+    return "<body name=\"a\">" + inner + kInertial + "</body>";
+  };
+  const auto expect_warned = [](const std::string& text, const std::string& words) {
+    std::string all;
+    for (const Diagnostic& own : parse_robot(text, "arm.xml").warnings) {
+      all += own.message + "; " + own.hint + "\n";
+    }
+    EXPECT_NE(all.find(words), std::string::npos) << words << "\n" << all;
+  };
+  expect_warned(in_world(body(joint), "<compiler angl=\"radian\"/>"),
+                "'angl' is no attribute of <compiler> in MJCF: it is passed over; did you mean "
+                "'angle'?");
+  expect_warned(in_world(body("<joint name=\"j\" dampng=\"2\"/>")), "did you mean 'damping'?");
+  expect_warned(in_world(body(joint), "<default><joint dampng=\"2\"/></default>"), "'dampng'");
+  expect_warned(in_world("<body psition=\"0 0 1\">" + joint + kInertial + "</body>"), "'psition'");
+  expect_warned(in_world(body(joint + "<geom ps=\"0 0 1\" size=\"0.1\"/>")), "'ps'");
+  expect_warned(in_world(body(joint), "<option gravty=\"0 0 -1\"/>"), "did you mean 'gravity'?");
+  expect_warned(in_world(body(joint) + "<bdy/>"), "did you mean <body>?");
+  expect_warned(in_world(body(joint), "<compiler discardvisual=\"true\"/>"), "do not collide");
+
+  expect_mjcf_refused(in_world(body("<joint name=\"j\" limited=\"yes\"/>")),
+                      "'yes' is no value of limited");
+  expect_mjcf_refused(in_world(body(joint) + "<joint name=\"k\"/>"),
+                      "a <joint> stands in the world");
+  expect_mjcf_refused(in_world(body(joint + kInertial)), "a second <inertial>");
+  const std::string full =
+      "<inertial pos=\"0 0 0\" mass=\"1\" fullinertia=\"0.01 0.01 0.01 0 0 0\"";
+  expect_mjcf_refused(
+      in_world("<body>" + joint + full + " diaginertia=\"0.01 0.01 0.01\"/></body>"),
+      "fullinertia stands beside diaginertia");
+  expect_mjcf_refused(in_world("<body>" + joint + full + " euler=\"0 0 90\"/></body>"),
+                      "euler stands beside fullinertia");
+  for (const std::string own : {"mass", "density"}) {
+    expect_mjcf_refused(
+        in_world("<body>" + joint + "<geom size=\"0.1\" " + own + "=\"-1\"/></body>"),
+        "the " + own + " of the geom is negative");
+  }
+}
+
 }  // namespace
 }  // namespace dyngen

@@ -86,6 +86,12 @@ TEST(Symoro, WhatIsNotModelledIsRefusedByName) {
             std::string::npos);
   EXPECT_NE(par_error(with_replaced(kTree, "th1 - pi/2", "2*th1")).find("variable plus a number"),
             std::string::npos);
+  EXPECT_NE(par_error(with_replaced(kTree, "th1 - pi/2", "t3")).find("moves a second joint"),
+            std::string::npos)
+      << par_error(with_replaced(kTree, "th1 - pi/2", "t3"));
+  EXPECT_NE(par_error(with_replaced(kTree, "d = {0,0.3,0.1}", "d = {0,0.3,0.1}\neta = {0,1,0}"))
+                .find("eta is 1: an elastic joint"),
+            std::string::npos);
   EXPECT_NE(par_error(kTree + "(* no end"), "");
   EXPECT_NE(par_error("NL = 3\nant = {0,1,5}\n").find("antecedent of link 3"), std::string::npos);
   EXPECT_NE(par_error("NL = x\n"), "");

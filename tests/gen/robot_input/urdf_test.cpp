@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 
 #include "gen/model/robot_model.h"
 #include "gen/robot_input/robot_input.h"
@@ -235,6 +236,19 @@ TEST(Urdf, WhatIsDoubtfulOrLeftOutIsSaid) {
                                    "<link name=\"hand\"/><transmission name=\"t\"><type>x</type>"
                                    "</transmission><gazebo><plugin/></gazebo>")),
             "");
+}
+
+TEST(Urdf, AttributesThatItDoesNotHaveAreNamed) {
+  for (const auto& [right, wrong, word] :
+       {std::tuple{"<origin xyz=\"0.5 0 0\"/>", "<origin xyz=\"0.5 0 0\" quat_xyzw=\"1 0 0 0\"/>",
+                   "'quat_xyzw' is no attribute of <origin> in URDF"},
+        std::tuple{"<origin xyz=\"0.5 0 0\"/>", "<origin xzy=\"0.5 0 0\"/>", "'xzy'"},
+        std::tuple{"ixx=\"0.01\"", "ixx=\"0.01\" iyx=\"0\"",
+                   "'iyx' is no attribute of <inertia>"}}) {
+    const std::string text = replaced(kArm, right, wrong);
+    ASSERT_NE(text, kArm);
+    EXPECT_NE(warnings_text(text).find(word), std::string::npos) << warnings_text(text);
+  }
 }
 
 TEST(Urdf, ZerosOfADescriptionAreNumbers) {

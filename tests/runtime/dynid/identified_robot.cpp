@@ -11,8 +11,6 @@
 
 namespace dyngen::test {
 
-using namespace runtime;
-
 /// The same arm with other masses, centres, moments and friction.
 std::vector<MadeLink> with_other_bodies(std::vector<MadeLink> links, unsigned seed) {
   std::mt19937 random(seed);
@@ -30,10 +28,10 @@ std::vector<MadeLink> with_other_bodies(std::vector<MadeLink> links, unsigned se
 
 /// What dynid writes of the arm if its base parameters are found exactly.
 std::string identified_base_parameters(const std::vector<MadeLink>& links) {
-  const DescribedRobot robot =
-      describe_robot(parse_robot(urdf_of(links), "truth.urdf"), OpenParameters::kEverything);
-  const Eigen::VectorXd beta = robot.grouping * numbers_of(build_model(robot.file));
-  return identified_text(robot, carried(robot, beta), {{"fitted"}, {}, {}});
+  const runtime::DescribedRobot robot = runtime::describe_robot(
+      parse_robot(urdf_of(links), "truth.urdf"), runtime::OpenParameters::kEverything);
+  const Eigen::VectorXd beta = robot.grouping * runtime::numbers_of(build_model(robot.file));
+  return runtime::identified_text(robot, runtime::carried(robot, beta), {{"fitted"}, {}, {}});
 }
 
 std::string written(const std::string& path, const std::string& text) {
@@ -45,7 +43,8 @@ runtime::IdentifiedDescription into(const std::string& path, const std::string& 
   runtime::WriteBackTask task;
   task.description = RobotSource(path);
   task.comment = {"fitted -- by a test"};
-  return identified_description(identified, "truth.robot", task, effect_catalogue({}));
+  return runtime::identified_description(identified, "truth.robot", task,
+                                         runtime::effect_catalogue({}));
 }
 
 }  // namespace dyngen::test

@@ -261,16 +261,22 @@ TEST_F(ImportCommand, NamesSignedNumbersThatStandAsUnsigned) {
 
 TEST_F(ImportCommand, AListThatIsTooShortDropsNoJoint) {
   write("log.csv", motor_log(500));
-  write("map.yaml",
-        "time: {column: t, unit: ms}\n"
-        "position: {columns: \"motor_angle_{n}\", unit: deg, side: motor}\n"
-        "torque: {columns: \"motor_current_{n}\", unit: A, side: motor, constant: 0.1}\n"
-        "coupling: [[101]]\n");
-  const std::string behind = " " + made("log.csv") + " -o " + made("run.csv");
-  const Outcome outcome = dynid("import " + made("map.yaml") + behind);
-  EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
-  EXPECT_THAT(outcome.out, HasSubstr("found a list for 1 joints, expected one for 2"));
-  EXPECT_THAT(outcome.out, HasSubstr("map.yaml:4:"));
+  for (const std::string list : {"coupling: [[101]]", "gears: [101]"}) {
+    write("map.yaml",
+          "time: {column: t, unit: ms}\n"
+          "position: {columns: \"motor_angle_{n}\", unit: deg, side: motor}\n"
+          "torque: {columns: \"motor_current_{n}\", unit: A, side: motor, constant: 0.1 N m/A}\n" +
+              list + "\n");
+    const std::string behind = " " + made("log.csv") + " -o " + made("run.csv");
+    const Outcome outcome = dynid("import " + made("map.yaml") + behind);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
+    EXPECT_THAT(outcome.out, HasSubstr("found a list for 1 joints, expected one for 2"));
+    EXPECT_THAT(outcome.out, HasSubstr("map.yaml:4:"));
+    const Outcome of_robot =
+        dynid("import " + made("map.yaml") + behind + " --robot " + made("arm2.robot"));
+    EXPECT_EQ(of_robot.exit_code, 1) << of_robot.out;
+    EXPECT_THAT(of_robot.out, HasSubstr("map.yaml:4:"));
+  }
 }
 
 TEST_F(ImportCommand, EveryRunOfSeveralLogsIsFitted) {

@@ -130,6 +130,41 @@ TEST(ImportedRows, JoinsTablesByTime) {
   EXPECT_THAT(found.notices, testing::Contains(HasSubstr("'b' has ended")));
 }
 
+/// Of a table whose rows are absent for a while nothing is made, whatever its steps are.
+TEST(ImportedRows, MakesNothingOverAGapOfATable) {
+  for (const double step : {0.001, 0.004, 0.01}) {
+    for (const double gap : {0.1, 0.5, 2.0}) {
+      const auto table_with_gap = [&](const std::string& name, bool gaps, double own_step) {
+        std::vector<double> times;
+        for (double t = 0; t < 6; t += own_step) {
+          if (!gaps || t <= 2 || t >= 2 + gap) times.push_back(t);
+        }
+        MatrixXd values(static_cast<Eigen::Index>(times.size()), 2);
+        for (Eigen::Index k = 0; k < values.rows(); ++k) {
+          const double t = times[static_cast<std::size_t>(k)];
+          values.row(k) << t, std::sin(7 * t);
+        }
+        return table_of(name, {"t", name == "enc" ? "q1" : "m1"}, values);
+      };
+      const Imported found = imported(
+          "time: {column: t, unit: s}\n"
+          "position: {columns: \"q{n}\", unit: rad, table: enc}\n"
+          "torque: {columns: \"m{n}\", unit: N m, table: drv}\n",
+          {table_with_gap("enc", false, 0.004), table_with_gap("drv", true, step)});
+      const runtime::Recording& run = found.recording;
+      ASSERT_GT(run.samples(), 500);
+      double worst = 0;
+      int within = 0;
+      for (Eigen::Index k = 0; k < run.samples(); ++k) {
+        worst = std::max(worst, std::abs(run.tau(k, 0) - std::sin(7 * run.time[k])));
+        within += run.time[k] > 2 + step && run.time[k] < 2 + gap - step;
+      }
+      EXPECT_EQ(within, 0) << step << " " << gap;
+      EXPECT_LT(worst, 50 * step * step) << step << " " << gap;  // of straight lines
+    }
+  }
+}
+
 TEST(ImportedRows, JoinsStampsThatWereCountedFromTheirFirst) {
   FakeTable a = table_of("a", kNames, plain_motion(3000));
   FakeTable b = table_of("b", {"t", "x"}, other_clock(333, 0, 2));

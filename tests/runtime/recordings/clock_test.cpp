@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <random>
 
 #include "runtime/recordings/held_columns.h"
 #include "runtime/recordings/reader.h"
 #include "tests/support/temporary_path.h"
-
-#include <fstream>
 
 namespace dyngen::test {
 namespace {
@@ -115,6 +114,41 @@ TEST(RepeatedStamps, AreSpreadAndTold) {
   EXPECT_THAT(words, HasSubstr("the rows are spread evenly up to the next time (1000 such in all"));
 }
 
+/// Samples at 1 kHz whose clock stands still for some of them.
+TEST(RepeatedStamps, OfACoarseClockAreOneRun) {
+  for (const int group : {2, 3, 5, 10, 100, 1000}) {
+    for (const int first : {0, group / 3}) {  // samples that the first stamp lacks
+      SCOPED_TRACE(testing::Message()
+                   << group << " rows a stamp, " << first << " before the first");
+      const std::string path = temporary_path("coarse.csv");
+      {
+        std::ofstream file(path);
+        file.precision(12);
+        file << "time,q1,tau1\n";
+        for (int k = first; k < 8000; ++k) {
+          const double t = 0.001 * k;
+          file << (k / group) * group * 0.001 << "," << std::sin(2 * t) << "," << std::cos(2 * t)
+               << "\n";
+        }
+      }
+      std::vector<runtime::Notice> notices;
+      const Recording recording = runtime::read_recording(path, {}, &notices);
+      ASSERT_EQ(recording.samples(), 8000 - first);
+      EXPECT_EQ(recording.run_starts.size(), 1U);
+      double worst = 0;
+      for (Index k = group; k < recording.samples() - group; ++k) {
+        worst =
+            std::max(worst, std::abs(recording.time[k] - 0.001 * static_cast<double>(k + first)));
+      }
+      EXPECT_LT(worst, 1e-9);
+      for (const auto& notice : notices) {
+        EXPECT_EQ(notice.text().find("jumps"), std::string::npos) << notice.text();
+        EXPECT_EQ(notice.text().find("gap"), std::string::npos) << notice.text();
+      }
+    }
+  }
+}
+
 /// A velocity that a slower source gives: every third value is new.
 VectorXd slow_column(bool pulsed) {
   VectorXd values(3000);
@@ -158,8 +192,8 @@ TEST(HeldColumns, AreToldOfRecordings) {
     std::ofstream file(path);
     file << "time,q1,tau1,qd1\n";
     for (Index k = 0; k < held.size(); ++k) {
-      file << 0.001 * static_cast<double>(k) << "," << std::sin(0.01 * static_cast<double>(k)) << ","
-           << pulsed[k] << "," << held[k] << "\n";
+      file << 0.001 * static_cast<double>(k) << "," << std::sin(0.01 * static_cast<double>(k))
+           << "," << pulsed[k] << "," << held[k] << "\n";
     }
   }
   std::vector<runtime::Notice> notices;
