@@ -74,6 +74,15 @@ std::vector<std::string> calls(const std::string& robot, const std::string& out)
           "excite " + robot + " --evaluations 1 -o " + out};
 }
 
+TEST_F(Input, ARecordingInTheRobotsPlaceIsNamed) {
+  const std::string robot = kCases + "gap/arm2.robot", run = kCases + "gap/run.csv.gz";
+  for (const char* command : {"fit ", "check ", "diagnose ", "accumulate "}) {
+    const Outcome outcome = dynid(command + run + " " + robot + " -o " + path("out"));
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+    EXPECT_EQ(count_of(outcome.out, "where the robot stands"), 1U) << outcome.out;
+  }
+}
+
 TEST_F(Input, ARecordingThatStandsTwiceIsNamed) {
   const std::string robot = kCases + "gap/arm2.robot", run = kCases + "gap/run.csv.gz";
   fs::copy_file(run, path("copy.csv.gz"), fs::copy_options::overwrite_existing);

@@ -5,12 +5,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <stdexcept>
+#include <string_view>
 
 #include "gen/tool/robot_options.h"
 #include "gen/tool/usage_hint.h"
@@ -235,6 +237,15 @@ int usage(const std::string& message) {
   return kUsage;
 }
 
+/// Whether a file is called like a recording or a log, and like no robot.
+bool is_log_name(const std::string& path) {
+  constexpr std::array<std::string_view, 11> kLogs = {".csv", ".csv.gz", ".txt.gz", ".mat",
+                                                      ".db3", ".mcap",   ".bag",    ".npz",
+                                                      ".npy", ".h5",     ".jsonl"};
+  return std::any_of(kLogs.begin(), kLogs.end(),
+                     [&](std::string_view ending) { return path.ends_with(ending); });
+}
+
 /// @return a message about wrong usage, or nothing
 std::string understand(const Words& words, ToolOptions& options) {
   options.motion.state.method = state_methods().at(words.state);
@@ -260,6 +271,12 @@ std::string understand(const Words& words, ToolOptions& options) {
                          fmt::join(fit_method_names(), ", "));
     }
     options.fit.methods.push_back(*method);
+  }
+  if (is_log_name(options.robot.path)) {
+    return fmt::format(
+        "found '{}' where the robot stands: expected the robot first, recordings "
+        "after it",
+        options.robot.path);
   }
   if (options.command == Command::kAtlas) {
     if (options.recordings.empty() == options.atlas.trajectory.empty()) {
