@@ -108,7 +108,7 @@ class UrdfReader {
     const std::string file = std::filesystem::path(document_.file_name).filename().string();
     std::string stem = file;
     for (const std::string_view ending : {".xacro", ".urdf", ".xml"}) {
-      if (stem.ends_with(ending)) stem.resize(stem.size() - ending.size());
+      if (stem.ends_with(ending)) stem.erase(stem.rfind(ending));
     }
     const std::string source = stem + ".urdf" == file ? stem + ".urdf.xacro" : file;
     values_.error(
