@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/estimation/covariance.h"
+#include "runtime/estimation/errors_in_variables.h"
 #include "runtime/estimation/robust.h"
 #include "runtime/estimation/significance.h"
 #include "runtime/identification/recursive_fit.h"
@@ -58,6 +59,11 @@ class Fitter {
                                       fit.estimate.scale, fit.estimate.unseen)
                          .diagonal()
                          .cwiseSqrt();
+    }
+    // instruments have no part in the noise of the regressor
+    if (method != FitMethod::kIv && fit.estimate.covariance.size() != 0) {
+      fit.estimate.covariance +=
+          errors_in_variables(equations, fit.estimate, data_.summary.regressor_noise);
     }
     return fit;
   }

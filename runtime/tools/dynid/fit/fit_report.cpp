@@ -12,13 +12,6 @@ namespace dyngen::runtime {
 
 using Eigen::Index;
 
-namespace {
-
-/// Bias by noise of the regressor, of a value, above which the value is no longer known.
-constexpr double kBiasOfValue = 0.1;
-
-}  // namespace
-
 Seen seen(const FitReport& report, int parameter) {
   for (const UnseenCombination& combination : report.unseen) {
     for (const auto& [place, factor] : combination.terms) {
@@ -29,10 +22,7 @@ Seen seen(const FitReport& report, int parameter) {
   if (fit.estimate.covariance.size() == 0) return Seen::kYes;
   const double deviation = std::sqrt(fit.estimate.covariance(parameter, parameter));
   const double value = std::abs(fit.estimate.beta[parameter]);
-  if (value < fit.interval * deviation) return Seen::kWeak;
-  const double bias =
-      report.trust.attenuation.size() != 0 ? std::abs(report.trust.attenuation[parameter]) : 0;
-  return bias > std::max(kBiasOfValue * value, fit.interval * deviation) ? Seen::kWeak : Seen::kYes;
+  return value < fit.interval * deviation ? Seen::kWeak : Seen::kYes;
 }
 
 std::string_view seen_name(Seen seen) {
