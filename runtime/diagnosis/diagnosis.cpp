@@ -12,6 +12,7 @@
 #include "runtime/diagnosis/answer/certificate.h"
 #include "runtime/diagnosis/answer/condition_lines.h"
 #include "runtime/diagnosis/answer/found_effects.h"
+#include "runtime/diagnosis/answer/heldout_remarks.h"
 #include "runtime/diagnosis/answer/heldout_verdict.h"
 #include "runtime/diagnosis/answer/unnamed_text.h"
 #include "runtime/diagnosis/answer/verdict.h"
@@ -59,11 +60,11 @@ class Diagnostician {
         options_(options),
         progress_(progress),
         witness_(witness),
-        search_(input, options.decimation) {}
+        search_(input, options.decimation, options.rules.equations) {}
 
   Diagnosis run() {
     answer_.condition = condition_lines(input_, search_.parts(), &search_.shown_train());
-    answer_.sentence = why_too_few(search_.views().train);
+    answer_.sentence = why_too_few(search_.views().train, options_.rules.equations);
     if (!answer_.sentence.empty()) return std::move(answer_);
     const std::string too_little = why_not_clean();
     CompetitionOptions settings;
@@ -71,15 +72,16 @@ class Diagnostician {
     settings.most_winners = options_.most_findings;
     settings.seed = options_.seed;
     settings.with_regressor = !options_.residual_only;
+    settings.rules = options_.rules;
     search_.compete(settings, progress_);
     describe_noise();
     answer_.before = tests_of(result().first);
     answer_.after = tests_of(result().last);
     if (found_nothing(result())) {
-      answer_.sentence = too_little.empty() ? why_too_slow(result()) : too_little;
+      answer_.sentence = too_little.empty() ? why_too_slow(result(), options_.rules.answer) : too_little;
     }
     if (!answer_.sentence.empty()) return std::move(answer_);
-    answer_.findings = found_effects(search_, options_.seed, !options_.residual_only, progress_);
+    answer_.findings = found_effects(search_, settings, progress_);
     answer_.fit = result().fit;
     describe_changes();
     answer_.unexplained = described(result().nameless);
@@ -89,7 +91,7 @@ class Diagnostician {
     describe_base();
     describe_heldout();
     answer_.next = next_experiment(answer_.findings);
-    Conclusion conclusion = concluded(search_, answer_.findings);
+    Conclusion conclusion = concluded(search_, answer_.findings, options_.rules.answer);
     if (conclusion.verdict == Verdict::kClean || conclusion.verdict == Verdict::kExplained) {
       if (const std::optional<Conclusion> other = against()) conclusion = *other;
     }
@@ -103,7 +105,8 @@ class Diagnostician {
   /// Why recordings in which nothing is found would not be clean; empty: they are.
   [[nodiscard]] std::string why_not_clean() const {
     if (options_.residual_only) return {};
-    return why_too_little_motion(search_.views().train, search_.views().proof);
+    return why_too_little_motion(search_.views().train, search_.views().proof,
+                                 options_.rules.equations);
   }
 
   void tell(const std::string& stage, double done) const {
@@ -174,6 +177,7 @@ class Diagnostician {
     const Eigen::ArrayXd judged = counted_part(search_.views().proof).array();
     const Eigen::ArrayXd all = counted_part(search_.views().heldout).array();
     answer_.heldout.visited = (all > 0).select(judged / all.max(1e-300), 0.0).matrix();
+    answer_.heldout.remarks = heldout_remarks(answer_.heldout, options_.rules.answer);
   }
 
   /// What each finding lowers of the held-out torque of its joints, beside all others.
@@ -214,7 +218,8 @@ class Diagnostician {
     known.heldout_worth =
         known.fitted_worth.cwiseProduct(heldout).cwiseQuotient(fitted.cwiseMax(1.0));
     known.worse = worse_;
-    return contradicted(answer_.heldout, known, answer_.findings.empty(), input_.model.revolute);
+    return contradicted(answer_.heldout, known, answer_.findings.empty(), input_.model.revolute,
+                        options_.rules.answer);
   }
 
   /// (n) equations that count

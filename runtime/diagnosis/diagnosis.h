@@ -9,6 +9,7 @@
 
 #include "runtime/diagnosis/names/findings.h"
 #include "runtime/diagnosis/views/diagnosis_input.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -19,6 +20,7 @@ struct DiagnosisOptions {
   bool residual_only = false;
   Eigen::Index decimation = 0;  ///< as RowOptions
   std::uint64_t seed = 20261121;
+  DecisionRules rules;
 
   /// @throws std::invalid_argument  naming the option and its range
   void validate() const;

@@ -144,7 +144,9 @@ std::vector<double> squares_of_few(const Products& products) {
 
 EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals& residuals,
                                const TorqueNoiseModel& noise, const Options& options)
-    : data_(data), left_out_(noise.joints.size()), worth_(noise.worth), rows_(data.equations()) {
+    : data_(data),
+      rules_(options.rules.scans),
+      left_out_(noise.joints.size()), worth_(noise.worth), rows_(data.equations()) {
   const int n = data.joints();
   const Index size = data.model.size();
   whiteners_ = whiteners_of(data, noise);

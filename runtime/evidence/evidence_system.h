@@ -12,6 +12,7 @@
 #include "runtime/evidence/local_reflections.h"
 #include "runtime/evidence/torque_noise_model.h"
 #include "runtime/evidence/unknown_torque.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -50,6 +51,7 @@ class EvidenceSystem {
     int surrogates = 32;
     std::uint64_t seed = 1;
     bool with_regressor = true;  ///< false: no parameter of the model is fitted
+    DecisionRules rules;
   };
 
   /// @param residuals  of the torque to explain: at the model, or all of it; what the regressor
@@ -89,6 +91,8 @@ class EvidenceSystem {
                                          Eigen::Index to) const;
   /// Independent samples that the noise of a joint is known by.
   [[nodiscard]] double worth(int joint) const { return worth_[joint]; }
+  /// Those of scans.
+  [[nodiscard]] const ScanRules& rules() const { return rules_; }
   [[nodiscard]] int surrogates() const { return static_cast<int>(noise_.cols()); }
 
  private:
@@ -97,6 +101,7 @@ class EvidenceSystem {
   void project(const Eigen::MatrixXd& columns);
 
   const EffectRecordings& data_;
+  ScanRules rules_;
   std::shared_ptr<const std::vector<std::vector<Whitener>>>
       whiteners_;  // of each joint in each run
   std::shared_ptr<const std::vector<std::deque<UnknownTorque>>> unknown_;  // the same

@@ -17,10 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr std::size_t kFewestRuns = 3;  // that can have a course in common
 constexpr Index kHalfWaves = 4;         // of the longest run
-constexpr double kPerhaps = 5;          // chi-square of 4: it is noise with the drift in it
-constexpr double kSurely = 25;          // beside noise without it, which is not known well
 
 }  // namespace
 
@@ -79,7 +76,7 @@ JointDifferences PeriodDifferences::of_runs(const std::vector<Run>& runs, double
   const double highest = 0.5 * static_cast<double>(kHalfWaves) / longest();
   for (const Run& run : runs) {
     for (DifferenceLine line :
-         difference_lines(run.difference, run.counted, run.period, joint.process)) {
+         difference_lines(run.difference, run.counted, run.period, joint.process, rules_)) {
       if (line.frequency < highest) line.power *= restored;
       joint.lines.push_back(line);
     }
@@ -88,7 +85,7 @@ JointDifferences PeriodDifferences::of_runs(const std::vector<Run>& runs, double
 }
 
 std::optional<CommonCourse> PeriodDifferences::common_course() const {
-  if (runs_.size() < kFewestRuns) return std::nullopt;
+  if (static_cast<double>(runs_.size()) < rules_.course_runs) return std::nullopt;
   Index rows = 0;
   double periods = 0;
   for (const Run& run : runs_) {
@@ -133,32 +130,33 @@ double chi_square(const CommonCourse& course, const JointNoise& noise) {
 }
 
 std::vector<JointNoise> noise_of_periods(const std::vector<PeriodDifferences>& joints,
-                                         const DifferenceLengths& lengths) {
+                                         const DifferenceLengths& lengths,
+                                         const NoiseRules& rules) {
   std::vector<JointDifferences> differences;
   for (const PeriodDifferences& joint : joints) differences.push_back(joint.of_joint());
-  std::vector<JointNoise> noise = noise_of_differences(differences, lengths);
+  std::vector<JointNoise> noise = noise_of_differences(differences, lengths, rules);
   std::vector<std::size_t> drifting;
   std::vector<CommonCourse> courses;
   std::vector<JointDifferences> without = differences;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     std::optional<CommonCourse> course = joints[j].common_course();
-    if (!course || chi_square(*course, noise[j]) < kPerhaps) continue;
+    if (!course || chi_square(*course, noise[j]) < rules.course_candidate) continue;
     without[j] = course->without;
     drifting.push_back(j);
     courses.push_back(std::move(*course));
   }
   if (drifting.empty()) return noise;
-  const std::vector<JointNoise> beside = noise_of_differences(without, lengths);
+  const std::vector<JointNoise> beside = noise_of_differences(without, lengths, rules);
   bool all = true;
   for (std::size_t i = 0; i < drifting.size(); ++i) {
     const std::size_t j = drifting[i];
-    if (chi_square(courses[i], beside[j]) > kSurely) {
+    if (chi_square(courses[i], beside[j]) > rules.course_chi_square) {
       differences[j] = without[j];
     } else {
       all = false;
     }
   }
-  return all ? beside : noise_of_differences(differences, lengths);
+  return all ? beside : noise_of_differences(differences, lengths, rules);
 }
 
 }  // namespace dyngen::runtime

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/evidence/slow_noise.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -25,6 +26,8 @@ double chi_square(const CommonCourse& course, const JointNoise& noise);
 /// What the motion determines cancels in them.
 class PeriodDifferences {
  public:
+  explicit PeriodDifferences(const NoiseRules& rules = {}) : rules_(rules) {}
+
   /// @param e        residuals of the run, 0 where `counted` is   @param counted  1 or 0
   /// @param period   in samples; a run of less than one and a half is left out
   void add(const Eigen::VectorXd& e, const Eigen::VectorXd& counted, double period);
@@ -48,11 +51,13 @@ class PeriodDifferences {
   [[nodiscard]] JointDifferences of_runs(const std::vector<Run>& runs, double restored) const;
 
   std::vector<Run> runs_;
+  NoiseRules rules_;
 };
 
 /// noise_of_differences() of all joints. Noise of its own in each run has hardly anything in common
 /// with the others: of a joint where the common course is far more than noise it is taken out.
 std::vector<JointNoise> noise_of_periods(const std::vector<PeriodDifferences>& joints,
-                                         const DifferenceLengths& lengths);
+                                         const DifferenceLengths& lengths,
+                                         const NoiseRules& rules = {});
 
 }  // namespace dyngen::runtime

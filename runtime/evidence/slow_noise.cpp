@@ -17,14 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLeastPassed = 0.5;   // of the density, that a line must have
 constexpr double kShortestMemory = 8;  // samples
 constexpr double kApart = 4;           // from one memory to the next
-constexpr double kPrice = 2;           // twice log likelihood that slow parts pay (Akaike): with
-                                       // them in vain power is lost, without them there are alarms
-constexpr double kAlike = 3;           // of densities at the motion's period, of joints
-constexpr double kAlwaysKept = 0.1;    // of the rest's density, there
-constexpr double kFarLess = 20;        // of twice log likelihood
 constexpr double kNegligible = 1e-3;   // of a joint's deviation: such a part is left out
 constexpr std::array<double, 5> kRatios = {0.25, 0.5, 1, 2, 4};  // 1: 1/f noise
 /// Of the variance. Noise of accelerations may be thousands of times what is slow beside it.
@@ -83,7 +77,8 @@ double likelihood(const std::vector<DifferenceLine>& lines, const JointNoise& no
 }  // namespace
 
 std::vector<DifferenceLine> difference_lines(const VectorXd& difference, const VectorXd& counted,
-                                             double period, const AutoregressiveNoise& process) {
+                                             double period, const AutoregressiveNoise& process,
+                                             const NoiseRules& rules) {
   std::vector<DifferenceLine> lines;
   const Index samples = difference.size() - difference.size() % kGrain;
   const double weight = counted.head(samples).sum();
@@ -102,7 +97,7 @@ std::vector<DifferenceLine> difference_lines(const VectorXd& difference, const V
   for (Index k = 0; k < samples / 2; ++k) {
     const double frequency = (static_cast<double>(k) + 0.5) / static_cast<double>(samples);
     const double passed = 1 - std::cos(2 * M_PI * frequency * period);
-    if (passed < kLeastPassed) continue;
+    if (passed < rules.line_transmission) continue;
     const double left = std::norm(spectrum[static_cast<std::size_t>(k)]) / weight;
     lines.push_back({frequency, passed, left * density(process, frequency)});
   }
@@ -170,7 +165,8 @@ JointNoise beside_alone(const JointNoise& alone, const DifferenceLengths& length
   return noise;
 }
 
-Choice choice_of(const JointDifferences& joint, const DifferenceLengths& lengths) {
+Choice choice_of(const JointDifferences& joint, const DifferenceLengths& lengths,
+                 double slow_part_price) {
   Choice choice{{joint.process, {}}, {}, 0};
   choice.with_slow = choice.alone;
   if (lengths.longest < kShortestMemory || joint.lines.empty() ||
@@ -182,8 +178,8 @@ Choice choice_of(const JointDifferences& joint, const DifferenceLengths& lengths
     return likelihood(joint.lines, noise) -
            price * static_cast<double>(noise.quick.coefficients.size());
   };
-  choice.gain = -kPrice;  // of slow parts that are nothing
-  const double alone = worth(choice.alone) + kPrice;
+  choice.gain = -slow_part_price;  // of slow parts that are nothing
+  const double alone = worth(choice.alone) + slow_part_price;
   for (const double ratio : kRatios) {
     const std::vector<SlowNoise> parts = slow_parts(lengths.longest, ratio);
     for (const double share : kShares) {
@@ -199,7 +195,7 @@ Choice choice_of(const JointDifferences& joint, const DifferenceLengths& lengths
   if (!choice.with_slow.slow.empty()) starts.push_back(choice.with_slow);
   for (JointNoise& start : starts) {
     JointNoise each = refined(joint, std::move(start));
-    const double gain = worth(each) - alone - kPrice * static_cast<double>(each.slow.size());
+    const double gain = worth(each) - alone - slow_part_price * static_cast<double>(each.slow.size());
     if (gain <= choice.gain) continue;
     choice.gain = gain;
     choice.with_slow = std::move(each);
@@ -219,7 +215,8 @@ double reached_by_two(std::vector<double> values) {
 /// the motion's frequency, than two others have; its process has what the differences show of the
 /// rest, where that is not far less likely.
 void keep_what_all_joints_have(std::vector<JointNoise>& noise,
-                               const std::vector<JointDifferences>& joints, double period) {
+                               const std::vector<JointDifferences>& joints, double period,
+                               const NoiseRules& rules) {
   if (noise.size() < 2) return;
   const auto lasts = [&](const SlowNoise& part) { return memory_of(part) > period / 2; };
   std::vector<double> lasting;
@@ -233,7 +230,8 @@ void keep_what_all_joints_have(std::vector<JointNoise>& noise,
   for (std::size_t j = 0; j < noise.size(); ++j) {
     std::vector<double> others = lasting;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
-    const double most = std::max(kAlwaysKept, kAlike * reached_by_two(others));
+    const double most = 
+        std::max<double>(rules.density_floor, rules.density_ratio * reached_by_two(others));
     if (lasting[j] <= most) continue;
     for (SlowNoise& part : noise[j].slow) {
       if (lasts(part)) part.deviation *= std::sqrt(most / lasting[j]);
@@ -244,7 +242,8 @@ void keep_what_all_joints_have(std::vector<JointNoise>& noise,
         covariance - differences_of(again.slow, covariance.size(), period), joints[j].samples);
     // what is left of noise of accelerations may be no covariance, nor near one
     if (again.quick.innovation > 0 &&
-        likelihood(joints[j].lines, again) > likelihood(joints[j].lines, noise[j]) - kFarLess) {
+        likelihood(joints[j].lines, again) > likelihood(joints[j].lines, noise[j]) -
+                                                      rules.likelihood_loss) {
       noise[j] = std::move(again);
     }
   }
@@ -253,16 +252,17 @@ void keep_what_all_joints_have(std::vector<JointNoise>& noise,
 }  // namespace
 
 std::vector<JointNoise> noise_of_differences(const std::vector<JointDifferences>& joints,
-                                             const DifferenceLengths& lengths) {
+                                             const DifferenceLengths& lengths,
+                                             const NoiseRules& rules) {
   std::vector<Choice> choices;
   double gain = 0;
   for (const JointDifferences& joint : joints) {
-    choices.push_back(choice_of(joint, lengths));
+    choices.push_back(choice_of(joint, lengths, rules.slow_part_price));
     gain += choices.back().gain;
   }
   std::vector<JointNoise> all;
   for (const Choice& choice : choices) all.push_back(gain > 0 ? choice.with_slow : choice.alone);
-  keep_what_all_joints_have(all, joints, lengths.period);
+  keep_what_all_joints_have(all, joints, lengths.period, rules);
   for (JointNoise& joint : all) {
     const double least = kNegligible * joint.deviation();
     std::erase_if(joint.slow, [&](const SlowNoise& part) { return part.deviation <= least; });

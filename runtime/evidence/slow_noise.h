@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/estimation/joint_noise.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -23,7 +24,8 @@ struct DifferenceLine {
 /// @param process     about that of the difference, with an innovation
 std::vector<DifferenceLine> difference_lines(const Eigen::VectorXd& difference,
                                              const Eigen::VectorXd& counted, double period,
-                                             const AutoregressiveNoise& process);
+                                             const AutoregressiveNoise& process,
+                                             const NoiseRules& rules = {});
 
 /// What the differences of one joint over neighbouring periods are, of all runs.
 struct JointDifferences {
@@ -46,6 +48,7 @@ struct DifferenceLengths {
 /// (Whittle 1953).
 /// @return processes alone unless the likelihood of all joints pays for such parts
 std::vector<JointNoise> noise_of_differences(const std::vector<JointDifferences>& joints,
-                                             const DifferenceLengths& lengths);
+                                             const DifferenceLengths& lengths,
+                                             const NoiseRules& rules = {});
 
 }  // namespace dyngen::runtime

@@ -16,15 +16,10 @@
 #include "runtime/recordings/periods.h"
 
 namespace dyngen::runtime {
-namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kLeastPart = 0.6;  // of the equations that differences between periods must give
-
-}  // namespace
 
 std::vector<double> repeats_of(const EffectRecordings& data) {
   std::vector<double> repeats;
@@ -190,10 +185,11 @@ KnownNoise TorqueNoiseModel::known() const {
 }
 
 TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResiduals& residuals,
-                                    const std::vector<double>& repeats, bool fitted) {
+                                    const std::vector<double>& repeats, bool fitted,
+                                    const NoiseRules& rules) {
   TorqueNoiseModel model;
   const OfJoints all = lag_products(data, residuals);
-  std::vector<PeriodDifferences> repeated(all.size());
+  std::vector<PeriodDifferences> repeated(all.size(), PeriodDifferences(rules));
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     if (!(repeats[run] > 0)) continue;
     for (std::size_t j = 0; j < all.size(); ++j) {
@@ -205,7 +201,7 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   model.from_periods = true;
   for (std::size_t j = 0; j < all.size(); ++j) {
     model.from_periods = model.from_periods && all[j].samples() > 0 &&
-                         repeated[j].samples() >= kLeastPart * all[j].samples();
+                         repeated[j].samples() >= rules.least_differences * all[j].samples();
   }
   const double period = model.from_periods ? mean_period(repeats) : 0;
   if (model.from_periods) {
@@ -213,7 +209,7 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
     for (const EffectRun& run : data.runs) {
       longest = std::max(longest, static_cast<double>(run.rows.Y.rows()));
     }
-    model.joints = noise_of_periods(repeated, {period, longest});
+    model.joints = noise_of_periods(repeated, {period, longest}, rules);
   } else {
     std::vector<AutoregressiveNoise> joints;
     for (const LagProducts& products : all) {

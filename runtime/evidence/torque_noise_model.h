@@ -6,6 +6,7 @@
 
 #include "runtime/effects/effect_recordings.h"
 #include "runtime/estimation/joint_noise.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -41,6 +42,7 @@ using RunResiduals = std::vector<Eigen::MatrixXd>;
 /// @param fitted    whether the model's parameters were fitted to these recordings
 /// @throws std::invalid_argument  if the residual of a joint is 0
 TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResiduals& residuals,
-                                    const std::vector<double>& repeats, bool fitted);
+                                    const std::vector<double>& repeats, bool fitted,
+                                    const NoiseRules& rules = {});
 
 }  // namespace dyngen::runtime

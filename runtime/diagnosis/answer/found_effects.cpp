@@ -14,10 +14,6 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kObjection =
-    0.5;                         // the most of a name against which a bound or a falsifier speaks
-constexpr double kStable = 0.8;  // of halves of the recordings: Meinshausen and Buehlmann 2010
-
 std::string where_it_acts(const EffectInstance& effect) {
   if (effect.joint < 0) return "the whole robot";
   if (effect.other >= 0) {
@@ -48,9 +44,9 @@ std::string elsewhere(const Naming& naming, const std::vector<Hypothesis>& hypot
 }
 
 /// Whether the name holds on halves of the recordings.
-FalsifierOutcome stability_test(const Naming& naming) {
+FalsifierOutcome stability_test(const Naming& naming, double stability) {
   const double share = naming.stability();
-  return {"stability", share >= kStable,
+  return {"stability", share >= stability,
           fmt::format("{} explains most of {:.0f} of 100 halves of the recordings",
                       naming.families.size() > 1 ? "it, or a name that is not told apart," : "it",
                       100 * share),
@@ -103,6 +99,7 @@ void share_among_all(std::vector<Found>& all_found, const std::vector<Nameless>&
 
 Found found(const Search& search, std::size_t place, const Naming& naming, EffectSignals& signals,
             const EvidenceSystem::Options& options) {
+  const AnswerRules& rules = options.rules.answer;
   const EffectRecordings& evidence = search.views().evidence();
   const CompetitionResult& result = search.result();
   const EffectFit& fit = result.fit;
@@ -120,7 +117,7 @@ Found found(const Search& search, std::size_t place, const Naming& naming, Effec
   const EvidenceSystem system =
       system_without(evidence, signals, search.hypotheses(), result, place, options);
   finding.tests = name_tests(evidence, signals, system, finding.effect);
-  if (!hypothesis.windowed) finding.tests.push_back(stability_test(naming));
+  if (!hypothesis.windowed) finding.tests.push_back(stability_test(naming, rules.stability));
   LocatedEffect where = located(evidence, signals, system, hypothesis, finding.effect);
   finding.where = where.where;
   if (finding.effect.recording >= 0) {
@@ -129,7 +126,7 @@ Found found(const Search& search, std::size_t place, const Naming& naming, Effec
   }
   for (const EffectRemark& remark : fit.remarks) {
     if (!fit.objects(remark, static_cast<int>(place))) continue;
-    finding.probability = std::min(finding.probability, kObjection);
+    finding.probability = std::min<double>(finding.probability, rules.probable);
     finding.doubted = true;
     finding.tests.push_back({remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound",
                              false, remark.text, true});
@@ -140,7 +137,7 @@ Found found(const Search& search, std::size_t place, const Naming& naming, Effec
 
 }  // namespace
 
-std::vector<Finding> found_effects(Search& search, std::uint64_t seed, bool with_regressor,
+std::vector<Finding> found_effects(Search& search, const CompetitionOptions& options,
                                    const CompetitionProgress& progress) {
   CompetitionResult& result = search.result();
   if (result.winners.empty()) return {};
@@ -152,9 +149,10 @@ std::vector<Finding> found_effects(Search& search, std::uint64_t seed, bool with
   result.fit = fit_effects(search.views().train, effects, settings);
   EffectSignals signals(search.views().evidence());
   EvidenceSystem::Options system;
-  system.seed = seed;
+  system.seed = options.seed;
   system.surrogates = 0;
-  system.with_regressor = with_regressor;
+  system.with_regressor = options.with_regressor;
+  system.rules = options.rules;
   const std::vector<Naming> namings =
       settle_names(search.views().evidence(), search.views().train, search.views().proof, signals,
                    search.hypotheses(), result, system, progress);

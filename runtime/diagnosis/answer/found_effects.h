@@ -11,7 +11,7 @@ namespace dyngen::runtime {
 
 /// The winners with their names settled, tests, places, and sizes of a last fit.
 /// @param search  its winners and its fit change where a rival takes a winner's place
-std::vector<Finding> found_effects(Search& search, std::uint64_t seed, bool with_regressor,
+std::vector<Finding> found_effects(Search& search, const CompetitionOptions& options,
                                    const CompetitionProgress& progress);
 
 }  // namespace dyngen::runtime

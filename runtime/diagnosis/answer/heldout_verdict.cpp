@@ -16,10 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFarAbove = 1.3;        // rms over what is expected: less is how motions differ
-constexpr double kHeldoutChance = 1e-3;  // of a joint's ratio, if nothing is left out
-constexpr double kCertainly = 3;         // standard deviations of that ratio among blocks
-constexpr double kOpen = 0.1;  // predicted: with more, parameters are open where it matters
 constexpr Index kHeldoutBlocks = 10;
 
 std::string unit_of(const std::vector<bool>& revolute, Index joint) {
@@ -27,11 +23,13 @@ std::string unit_of(const std::vector<bool>& revolute, Index joint) {
 }
 
 /// Whether held-out torque is further above the floor than chance and parameters tell.
-bool far_above(double rms, double floor, double predicted, double fitted, double heldout) {
+bool far_above(double rms, double floor, double predicted, double fitted, double heldout,
+               const AnswerRules& rules) {
   if (!(floor > 0) || !std::isfinite(rms)) return false;
   const double ratio = rms * rms / (floor * floor * (1 + std::max(predicted, 0.0)));
-  if (ratio <= kFarAbove * kFarAbove) return false;
-  return variance_ratio_tail(ratio, std::max(heldout, 1.0), std::max(fitted, 1.0)) < kHeldoutChance;
+  if (ratio <= rules.heldout_excess * rules.heldout_excess) return false;
+  return variance_ratio_tail(ratio, std::max(heldout, 1.0), std::max(fitted, 1.0)) <
+         rules.heldout_chance;
 }
 
 }  // namespace
@@ -67,21 +65,26 @@ VectorXd worsening(const EffectRecordings& heldout, const RunResiduals& before,
 }
 
 std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const HeldoutKnowledge& known,
-                                       bool found_nothing, const std::vector<bool>& revolute) {
+                                       bool found_nothing, const std::vector<bool>& revolute,
+                                       const AnswerRules& rules) {
+  const double certainly = 
+      student_interval(1 - 2 * rules.heldout_chance, kHeldoutBlocks - 1);
   std::vector<std::string> reasons;
   bool beyond = true;  // every joint's
   for (Index j = 0; j < rms.after.size(); ++j) {
     const double floor = rms.floor[j], after = rms.after[j], before = rms.before[j];
     const bool worse =
-        !found_nothing && after > kPredictedWorse * before && known.worse[j] > kCertainly;
+        !found_nothing && after > rules.worse_rms * before && known.worse[j] > certainly;
     const bool far =
-        far_above(after, floor, known.predicted[j], known.fitted_worth[j], known.heldout_worth[j]);
+        far_above(after, floor, known.predicted[j], known.fitted_worth[j], known.heldout_worth[j],
+                  rules);
     if (!worse && !far) continue;
     std::string reason = fmt::format("{:.4g} {} of joint {}", after, unit_of(revolute, j), j + 1);
     if (far) reason += fmt::format(" beside a noise of {:.4g}", floor);
     if (worse) reason += fmt::format(", {:.4g} without the findings", before);
     const bool extrapolated =
-        known.predicted[j] > kOpen || (j < rms.visited.size() && rms.visited[j] < kMostlyVisited);
+        known.predicted[j] > rules.open_parameters ||
+                              (j < rms.visited.size() && rms.visited[j] < rules.visited_part);
     beyond = beyond && extrapolated;
     reasons.push_back(std::move(reason));
   }

@@ -7,6 +7,7 @@
 #include "runtime/diagnosis/answer/verdict.h"
 #include "runtime/diagnosis/names/findings.h"
 #include "runtime/diagnosis/views/raw_residual.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -33,6 +34,7 @@ Eigen::VectorXd worsening(const EffectRecordings& heldout, const RunResiduals& b
 /// one, it is the recordings that cannot tell.
 /// @return  none: nothing speaks against what was concluded
 std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const HeldoutKnowledge& known,
-                                       bool found_nothing, const std::vector<bool>& revolute);
+                                       bool found_nothing, const std::vector<bool>& revolute,
+                                       const AnswerRules& rules = {});
 
 }  // namespace dyngen::runtime

@@ -8,9 +8,6 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kLeastIndependent = 25;  // samples of a joint, after its noise's correlation
-constexpr double kUnexplainedPart = 0.2;  // of a joint's structure: above it a verdict is open
-
 /// Part of a joint's structure that has no name.
 double nameless_part(const Search& search, const std::vector<Finding>& findings,
                      const Nameless& nameless) {
@@ -28,12 +25,11 @@ double nameless_part(const Search& search, const std::vector<Finding>& findings,
   return left / std::max(left + named, 1e-300);
 }
 
-std::string explanation(const std::vector<Finding>& findings) {
-  constexpr double kNamed = 0.5;  // probability of a name that is said to explain
+std::string explanation(const std::vector<Finding>& findings, double probable) {
   const auto changes = std::count_if(findings.begin(), findings.end(),
                                      [](const Finding& own) { return own.since_reference; });
-  const auto uncertain = std::count_if(findings.begin(), findings.end(), [](const Finding& own) {
-    return !own.since_reference && own.probability < kNamed;
+  const auto uncertain = std::count_if(findings.begin(), findings.end(), [&](const Finding& own) {
+    return !own.since_reference && own.probability < probable;
   });
   const auto effects = static_cast<std::ptrdiff_t>(findings.size()) - changes - uncertain;
   std::string text;
@@ -42,9 +38,9 @@ std::string explanation(const std::vector<Finding>& findings) {
                        effects == 1 ? "" : "s", effects == 1 ? "s" : "");
   }
   if (uncertain > 0) {
-    text += fmt::format("{}{} effect{} {} found whose name{} uncertain (probability below 0.5).",
+    text += fmt::format("{}{} effect{} {} found whose name{} uncertain (probability below {:g}).",
                         text.empty() ? "" : " ", uncertain, uncertain == 1 ? "" : "s",
-                        uncertain == 1 ? "was" : "were", uncertain == 1 ? " is" : "s are");
+                        uncertain == 1 ? "was" : "were", uncertain == 1 ? " is" : "s are", probable);
   }
   if (changes > 0) {
     text += fmt::format(
@@ -61,20 +57,21 @@ bool found_nothing(const CompetitionResult& result) {
   return result.winners.empty() && result.nameless.empty();
 }
 
-std::string why_too_slow(const CompetitionResult& result) {
+std::string why_too_slow(const CompetitionResult& result, const AnswerRules& rules) {
   Eigen::Index joint = 0;
   const double least = result.noise.worth.minCoeff(&joint);
-  if (least >= kLeastIndependent) return {};
+  if (least >= rules.least_independent) return {};
   return fmt::format(
       "What the model leaves of joint {} is so slow that the recordings are worth {:.0f} "
       "independent samples: too few to tell structure from noise.",
       joint + 1, least);
 }
 
-Conclusion concluded(const Search& search, const std::vector<Finding>& findings) {
+Conclusion concluded(const Search& search, const std::vector<Finding>& findings,
+                     const AnswerRules& rules) {
   const std::vector<Nameless>& all = search.result().nameless;
   const bool open = std::any_of(all.begin(), all.end(), [&](const Nameless& nameless) {
-    return nameless_part(search, findings, nameless) > kUnexplainedPart;
+    return nameless_part(search, findings, nameless) > rules.unexplained_part;
   });
   const bool doubted = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
     return !finding.since_reference && finding.doubted;
@@ -90,7 +87,7 @@ Conclusion concluded(const Search& search, const std::vector<Finding>& findings)
             "There is structure beside the model; the effect that is nearest to it has a condition "
             "against it."};
   }
-  if (!findings.empty()) return {Verdict::kExplained, explanation(findings)};
+  if (!findings.empty()) return {Verdict::kExplained, explanation(findings, rules.probable)};
   return {Verdict::kClean, "Nothing above the noise: the model explains these recordings."};
 }
 

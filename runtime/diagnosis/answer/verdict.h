@@ -6,6 +6,7 @@
 
 #include "runtime/diagnosis/competition/search.h"
 #include "runtime/diagnosis/names/findings.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -19,9 +20,10 @@ bool found_nothing(const CompetitionResult& result);
 
 /// Why what the model leaves is too slow to call recordings clean: they are worth too few
 /// independent samples. Empty: they are worth enough.
-std::string why_too_slow(const CompetitionResult& result);
+std::string why_too_slow(const CompetitionResult& result, const AnswerRules& rules);
 
 /// @param findings  of the winners, in their order, then those since the reference
-Conclusion concluded(const Search& search, const std::vector<Finding>& findings);
+Conclusion concluded(const Search& search, const std::vector<Finding>& findings,
+                     const AnswerRules& rules);
 
 }  // namespace dyngen::runtime

@@ -111,20 +111,22 @@ class Competition {
 
   void measure_noise() {
     const RunResiduals residuals = residuals_of(fitted_, result_.fit.point);
-    result_.noise = torque_noise_model(fitted_, residuals, repeats_, options_.with_regressor);
+    result_.noise = torque_noise_model(fitted_, residuals, repeats_, options_.with_regressor,
+                                       options_.rules.noise);
     if (result_.noise.from_periods || result_.nameless.empty()) return;
     // noise is what the model leaves: structure that was found is none of it
     EffectSignals signals(fitted_);
     const EvidenceSystem white =
         beside_white_noise(fitted_, signals, hypotheses_, result_, system_options());
     result_.noise = torque_noise_model(fitted_, rests_of(fitted_, white, result_.fit.rms), repeats_,
-                                       options_.with_regressor);
+                                       options_.with_regressor, options_.rules.noise);
   }
 
   [[nodiscard]] EvidenceSystem::Options system_options() const {
     EvidenceSystem::Options options;
     options.seed = options_.seed;
     options.with_regressor = options_.with_regressor;
+    options.rules = options_.rules;
     return options;
   }
 

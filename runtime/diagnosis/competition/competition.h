@@ -16,6 +16,7 @@ struct CompetitionOptions {
   int most_winners = 0;
   std::uint64_t seed = 0;
   bool with_regressor = true;
+  DecisionRules rules;
   /// Whether it ends as soon as a joint is found to rest.
   bool until_rest = false;
   /// Whether joints of this robot are known to rest: then another one does wherever impulses at its

@@ -17,11 +17,13 @@ Eigen::VectorXd model_alone(const EffectRecordings& train) {
 
 }  // namespace
 
-Search::Search(const DiagnosisInput& input, Eigen::Index decimation)
+Search::Search(const DiagnosisInput& input, Eigen::Index decimation, const EquationRules& rules)
     : input_(input),
       decimation_(decimation),
-      parts_(input.heldout.empty() ? divided(input.train) : Division{input.train, input.heldout}),
-      seen_{diagnosis_rows(parts_.train, decimation), {}},
+      rules_(rules),
+      parts_(input.heldout.empty() ? divided(input.train, rules)
+                                   : Division{input.train, input.heldout}),
+      seen_{.rows = diagnosis_rows(parts_.train, decimation), .rules = rules},
       views_(views_of(input, parts_, seen_)),
       moving_(counted_part(views_.train)) {}
 
@@ -48,7 +50,8 @@ bool Search::look_beside(const std::vector<RestingJoint>& found) {
   std::vector<RestingJoint> joints = seen_.resting;
   if (!join(joints, found)) return false;
   const ViewOptions beside =
-      beside_rests({diagnosis_rows(parts_.train, decimation_), {}}, parts_.train, joints);
+      beside_rests({.rows = diagnosis_rows(parts_.train, decimation_), .rules = rules_},
+                   parts_.train, joints);
   Views views = views_of(input_, parts_, beside);
   const Eigen::ArrayXd left = counted_part(views.train).array();
   if ((left < kLeastCounted * moving_.array()).any()) return false;

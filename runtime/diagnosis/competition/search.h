@@ -19,7 +19,7 @@ class Search {
  public:
   /// @param input  has to outlive it  @param decimation  as RowOptions
   /// @throws std::invalid_argument  if recordings do not fit the model
-  Search(const DiagnosisInput& input, Eigen::Index decimation);
+  Search(const DiagnosisInput& input, Eigen::Index decimation, const EquationRules& rules = {});
 
   void compete(CompetitionOptions options, const CompetitionProgress& progress);
 
@@ -39,6 +39,7 @@ class Search {
 
   const DiagnosisInput& input_;
   Eigen::Index decimation_;
+  EquationRules rules_;
   Division parts_;
   ViewOptions seen_;
   Views views_;

@@ -36,7 +36,8 @@ EvidenceSystem Witness::system(const std::vector<Hypothesis>& hypotheses,
                                const CompetitionResult& result, const EffectPoint& point,
                                EvidenceSystem::Options options) {
   const TorqueNoiseModel noise =
-      torque_noise_model(data_, residuals_of(data_, point), repeats_, options.with_regressor);
+      torque_noise_model(data_, residuals_of(data_, point), repeats_, options.with_regressor,
+                         options.rules.noise);
   options.surrogates = 0;
   return system_beside(data_, signals_, hypotheses, result, point, noise, options);
 }

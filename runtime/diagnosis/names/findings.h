@@ -106,6 +106,7 @@ struct HeldoutResidual {
   /// (n) 0 .. 1: part of each joint's equations where it is within the positions of the fitted
   /// recordings. Findings are judged there alone.
   Eigen::VectorXd visited;
+  std::vector<std::string> remarks{};  ///< heldout_remarks()
 };
 
 /// How large the noise of the torque is, and how that is known.

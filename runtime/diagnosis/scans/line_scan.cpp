@@ -15,8 +15,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kFinest = 2;  // frequencies for each that the longest run resolves
-constexpr double kLeastPeriods = 1.5;
-constexpr double kLeastOfRun = 20;  // of a run
 constexpr double kReached = 0.9;    // of half the rate of the equations
 
 /// The next length whose Fourier transform is quick: of factors 2, 3 and 5.
@@ -70,7 +68,7 @@ LineScan scan_lines(const EffectRecordings& data, const EvidenceSystem& system, 
   }
   const auto length = static_cast<Index>(std::llround(kFinest * longest / slowest));
   const double duration = static_cast<double>(quick_length(std::max<Index>(1, length))) * slowest;
-  const auto first = static_cast<Index>(std::ceil(kFinest * kLeastPeriods));
+  const auto first = static_cast<Index>(std::ceil(kFinest * system.rules().line_periods));
   const auto lines = static_cast<Index>(kReached * 0.5 / slowest * duration);
   if (lines <= first) return scan;
   Periodogram periodogram(duration, lines);
@@ -83,7 +81,7 @@ LineScan scan_lines(const EffectRecordings& data, const EvidenceSystem& system, 
     const Index rows = run.rows.Y.rows();
     const double dt = run.motion.sample_time * static_cast<double>(run.decimator.factor);
     const double counted = run.rows.counted.col(joint).sum();
-    if (counted >= kLeastOfRun) {
+    if (counted >= system.rules().line_equations) {
       squares += periodogram.of(rest.segment(start, rows), dt, counted);
       for (Index m = 0; m < noise.cols(); ++m) {
         of_noise.col(m) += periodogram.of(noise.col(m).segment(start, rows), dt, counted);

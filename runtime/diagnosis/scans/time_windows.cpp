@@ -14,7 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kBlocks = 120;          // of the longest recording
-constexpr double kLongestPush = 0.3;  // of the recording: what lasts longer is no window
 constexpr int kWindowSurrogates = 16;
 
 /// Time of each equation, s from the recording's first sample, and its recording.
@@ -137,8 +136,7 @@ Products beside(const Window& window, const Window& other) {
 /// recordings and beside it, less those that overlap it; 1 where white noise may have as many.
 /// @param recording  the best one's place, -1: all
 double squares_elsewhere(const std::vector<Running>& recordings, int recording,
-                         const Window& best) {
-  constexpr double kFewest = 4;  // degrees of freedom that say anything
+                         const Window& best, const ScanRules& rules) {
   const std::size_t length = best.to - best.from;
   double squares = 0, degrees = 0;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
@@ -151,8 +149,8 @@ double squares_elsewhere(const std::vector<Running>& recordings, int recording,
       degrees += score.degrees;
     }
   }
-  if (degrees < kFewest) return 1;
-  const double by_chance = 1 + 2 * std::sqrt(2 / degrees);  // of white noise
+  if (degrees < rules.fewest_degrees) return 1;
+  const double by_chance = 1 + rules.window_deviations * std::sqrt(2 / degrees);  // of white noise
   return squares / degrees < by_chance ? 1 : squares / degrees;
 }
 
@@ -171,7 +169,7 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
   if (ends) always[1] = 2 * longest + 1;
   const JointColumns columns =
       hypothesis_columns(data, signals, system, hypothesis, with_shapes(hypothesis, always));
-  const double step = longest / kBlocks;
+  const double step = longest / kBlocks, longest_push = system.rules().longest_push;
   // rows of a recording are consecutive, so that each block is a few ranges
   std::vector<std::vector<std::vector<Index>>> rows(static_cast<std::size_t>(places.count),
                                                     std::vector<std::vector<Index>>(kBlocks));
@@ -190,7 +188,7 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
     for (std::size_t from = 0; from < kBlocks; ++from) {
       const std::size_t last =
           ends ? std::min<std::size_t>(kBlocks,
-                                       from + static_cast<std::size_t>(kLongestPush * kBlocks))
+                                       from + static_cast<std::size_t>(longest_push * kBlocks))
                : kBlocks;
       for (std::size_t to = ends ? from + 1 : kBlocks; to <= last; ++to) {
         if (!ends && (from == 0 || from + 3 > kBlocks)) continue;
@@ -212,7 +210,8 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
   }
   if (scan.found) {
     const Running& own = scan.recording < 0 ? all : parts[static_cast<std::size_t>(scan.recording)];
-    scan.elsewhere = squares_elsewhere(parts, scan.recording, {own, best_from, best_to});
+    scan.elsewhere = squares_elsewhere(parts, scan.recording, {own, best_from, best_to},
+                                      system.rules());
   }
   // the same number of surrogates as everywhere: those that were not scanned repeat the others
   if (scan.found && largest.size() > 0) {
@@ -224,8 +223,6 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
 }
 
 bool is_jolt(const EvidenceSystem& system, const JointColumns& torque) {
-  constexpr std::size_t kFew = 3;
-  constexpr double kLargerPart = 0.6;
   std::vector<double> gains;
   for (const int joint : torque.joints) {
     const VectorXd rest = system.rest(joint), own = system.left_of(torque, joint).col(0);
@@ -235,11 +232,12 @@ bool is_jolt(const EvidenceSystem& system, const JointColumns& torque) {
   }
   double all = 0, of_few = 0;
   for (const double gain : gains) all += gain;
-  const std::size_t few = std::min(kFew, gains.size());
+  const std::size_t few = 
+      std::min(static_cast<std::size_t>(system.rules().jolt_equations), gains.size());
   std::partial_sort(gains.begin(), gains.begin() + static_cast<std::ptrdiff_t>(few), gains.end(),
                     std::greater<>());
   for (std::size_t i = 0; i < few; ++i) of_few += gains[i];
-  return of_few > kLargerPart * all;
+  return of_few > system.rules().jolt_gain * all;
 }
 
 }  // namespace dyngen::runtime

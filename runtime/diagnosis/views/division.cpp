@@ -11,17 +11,15 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr int kDivisionParts = 5;
-constexpr double kMoves = 0.01;        // of a joint's largest speed
-constexpr double kEnoughMotion = 0.5;  // of the time for which joints move in the whole recording
 
 /// How often each joint moves in every part of a recording. @return (joints x parts) samples
-Eigen::ArrayXXd moving(const MotionSource& source) {
+Eigen::ArrayXXd moving(const MotionSource& source, double moving_speed) {
   Eigen::ArrayXXd counts = Eigen::ArrayXXd::Zero(source.joints(), kDivisionParts);
   for (int part = 0; part < kDivisionParts; ++part) {
     const double from = static_cast<double>(part) / kDivisionParts;
     part_of(source, from, from + 1.0 / kDivisionParts).pieces([&](const StreamPiece& piece) {
       for (Index j = 0; j < counts.rows(); ++j) {
-        const auto moves = piece.motion.dq.col(j).array().abs() > kMoves * source.fastest[j];
+        const auto moves = piece.motion.dq.col(j).array().abs() > moving_speed * source.fastest[j];
         counts(j, part) += static_cast<double>(moves.count());
       }
     });
@@ -29,18 +27,18 @@ Eigen::ArrayXXd moving(const MotionSource& source) {
   return counts;
 }
 
-int held_part(const MotionSource& source) {
-  const Eigen::ArrayXXd counts = moving(source);
+int held_part(const MotionSource& source, const EquationRules& rules) {
+  const Eigen::ArrayXXd counts = moving(source, rules.moving_speed);
   const ArrayXd mean = counts.rowwise().sum() / kDivisionParts;
   for (int part = kDivisionParts - 1; part >= 0; --part) {
-    if ((counts.col(part) >= kEnoughMotion * mean).all()) return part;
+    if ((counts.col(part) >= rules.heldout_motion.value * mean).all()) return part;
   }
   return kDivisionParts - 1;
 }
 
 }  // namespace
 
-Division divided(const std::vector<MotionSource>& recordings) {
+Division divided(const std::vector<MotionSource>& recordings, const EquationRules& rules) {
   Division division;
   for (std::size_t place = 0; place < recordings.size(); ++place) {
     const MotionSource& source = recordings[place];
@@ -48,7 +46,7 @@ Division divided(const std::vector<MotionSource>& recordings) {
       division.train.push_back(part_of(source, begin, end));
       division.origins.push_back(place);
     };
-    const int part = held_part(source);
+    const int part = held_part(source, rules);
     const double from = static_cast<double>(part) / kDivisionParts,
                  to = from + 1.0 / kDivisionParts;
     if (part > 0) fit(0, from);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/identification/motion_source.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -22,6 +23,6 @@ struct Division {
 
 /// A fifth of every recording is held out: the last in which all joints move about as much of the
 /// time as in the whole recording, since what stands still proves nothing.
-Division divided(const std::vector<MotionSource>& recordings);
+Division divided(const std::vector<MotionSource>& recordings, const EquationRules& rules = {});
 
 }  // namespace dyngen::runtime

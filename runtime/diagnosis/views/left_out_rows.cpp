@@ -12,9 +12,7 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kLongestRest = 0.1;  // s below the speed at a reversal
-constexpr double kMustStay = 0.1;     // of a joint's equations that have to stay
-constexpr double kFaint = 0.02;       // of the parallel filter's largest tap: less is not felt
+constexpr double kFaint = 0.02;  // of the parallel filter's largest tap: less is not felt
 
 void leave_out(RowBlock& rows, Index row, Index joint, Index size) {
   rows.counted(row, joint) = 0;
@@ -24,11 +22,12 @@ void leave_out(RowBlock& rows, Index row, Index joint, Index size) {
 
 }  // namespace
 
-void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed) {
+void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed,
+                          const EquationRules& rules) {
   const Motion& motion = run.motion;
   const Index factor = run.decimator.factor, first = first_sample(run.decimator);
   const Index reach = run.decimator.taps.size() / 2;  // of the filter around an equation
-  const auto least = static_cast<Index>(std::ceil(kLongestRest / motion.sample_time));
+  const auto least = static_cast<Index>(std::ceil(rules.longest_reversal / motion.sample_time));
   const Index size = run.rows.Y.cols() / motion.joints();
   for (Index j = 0; j < motion.joints(); ++j) {
     for (Index start = 0; start < motion.samples();) {
@@ -133,7 +132,8 @@ PieceRange visited(const EffectRecordings& data, Index joint) {
 
 }  // namespace
 
-void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& train) {
+void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& train,
+                         const EquationRules& rules) {
   for (Index j = 0; j < heldout.joints(); ++j) {
     const PieceRange range = visited(train, j);
     double all = 0;
@@ -149,7 +149,7 @@ void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& trai
         count += run.rows.counted(k, j);
       }
     }
-    if (count > (1 - kMustStay) * all) continue;
+    if (count > (1 - rules.least_kept) * all) continue;
     for (std::size_t r = 0; r < heldout.runs.size(); ++r) {
       EffectRun& run = heldout.runs[r];
       const Index size = run.rows.Y.cols() / run.motion.joints();

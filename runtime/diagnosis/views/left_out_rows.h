@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/effects/effect_recordings.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -13,7 +14,8 @@ namespace dyngen::runtime {
 /// tenth of a second or more; passing through zero at a reversal is quicker, and stays in.
 /// @param run          its rows change
 /// @param still_speed  (n) rad/s or m/s
-void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed);
+void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed,
+                          const EquationRules& rules = {});
 
 /// Takes out the equations of joints where they turn or stop, as far as the filters reach from
 /// there: for joints that friction holds there for an instant.
@@ -35,6 +37,7 @@ void mark_rests(EffectRun& run, const Motion& motion, const Eigen::VectorXd& sti
 /// Takes out of held-out recordings the equations of joints that are where no fitted recording was:
 /// what a polynomial says there is no proof for or against it. A joint that is nearly always there
 /// keeps its equations.
-void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& train);
+void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& train,
+                         const EquationRules& rules = {});
 
 }  // namespace dyngen::runtime

@@ -14,9 +14,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kWholeMotion = 0.1;  // samples by which the last period may be off
-constexpr int kFewestRepeats = 3;     // periods: the mean of one other is as noisy as the own
-constexpr int kRefits = 4;            // of the model's own parameters
+constexpr int kRefits = 4;  // of the model's own parameters
 
 /// The mean over all rows of the same phase but the own.
 MatrixXd of_the_others(const MatrixXd& rows, Index period) {
@@ -32,7 +30,7 @@ MatrixXd of_the_others(const MatrixXd& rows, Index period) {
 }
 
 /// Samples after which a motion repeats, often enough and in whole samples; 0: it does not.
-Index period_of(const Motion& run) {
+Index period_of(const Motion& run, const EquationRules& rules) {
   Recording positions;
   positions.time = run.time;
   positions.q = run.q;
@@ -40,11 +38,13 @@ Index period_of(const Motion& run) {
   const Periods periods = find_periods(positions);
   const double off =
       std::abs(periods.period / run.sample_time - static_cast<double>(periods.samples));
-  return periods.count < kFewestRepeats || off * periods.count > kWholeMotion ? 0 : periods.samples;
+  return periods.count < rules.fewest_periods || off * periods.count > rules.period_mismatch
+             ? 0
+             : periods.samples;
 }
 
-Motion repeated(Motion run) {
-  const Index period = period_of(run);
+Motion repeated(Motion run, const EquationRules& rules) {
+  const Index period = period_of(run, rules);
   if (period == 0) return run;
   for (MatrixXd* rows : {&run.q, &run.dq, &run.ddq}) *rows = of_the_others(*rows, period);
   return run;
@@ -93,20 +93,20 @@ std::vector<Motion> whole_runs(const MotionSource& source) {
 
 }  // namespace
 
-MotionSource with_repeated_motion(const MotionSource& source) {
-  return with_pieces(source, [source](const std::function<void(const StreamPiece&)>& visit) {
-    for (Motion& run : whole_runs(source)) visit({repeated(std::move(run)), false});
+MotionSource with_repeated_motion(const MotionSource& source, const EquationRules& rules) {
+  return with_pieces(source, [source, rules](const std::function<void(const StreamPiece&)>& visit) {
+    for (Motion& run : whole_runs(source)) visit({repeated(std::move(run), rules), false});
   });
 }
 
-bool repeats(const MotionSource& source) {
+bool repeats(const MotionSource& source, const EquationRules& rules) {
   const std::vector<Motion> runs = whole_runs(source);
   return std::any_of(runs.begin(), runs.end(),
-                     [](const Motion& run) { return period_of(run) > 0; });
+                     [&](const Motion& run) { return period_of(run, rules) > 0; });
 }
 
-TwoMotions two_motions(const MotionSource& source) {
-  if (repeats(source)) return {source, with_repeated_motion(source)};
+TwoMotions two_motions(const MotionSource& source, const EquationRules& rules) {
+  if (repeats(source, rules)) return {source, with_repeated_motion(source, rules)};
   if (!source.others.parities) return {source, source};
   return {source.others.make({.parity = 1}), source.others.make({.parity = 0})};
 }

@@ -3,6 +3,7 @@
 
 #include "runtime/effects/effect_recordings.h"
 #include "runtime/identification/motion_source.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -10,10 +11,10 @@ namespace dyngen::runtime {
 /// velocity and acceleration are the mean of the samples of the same phase in all periods but their
 /// own. Noise of the positions is then not that of the torque, which a controller makes of them. A
 /// run that does not repeat, or not after a whole number of samples, stays as it is.
-MotionSource with_repeated_motion(const MotionSource& source);
+MotionSource with_repeated_motion(const MotionSource& source, const EquationRules& rules = {});
 
 /// Whether a run of a recording repeats, so that its motion has others to be the mean of.
-bool repeats(const MotionSource& source);
+bool repeats(const MotionSource& source, const EquationRules& rules = {});
 
 /// A recording with two motions of it whose noise is not the same: what is left is of the own one,
 /// columns are of the other.
@@ -23,7 +24,7 @@ struct TwoMotions {
 
 /// Where the motion repeats, as it is recorded, and of the other periods; else of every other
 /// sample each (OtherStates::parities); twice the same where neither can be.
-TwoMotions two_motions(const MotionSource& source);
+TwoMotions two_motions(const MotionSource& source, const EquationRules& rules = {});
 
 /// The torque becomes what the model has at the other motion and what it leaves at the own one:
 /// noise of the own motion is in what is left then, and not in the columns. A refit has the

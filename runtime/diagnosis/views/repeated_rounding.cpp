@@ -16,7 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMuchLess = 0.5;        // of the standard deviation of rounding
 constexpr int kOrder = 4;                // of the joint state's filter
 constexpr double kHighestOfRate = 0.49;  // of the sampling frequency: a cut-off
 
@@ -52,14 +51,15 @@ double gain_of(const LowPass& filter) {
 
 }  // namespace
 
-bool repeats_rounding(const MotionSource& source) {
+bool repeats_rounding(const MotionSource& source, const EquationRules& rules) {
   const std::vector<double>& steps = source.condition.position_step;
   VectorXd rounding = VectorXd::Zero(source.joints());
   for (std::size_t j = 0; j < steps.size(); ++j) {
     rounding[static_cast<Index>(j)] = steps[j] / std::sqrt(12.0);
   }
   if (rounding.isZero(0)) return false;
-  const VectorXd much_less = kMuchLess * gain_of(filter_of(source)) * rounding;
+  const VectorXd much_less =
+      rules.repeated_rounding * gain_of(filter_of(source)) * rounding;
   bool repeats = false;
   source.pieces([&](const StreamPiece& piece) {
     repeats = repeats || (scatter(piece.motion).array() < much_less.array()).any();

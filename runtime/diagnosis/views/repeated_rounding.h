@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/identification/motion_source.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -9,6 +10,6 @@ namespace dyngen::runtime {
 /// apart differ by much less than rounding to `position_step` alone makes them differ from the true
 /// ones. No scatter shows such errors, and the mean of other periods has them too. No where no
 /// periods are found.
-bool repeats_rounding(const MotionSource& source);
+bool repeats_rounding(const MotionSource& source, const EquationRules& rules = {});
 
 }  // namespace dyngen::runtime

@@ -15,9 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLeastWorth = 30;      // equations of a joint beyond twice its parameters
-constexpr double kMostPredicted = 0.4;  // variance of a prediction over that of the residual
-
 }  // namespace
 
 VectorXd predicted_variance(const EffectRecordings& train, const EffectRecordings& heldout) {
@@ -35,13 +32,13 @@ VectorXd predicted_variance(const EffectRecordings& train, const EffectRecording
   return sums.cwiseQuotient(counts.cwiseMax(1)).cwiseQuotient(squares);
 }
 
-std::string why_too_few(const EffectRecordings& train) {
+std::string why_too_few(const EffectRecordings& train, const EquationRules& rules) {
   for (int j = 0; j < train.joints(); ++j) {
     double rows = 0;
     for (const EffectRun& run : train.runs) rows += run.rows.counted.col(j).sum();
     const auto parameters =
         static_cast<double>(train.model.columns[static_cast<std::size_t>(j)].size());
-    if (rows >= kLeastWorth + 2 * parameters) continue;
+    if (rows >= rules.least_equations + 2 * parameters) continue;
     return fmt::format(
         "The recordings hold {:.0f} equations of joint {} for {:.0f} parameters: too few to test "
         "what the model leaves.",
@@ -50,11 +47,12 @@ std::string why_too_few(const EffectRecordings& train) {
   return {};
 }
 
-std::string why_too_little_motion(const EffectRecordings& train, const EffectRecordings& heldout) {
+std::string why_too_little_motion(const EffectRecordings& train, const EffectRecordings& heldout,
+                                  const EquationRules& rules) {
   Index joint = 0;
   const VectorXd predicted = predicted_variance(train, heldout);
   const double most = predicted.maxCoeff(&joint);
-  if (most <= kMostPredicted) return {};
+  if (most <= rules.most_predicted) return {};
   return fmt::format(
       "What the recordings leave open of the parameters moves the held-out torque of joint {} by "
       "{:.0f} % of what the fit leaves: too little motion to tell structure from a wrong fit.",

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "runtime/effects/effect_recordings.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -16,10 +17,11 @@ Eigen::VectorXd predicted_variance(const EffectRecordings& train, const EffectRe
 
 /// Why recordings cannot carry a test: too few equations for the parameters of a joint; empty: they
 /// can.
-std::string why_too_few(const EffectRecordings& train);
+std::string why_too_few(const EffectRecordings& train, const EquationRules& rules = {});
 
 /// Why recordings in which nothing was found cannot be called clean: what they leave open of the
 /// parameters moves the held-out torque too much; empty: they can.
-std::string why_too_little_motion(const EffectRecordings& train, const EffectRecordings& heldout);
+std::string why_too_little_motion(const EffectRecordings& train, const EffectRecordings& heldout,
+                                  const EquationRules& rules = {});
 
 }  // namespace dyngen::runtime

@@ -22,7 +22,6 @@ constexpr double kPass =
     0.5;  // of the parallel filter: a short one, that standstill cuts less from
 constexpr double kSlowBand =
     0.5;                       // of the band: the cut-off is twice as fast as motion is seen to be
-constexpr double kJolts = 80;  // Hz, of jolts: a joint state of at least this cut-off has them
 constexpr double kHighest = 1.0 / 3;  // of the sampling frequency: a cut-off
 constexpr int kSteep = 8;             // order of that low-pass
 constexpr double kBesideJolts = 0.5;  // of its cut-off: what is slower is not damped at all
@@ -46,8 +45,8 @@ VectorXd still_speed(const std::vector<MotionSource>& sources, const RowOptions&
 }
 
 /// @param highest  of the sampling frequency
-double quick_cutoff(const MotionSource& source, double highest) {
-  return std::max(source.cutoff.hz, std::min(kJolts, highest / source.sample_time));
+double quick_cutoff(const MotionSource& source, double highest, const EquationRules& rules) {
+  return std::max(source.cutoff.hz, std::min<double>(rules.jolt_bandwidth, highest / source.sample_time));
 }
 
 /// Recordings with the joint state of a view.
@@ -55,7 +54,7 @@ std::vector<MotionSource> seen(const std::vector<MotionSource>& sources,
                                const ViewOptions& options) {
   std::vector<MotionSource> result;
   for (const MotionSource& source : sources) {
-    const double hz = quick_cutoff(source, options.highest);
+    const double hz = quick_cutoff(source, options.highest, options.rules);
     const bool quick = options.quick && source.others.low_passes;
     result.push_back(quick ? source.others.make({.order = kSteep, .hz = hz}) : source);
   }
@@ -84,7 +83,7 @@ EffectRecordings equations(const DiagnosisInput& input, const std::vector<Motion
   EffectRecordings data = effect_recordings(input.model, input.robot, sources, options.rows, all);
   const VectorXd still = still_speed(sources, options.rows, data.joints());
   for (EffectRun& run : data.runs) {
-    leave_out_standstill(run, still);
+    leave_out_standstill(run, still, options.rules);
     if (!fitted) leave_out_rests(run, still, resting_in(options, kAny));
   }
   return data;
@@ -94,10 +93,10 @@ struct AllMotions {
   std::vector<MotionSource> own, others;
 };
 
-AllMotions motions_of(const std::vector<MotionSource>& sources) {
+AllMotions motions_of(const std::vector<MotionSource>& sources, const EquationRules& rules) {
   AllMotions all;
   for (const MotionSource& source : sources) {
-    TwoMotions two = two_motions(source);
+    TwoMotions two = two_motions(source, rules);
     all.own.push_back(std::move(two.own));
     all.others.push_back(std::move(two.other));
   }
@@ -166,11 +165,11 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
                          std::vector<RestingJoint> resting) {
   ViewOptions beside = options;
   beside.resting = std::move(resting);
-  beside.quick = std::all_of(train.begin(), train.end(), [](const MotionSource& source) {
-    return source.others.low_passes && !repeats_rounding(source);
+  beside.quick = std::all_of(train.begin(), train.end(), [&](const MotionSource& source) {
+    return source.others.low_passes && !repeats_rounding(source, options.rules);
   });
-  const bool of_halves = std::any_of(train.begin(), train.end(), [](const MotionSource& source) {
-    return source.others.parities && !repeats(source);
+  const bool of_halves = std::any_of(train.begin(), train.end(), [&](const MotionSource& source) {
+    return source.others.parities && !repeats(source, options.rules);
   });
   beside.highest = of_halves ? kHighestOfHalf : kHighest;
   beside.rows.band = beside.quick ? kBesideJolts : kBesideRests;
@@ -178,7 +177,8 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
   beside.rows.filter.averages = kAverages;
   std::vector<double> times;
   for (const MotionSource& source : train) {
-    const double cutoff = beside.quick ? quick_cutoff(source, beside.highest) : source.cutoff.hz;
+    const double cutoff =
+        beside.quick ? quick_cutoff(source, beside.highest, options.rules) : source.cutoff.hz;
     times.push_back(0.5 / (beside.rows.band * cutoff));
   }
   beside.rows.row_time = median(std::move(times));
@@ -197,7 +197,7 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
 }
 
 Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options) {
-  const AllMotions train = motions_of(seen(parts.train, options));
+  const AllMotions train = motions_of(seen(parts.train, options), options.rules);
   Views views;
   Fitted whole(input, train, options);
   views.train = without_rests(whole.repeated, whole.still, options);
@@ -213,7 +213,7 @@ Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOpt
   views.heldout = equations_of(input, parts.heldout, options);
   for (EffectRun& run : views.heldout.runs) run.recording = -1 - run.recording;
   views.proof = views.heldout;
-  leave_out_unvisited(views.proof, views.train);
+  leave_out_unvisited(views.proof, views.train, options.rules);
   return views;
 }
 

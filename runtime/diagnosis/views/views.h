@@ -7,6 +7,7 @@
 #include "runtime/diagnosis/views/diagnosis_input.h"
 #include "runtime/diagnosis/views/division.h"
 #include "runtime/diagnosis/views/resting_joint.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -21,11 +22,12 @@ RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Eigen::Index d
 struct ViewOptions {
   RowOptions rows;
   /// Joints that rest for an instant where they turn, and have no equations there.
-  std::vector<RestingJoint> resting;
+  std::vector<RestingJoint> resting{};
   /// Whether the joint state passes as quick a filter as can be.
   bool quick = false;
   /// Of the sampling frequency: such a filter's highest cut-off, of all recordings alike.
   double highest = 0;
+  EquationRules rules{};
 };
 
 /// The view of recordings whose joints, as was found, rest. Where friction holds a joint it has any

@@ -22,6 +22,7 @@
 #include "runtime/tools/dynid/effects/robot_tangents.h"
 #include "runtime/tools/dynid/fit/number_notes.h"
 #include "runtime/tools/dynid/options/commands.h"
+#include "runtime/tools/dynid/options/rules_file.h"
 #include "runtime/tools/dynid/page/arm_drawing.h"
 #include "runtime/tools/dynid/page/page_output.h"
 #include "runtime/tools/dynid/recordings/inputs.h"
@@ -213,6 +214,7 @@ int run_diagnose(const ToolOptions& options) {
   ProgressLine progress("dynid");
   DiagnosisOptions settings = options.diagnose.diagnosis;
   settings.decimation = options.rows.decimation;
+  if (!options.diagnose.rules.empty()) settings.rules = read_rules(options.diagnose.rules);
   settings.validate();
   check_simulation(options);
   check_write_back(options);
@@ -232,7 +234,7 @@ int run_diagnose(const ToolOptions& options) {
     for (const MotionSource& source : motions.recorded) {
       if (use == "held out") proof.push_back(source);
       if (use == "fitted" && options.heldout.empty()) {
-        proof.push_back(divided({source}).heldout.front());
+        proof.push_back(divided({source}, settings.rules.equations).heldout.front());
       }
     }
     return std::move(motions.sources);

@@ -8,7 +8,6 @@
 #include <map>
 #include <utility>
 
-#include "runtime/diagnosis/answer/heldout_remarks.h"
 #include "runtime/report/residual_charts.h"
 #include "runtime/tools/dynid/page/page_parts.h"
 
@@ -89,7 +88,7 @@ void add_heldout(const DiagnosisReport& report, std::vector<ReportSection>& sect
   }
   ReportSection section =
       section_of("heldout", "Recordings that were not fitted", {std::move(table)});
-  for (const std::string& remark : heldout_remarks(rms)) {
+  for (const std::string& remark : rms.remarks) {
     section.parts.front().blocks.emplace_back(ReportText{remark});
   }
   if (!report.views.heldout.empty()) {

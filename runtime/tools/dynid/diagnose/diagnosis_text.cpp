@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "runtime/diagnosis/answer/heldout_remarks.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_report.h"
 
 namespace dyngen::runtime {
@@ -113,7 +112,7 @@ std::string heldout_table(const DiagnosisReport& report, const TextStyle& style)
                         coloured(text_bar(after / most, kWidth, style), TextColour::kAfter, style),
                         number(before), number(after), number(floor), report.unit(j));
   }
-  for (const std::string& remark : heldout_remarks(rms)) text += "  " + remark + "\n";
+  for (const std::string& remark : rms.remarks) text += "  " + remark + "\n";
   return text;
 }
 

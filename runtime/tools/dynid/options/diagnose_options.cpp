@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tools/dynid/options/diagnose_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+
+#include "runtime/tools/dynid/options/rules_file.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -42,6 +46,15 @@ void add_diagnose_options(CLI::App& command, DiagnoseOptions& options) {
       ->capture_default_str();
   command.add_option("--seed", options.diagnosis.seed, "of the random numbers")
       ->capture_default_str();
+  command.add_option("--rules", options.rules,
+                     "file of decision rules for studies: a name and a value on each line");
+  command.add_flag_callback(
+      "--print-rules",
+      [] {
+        fmt::print("{}", rules_text({}));
+        throw CLI::Success();
+      },
+      "print all decision rules, as such a file, and end");
   add_simulation(command, options);
 }
 

@@ -18,6 +18,7 @@ namespace dyngen::runtime {
 struct DiagnoseOptions {
   std::vector<std::string> reference;  ///< recordings of the robot before it changed
   DiagnosisOptions diagnosis;
+  std::string rules;  ///< file of rules; empty: as they are
   /// Under which held-out motions are simulated before and after; no controller: they are not.
   LoopSettings loop;
   std::string controller_model;        ///< robot file of the controller; empty: the fitted model

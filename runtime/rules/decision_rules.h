@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dyngen::runtime {
+
+/// A number that accepts, rejects or ranks something in a diagnosis, with what it means.
+struct DecisionRule {
+  double value = 0;
+  std::string_view name;     ///< "noise.slow_part_price": as a file of rules has it
+  std::string_view unit;     ///< "1" of a ratio or a count
+  std::string_view meaning;  ///< one sentence
+  std::string_view source;   ///< a distribution, a paper, or the study that it was measured by
+
+  operator double() const { return value; }  // NOLINT(google-explicit-constructor): it is a number
+};
+
+/// How the noise of the equations is modelled.
+struct NoiseRules {
+  DecisionRule least_differences{
+      0.6, "noise.least_differences", "1",
+      "Part of a joint's equations that differences between periods must give, or noise is taken "
+      "from the residual.",
+      "sensitivity"};
+  DecisionRule line_transmission{
+      0.5, "noise.line_transmission", "1",
+      "A spectral line is used where the difference between periods passes at least this part of "
+      "the noise's density.",
+      "half power"};
+  DecisionRule slow_part_price{
+      2, "noise.slow_part_price", "1",
+      "Twice the log likelihood by which each slow part of the noise must pay for itself.",
+      "Akaike 1974"};
+  DecisionRule density_ratio{
+      3, "noise.density_ratio", "1",
+      "s_j <= ratio * max(s_k, s_l): the slow density of a joint beside that of any two others.",
+      "sensitivity"};
+  DecisionRule density_floor{
+      0.1, "noise.density_floor", "1",
+      "Slow density, over the rest of the noise, that every joint may keep.", "sensitivity"};
+  DecisionRule likelihood_loss{
+      20, "noise.likelihood_loss", "1",
+      "Twice the log likelihood that may be lost where a joint's slow parts are bounded by others.",
+      "sensitivity"};
+  DecisionRule course_runs{
+      3, "noise.course_runs", "1",
+      "Runs from which a drift common to all of them can be told from their noise.",
+      "two runs cannot outvote one another"};
+  DecisionRule course_candidate{
+      5, "noise.course_candidate", "1",
+      "Chi-square of the common drift (4 degrees) beside noise that contains it, from which it is "
+      "looked at.",
+      "the median of 4 degrees is 3.4"};
+  DecisionRule course_chi_square{
+      25, "noise.course_chi_square", "1",
+      "Chi-square of the common drift (4 degrees) beside noise without it, above which it is no "
+      "noise.",
+      "p = 5e-5 of chi-square with 4 degrees"};
+};
+
+/// Which equations a diagnosis makes of recordings, and whether they suffice.
+struct EquationRules {
+  DecisionRule longest_reversal{
+      0.1, "equations.longest_reversal", "s",
+      "A joint that stays below its standstill speed for longer stands; a quicker passage is a "
+      "reversal.",
+      "sensitivity"};
+  DecisionRule least_kept{
+      0.1, "equations.least_kept", "1",
+      "Part of a joint's held-out equations that must stay when those at unvisited positions are "
+      "left out.",
+      "sensitivity"};
+  DecisionRule fewest_periods{
+      3, "equations.fewest_periods", "1",
+      "Periods from which the motion of the other periods serves as an instrument.",
+      "the mean of one other period is as noisy as the period itself"};
+  DecisionRule period_mismatch{
+      0.1, "equations.period_mismatch", "samples",
+      "By how much the last period may be off whole samples, for periods to be averaged.",
+      "sensitivity"};
+  DecisionRule moving_speed{
+      0.01, "equations.moving_speed", "1",
+      "Part of a joint's largest speed above which it moves, when held-out parts are chosen.",
+      "the standstill speed of the fit"};
+  DecisionRule heldout_motion{
+      0.5, "equations.heldout_motion", "1",
+      "Part of the usual moving time that every joint must have in the held-out fifth.",
+      "sensitivity"};
+  DecisionRule repeated_rounding{
+      0.5, "equations.repeated_rounding", "1",
+      "Scatter between periods over that of rounding, below which the same digits come back.",
+      "sensitivity"};
+  DecisionRule least_equations{
+      30, "equations.least_equations", "1",
+      "Equations of a joint beyond twice the number of its parameters, with fewer nothing is "
+      "tested.",
+      "sensitivity"};
+  DecisionRule most_predicted{
+      0.4, "equations.most_predicted", "1",
+      "Variance of predicted held-out torque over that of the residual, above which recordings "
+      "without findings are insufficient.",
+      "sensitivity"};
+  DecisionRule jolt_bandwidth{
+      80, "equations.jolt_bandwidth", "Hz",
+      "Cut-off of the joint state from which it follows the jolts that stiction makes.",
+      "sensitivity"};
+};
+
+/// What a scan over time, frequencies or windows takes for structure.
+struct ScanRules {
+  DecisionRule longest_push{
+      0.3, "scans.longest_push", "1",
+      "Part of a recording that a passing event may last: what lasts longer is no event.",
+      "sensitivity"};
+  DecisionRule fewest_degrees{
+      4, "scans.fewest_degrees", "1",
+      "Degrees of freedom outside of an event's window from which its surroundings are known.",
+      "sensitivity"};
+  DecisionRule window_deviations{
+      2, "scans.window_deviations", "standard deviations",
+      "Mean chi-square per degree in other windows that white noise explains.",
+      "two-sided 95 % of the normal distribution"};
+  DecisionRule jolt_equations{
+      3, "scans.jolt_equations", "1",
+      "An effect whose gain comes from so few equations is a jolt and no event.", "sensitivity"};
+  DecisionRule jolt_gain{
+      0.6, "scans.jolt_gain", "1", "Part of the gain that those few equations must have.",
+      "sensitivity"};
+  DecisionRule line_periods{
+      1.5, "scans.line_periods", "1",
+      "Periods that a spectral line must have in the longest run: with fewer it is a drift.",
+      "sensitivity"};
+  DecisionRule line_equations{
+      20, "scans.line_equations", "1",
+      "Equations of a run from which its periodogram is used.", "sensitivity"};
+};
+
+/// What is said of the result.
+struct AnswerRules {
+  DecisionRule least_independent{
+      25, "answer.least_independent", "1",
+      "Independent samples of a joint's residual, with fewer a verdict of clean is impossible.",
+      "sensitivity"};
+  DecisionRule unexplained_part{
+      0.2, "answer.unexplained_part", "1",
+      "Part of a joint's structure without a name, above which the verdict says so.",
+      "sensitivity"};
+  DecisionRule probable{
+      0.5, "answer.probable", "1",
+      "Probability of a name from which it explains; also the most that a name with an objection "
+      "can have.",
+      "more likely than not"};
+  DecisionRule stability{
+      0.8, "answer.stability", "1",
+      "Part of random halves of the recordings in which a name must win.",
+      "Meinshausen and Buehlmann 2010: 0.6 to 0.9"};
+  DecisionRule heldout_excess{
+      1.3, "answer.heldout_excess", "1",
+      "Held-out rms over the expected one: smaller ratios are differences between motions.",
+      "sensitivity"};
+  DecisionRule heldout_chance{
+      1e-3, "answer.heldout_chance", "1",
+      "Probability of a joint's held-out ratio, or of its worsening, if nothing is left out.",
+      "F and normal distribution"};
+  DecisionRule open_parameters{
+      0.1, "answer.open_parameters", "1",
+      "Predicted variance over the residual's, above which held-out motion goes beyond the fitted "
+      "one.",
+      "sensitivity"};
+  DecisionRule worse_rms{
+      1.02, "answer.worse_rms", "1",
+      "Held-out rms with the findings over that of the model alone, above which it is worse.",
+      "rounding of two printed digits"};
+  DecisionRule visited_part{
+      0.98, "answer.visited_part", "1",
+      "Part of held-out equations at visited positions, below which findings were not judged "
+      "everywhere.",
+      "rounding of two printed digits"};
+};
+
+/// Every number that accepts, rejects or ranks in a diagnosis, outside of the competition of
+/// effects and of their names.
+struct DecisionRules {
+  NoiseRules noise;
+  EquationRules equations;
+  ScanRules scans;
+  AnswerRules answer;
+};
+
+/// All of them, in the order of their stages.
+std::vector<const DecisionRule*> all_rules(const DecisionRules& rules);
+
+/// Sets a rule by its name. @return false: there is none of that name
+bool set_rule(DecisionRules& rules, std::string_view name, double value);
+
+}  // namespace dyngen::runtime
