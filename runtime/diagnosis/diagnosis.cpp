@@ -78,7 +78,8 @@ class Diagnostician {
     answer_.before = tests_of(result().first);
     answer_.after = tests_of(result().last);
     if (found_nothing(result())) {
-      answer_.sentence = too_little.empty() ? why_too_slow(result(), options_.rules.answer) : too_little;
+      answer_.sentence =
+          too_little.empty() ? why_too_slow(result(), options_.rules.noise) : too_little;
     }
     if (!answer_.sentence.empty()) return std::move(answer_);
     answer_.findings = found_effects(search_, settings, progress_);

@@ -146,7 +146,9 @@ EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals&
                                const TorqueNoiseModel& noise, const Options& options)
     : data_(data),
       rules_(options.rules.scans),
-      left_out_(noise.joints.size()), worth_(noise.worth), rows_(data.equations()) {
+      left_out_(noise.joints.size()),
+      worth_(noise.worth),
+      rows_(data.equations()) {
   const int n = data.joints();
   const Index size = data.model.size();
   whiteners_ = whiteners_of(data, noise);

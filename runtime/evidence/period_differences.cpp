@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr Index kHalfWaves = 4;         // of the longest run
+constexpr Index kHalfWaves = 4;  // of the longest run
 
 }  // namespace
 

@@ -195,7 +195,8 @@ Choice choice_of(const JointDifferences& joint, const DifferenceLengths& lengths
   if (!choice.with_slow.slow.empty()) starts.push_back(choice.with_slow);
   for (JointNoise& start : starts) {
     JointNoise each = refined(joint, std::move(start));
-    const double gain = worth(each) - alone - slow_part_price * static_cast<double>(each.slow.size());
+    const double gain =
+        worth(each) - alone - slow_part_price * static_cast<double>(each.slow.size());
     if (gain <= choice.gain) continue;
     choice.gain = gain;
     choice.with_slow = std::move(each);
@@ -230,7 +231,7 @@ void keep_what_all_joints_have(std::vector<JointNoise>& noise,
   for (std::size_t j = 0; j < noise.size(); ++j) {
     std::vector<double> others = lasting;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
-    const double most = 
+    const double most =
         std::max<double>(rules.density_floor, rules.density_ratio * reached_by_two(others));
     if (lasting[j] <= most) continue;
     for (SlowNoise& part : noise[j].slow) {
@@ -242,8 +243,8 @@ void keep_what_all_joints_have(std::vector<JointNoise>& noise,
         covariance - differences_of(again.slow, covariance.size(), period), joints[j].samples);
     // what is left of noise of accelerations may be no covariance, nor near one
     if (again.quick.innovation > 0 &&
-        likelihood(joints[j].lines, again) > likelihood(joints[j].lines, noise[j]) -
-                                                      rules.likelihood_loss) {
+        likelihood(joints[j].lines, again) >
+            likelihood(joints[j].lines, noise[j]) - rules.likelihood_loss) {
       noise[j] = std::move(again);
     }
   }

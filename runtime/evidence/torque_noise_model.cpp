@@ -13,7 +13,6 @@
 #include "runtime/evidence/lag_products.h"
 #include "runtime/evidence/period_differences.h"
 #include "runtime/evidence/slow_noise.h"
-#include "runtime/recordings/periods.h"
 
 namespace dyngen::runtime {
 
@@ -24,13 +23,8 @@ using Eigen::VectorXd;
 std::vector<double> repeats_of(const EffectRecordings& data) {
   std::vector<double> repeats;
   for (const EffectRun& run : data.runs) {
-    Recording positions;
-    positions.time = run.motion.time;
-    positions.q = run.motion.q;
-    positions.run_starts = {0};
-    const Periods periods = find_periods(positions);
     const double row_time = run.motion.sample_time * static_cast<double>(run.decimator.factor);
-    repeats.push_back(periods.count >= 2 ? periods.period / row_time : 0);
+    repeats.push_back(run.motion.period / row_time);
   }
   return repeats;
 }
@@ -164,6 +158,20 @@ void refuse_no_noise(const std::vector<JointNoise>& joints) {
   }
 }
 
+/// How well noise is known.
+/// @param samples    of each joint that it was found from
+/// @param frequency  cycles for a sample: that of the motion; 0: none repeats
+void know_by(TorqueNoiseModel& model, const std::vector<double>& samples, double frequency) {
+  model.worth.resize(static_cast<Index>(samples.size()));
+  model.correlation_time.resize(model.worth.size());
+  for (std::size_t j = 0; j < samples.size(); ++j) {
+    const JointNoise& noise = model.joints[j];
+    const double time = noise.density(frequency) / std::pow(noise.deviation(), 2);
+    model.correlation_time[static_cast<Index>(j)] = time;
+    model.worth[static_cast<Index>(j)] = samples[j] / std::max(1.0, time);
+  }
+}
+
 /// Mean of those that repeat; 0 if none does.
 double mean_period(const std::vector<double>& repeats) {
   double sum = 0, count = 0;
@@ -198,19 +206,23 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
                       repeats[run]);
     }
   }
-  model.from_periods = true;
+  std::vector<double> differences, samples;
   for (std::size_t j = 0; j < all.size(); ++j) {
-    model.from_periods = model.from_periods && all[j].samples() > 0 &&
-                         repeated[j].samples() >= rules.least_differences * all[j].samples();
+    differences.push_back(repeated[j].samples());
+    samples.push_back(all[j].samples());
   }
-  const double period = model.from_periods ? mean_period(repeats) : 0;
-  if (model.from_periods) {
+  const double period = mean_period(repeats);
+  if (period > 0 &&
+      *std::min_element(differences.begin(), differences.end()) >= rules.least_independent) {
     double longest = 0;
     for (const EffectRun& run : data.runs) {
       longest = std::max(longest, static_cast<double>(run.rows.Y.rows()));
     }
     model.joints = noise_of_periods(repeated, {period, longest}, rules);
-  } else {
+    know_by(model, differences, 1 / period);
+    model.from_periods = model.worth.minCoeff() >= rules.least_independent;
+  }
+  if (!model.from_periods) {
     std::vector<AutoregressiveNoise> joints;
     for (const LagProducts& products : all) {
       joints.push_back(
@@ -219,17 +231,9 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
     refuse_no_noise(quick_noise(joints));
     if (fitted) joints = before_the_fit(data, all, std::move(joints));
     model.joints = quick_noise(joints);
+    know_by(model, samples, 0);
   }
   refuse_no_noise(model.joints);
-  model.worth.resize(data.joints());
-  model.correlation_time.resize(data.joints());
-  for (std::size_t j = 0; j < all.size(); ++j) {
-    const JointNoise& noise = model.joints[j];
-    const auto joint = static_cast<Index>(j);
-    const double time = noise.density(period > 0 ? 1 / period : 0) / std::pow(noise.deviation(), 2);
-    model.correlation_time[joint] = time;
-    model.worth[joint] = all[j].samples() / std::max(1.0, time);
-  }
   return model;
 }
 

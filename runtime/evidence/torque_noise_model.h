@@ -13,7 +13,9 @@ namespace dyngen::runtime {
 /// Noise of the equations of every joint, and how it is known.
 struct TorqueNoiseModel {
   std::vector<JointNoise> joints;
-  Eigen::VectorXd worth;      ///< (n) independent samples that the equations are worth
+  /// (n) independent samples that the noise is known by: of the differences between periods where
+  /// it is from these, else of the equations
+  Eigen::VectorXd worth;
   bool from_periods = false;  ///< from differences between periods: free of what repeats
   /// (n) samples that are worth one, for what is as slow as the motion: density at its period, or
   /// at 0 if none repeats, over the variance.

@@ -70,8 +70,23 @@ Recording with_uniform_time(Recording recording, RecordingCondition& condition) 
   return examine_time_base(recording).uniform ? recording : resample(recording, clock.step);
 }
 
+/// Of each run.
+std::vector<Periods> periods_of_runs(const Recording& recording, std::optional<double> given) {
+  std::vector<Periods> periods;
+  for (std::size_t run = 0; run < recording.run_starts.size(); ++run) {
+    const Index first = recording.run_starts[run], count = run_end(recording, run) - first;
+    Recording positions;
+    positions.time = recording.time.segment(first, count);
+    positions.q = recording.q.middleRows(first, count);
+    positions.run_starts = {0};
+    periods.push_back(find_periods(positions, given));
+  }
+  return periods;
+}
+
 /// None where there are no periods.
 std::optional<Recording> averaged_periods(const Recording& recording, const MotionOptions& options,
+                                          const std::vector<Periods>& found,
                                           RecordingCondition& condition) {
   if (!options.average_periods) return std::nullopt;
   if (recording.run_starts.size() > 1) {
@@ -82,7 +97,7 @@ std::optional<Recording> averaged_periods(const Recording& recording, const Moti
                     recording.run_starts.size()));
     return std::nullopt;
   }
-  const Periods periods = find_periods(recording, options.period);
+  const Periods& periods = found.front();
   if (periods.samples == 0) {
     if (options.period) condition.messages.push_back(periods.message);
     return std::nullopt;
@@ -151,10 +166,11 @@ Recording with_every_other(Recording recording, int parity) {
 }
 
 /// @param recording  of uniform time, its condition looked at   @param start  s, before averaging
+/// @param periods    of each run; empty: none repeats
 /// @param chosen     the cut-off, where options leave it open; 0 Hz: chosen from this recording
 MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
                       RecordingCondition condition, const JointStateOptions& options,
-                      const Cutoff& chosen = {}) {
+                      const std::vector<Periods>& periods, const Cutoff& chosen = {}) {
   MotionSource source;
   source.name = recording->file_name;
   source.start = start;
@@ -166,6 +182,11 @@ MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
     states.messages.front() = chosen.message;
   }
   check_runs(states, source.name);
+  for (std::size_t i = 0; i < states.runs.size() && !periods.empty(); ++i) {
+    const auto& starts = recording->run_starts;
+    const auto next = std::upper_bound(starts.begin(), starts.end(), states.first_rows[i]);
+    states.runs[i].period = periods[static_cast<std::size_t>(next - starts.begin()) - 1].period;
+  }
   condition.stands = states.stands;
   source.sample_time = states.runs.front().sample_time;
   source.cutoff = states.cutoff;
@@ -181,24 +202,25 @@ MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
       options.method == StateMethod::kLowPass && !quick &&
       accelerations_are_noisy(states, source.position_noise, source.sample_time);
   if (source.others.low_passes && !states.stands) {
-    source.others.at = [recording, start, condition, options](const Cutoff& cutoff, double trim) {
+    source.others.at = [recording, start, condition, options, periods](const Cutoff& cutoff,
+                                                                       double trim) {
       JointStateOptions other = options;
       if (trim >= 0) other.trim = trim;
-      return filtered(recording, start, condition, other, cutoff);
+      return filtered(recording, start, condition, other, periods, cutoff);
     };
   }
   if (source.others.low_passes || source.others.parities) {
-    source.others.make = [recording, start, condition, options, hz = source.cutoff.hz,
+    source.others.make = [recording, start, condition, options, periods, hz = source.cutoff.hz,
                           noise = source.position_noise](const OtherState& state) {
       JointStateOptions other = options;
       other.cutoff_hz = hz;
       if (state.order > 0) {
         other.order = state.order;
         other.cutoff_hz = state.hz;
-        return filtered(recording, start, condition, other);
+        return filtered(recording, start, condition, other, periods);
       }
       auto half = std::make_shared<const Recording>(with_every_other(*recording, state.parity));
-      MotionSource of_half = filtered(std::move(half), start, condition, other);
+      MotionSource of_half = filtered(std::move(half), start, condition, other, periods);
       of_half.position_noise = noise;
       return of_half;
     };
@@ -220,10 +242,13 @@ MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
   const auto recorded =
       std::make_shared<const Recording>(with_uniform_time(std::move(recording), condition));
   auto used = recorded;
-  if (std::optional<Recording> averaged = averaged_periods(*recorded, options, condition)) {
+  std::vector<Periods> periods = periods_of_runs(*recorded, options.period);
+  if (std::optional<Recording> averaged =
+          averaged_periods(*recorded, options, periods, condition)) {
     used = std::make_shared<const Recording>(std::move(*averaged));
+    periods.clear();
   }
-  MotionSource source = filtered(used, start, std::move(condition), options.state);
+  MotionSource source = filtered(used, start, std::move(condition), options.state, periods);
   source.recorded = recorded;
   return source;
 }
@@ -382,7 +407,8 @@ MotionSource cut_out(const MotionSource& source, double from, double to) {
                       motion.tau.middleRows(skip, count),
                       motion.temperature.size() == 0
                           ? motion.temperature
-                          : motion.temperature.middleRows(skip, count).eval()};
+                          : motion.temperature.middleRows(skip, count).eval(),
+                      motion.period};
         cut.continues_run = first > begin;
         visit(cut);
       }

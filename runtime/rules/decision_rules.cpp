@@ -8,29 +8,28 @@ namespace {
 template <class Rules, class Visit>
 void each(Rules& rules, const Visit& visit) {
   auto& noise = rules.noise;
-  for (auto* rule : {&noise.least_differences, &noise.line_transmission, &noise.slow_part_price,
+  for (auto* rule : {&noise.least_independent, &noise.line_transmission, &noise.slow_part_price,
                      &noise.density_ratio, &noise.density_floor, &noise.likelihood_loss,
                      &noise.course_runs, &noise.course_candidate, &noise.course_chi_square}) {
     visit(*rule);
   }
   auto& equations = rules.equations;
-  for (auto* rule :
-       {&equations.longest_reversal, &equations.least_kept, &equations.fewest_periods,
-        &equations.period_mismatch, &equations.moving_speed, &equations.heldout_motion,
-        &equations.repeated_rounding, &equations.least_equations, &equations.most_predicted,
-        &equations.jolt_bandwidth}) {
+  for (auto* rule : {&equations.longest_reversal, &equations.least_kept, &equations.fewest_periods,
+                     &equations.period_mismatch, &equations.moving_speed, &equations.heldout_motion,
+                     &equations.repeated_rounding, &equations.least_equations,
+                     &equations.most_predicted, &equations.jolt_bandwidth}) {
     visit(*rule);
   }
   auto& scans = rules.scans;
   for (auto* rule :
-       {&scans.longest_push, &scans.fewest_degrees, &scans.window_deviations,
-        &scans.jolt_equations, &scans.jolt_gain, &scans.line_periods, &scans.line_equations}) {
+       {&scans.longest_push, &scans.fewest_degrees, &scans.window_deviations, &scans.jolt_equations,
+        &scans.jolt_gain, &scans.line_periods, &scans.line_equations}) {
     visit(*rule);
   }
   auto& answer = rules.answer;
-  for (auto* rule : {&answer.least_independent, &answer.unexplained_part, &answer.probable,
-                     &answer.stability, &answer.heldout_excess, &answer.heldout_chance,
-                     &answer.open_parameters, &answer.worse_rms, &answer.visited_part}) {
+  for (auto* rule :
+       {&answer.unexplained_part, &answer.probable, &answer.stability, &answer.heldout_excess,
+        &answer.heldout_chance, &answer.open_parameters, &answer.worse_rms, &answer.visited_part}) {
     visit(*rule);
   }
 }

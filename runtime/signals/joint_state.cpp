@@ -212,7 +212,8 @@ Motion cut(const Motion& motion, Index from, Index count) {
           motion.dq.middleRows(from, count),
           motion.ddq.middleRows(from, count),
           rows_of_any(motion.tau, from, count),
-          rows_of_any(motion.temperature, from, count)};
+          rows_of_any(motion.temperature, from, count),
+          motion.period};
 }
 
 Filled fill(Motion& motion, const Recording& recording, const Rows& rows,

@@ -18,6 +18,8 @@ struct Motion {
   Eigen::MatrixXd tau;     ///< (N x n) as measured, or what a simulator says
   /// (N x n) of each joint, as it was recorded; 0 x 0 if it was not
   Eigen::MatrixXd temperature{};
+  double period = 0;  ///< s after which the motion repeats, of the run that it is a part of; 0: it
+                      ///< does not
 
   [[nodiscard]] Eigen::Index samples() const { return time.size(); }
   [[nodiscard]] int joints() const { return static_cast<int>(q.cols()); }

@@ -67,23 +67,20 @@ VectorXd worsening(const EffectRecordings& heldout, const RunResiduals& before,
 std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const HeldoutKnowledge& known,
                                        bool found_nothing, const std::vector<bool>& revolute,
                                        const AnswerRules& rules) {
-  const double certainly = 
-      student_interval(1 - 2 * rules.heldout_chance, kHeldoutBlocks - 1);
+  const double certainly = student_interval(1 - 2 * rules.heldout_chance, kHeldoutBlocks - 1);
   std::vector<std::string> reasons;
   bool beyond = true;  // every joint's
   for (Index j = 0; j < rms.after.size(); ++j) {
     const double floor = rms.floor[j], after = rms.after[j], before = rms.before[j];
     const bool worse =
         !found_nothing && after > rules.worse_rms * before && known.worse[j] > certainly;
-    const bool far =
-        far_above(after, floor, known.predicted[j], known.fitted_worth[j], known.heldout_worth[j],
-                  rules);
+    const bool far = far_above(after, floor, known.predicted[j], known.fitted_worth[j],
+                               known.heldout_worth[j], rules);
     if (!worse && !far) continue;
     std::string reason = fmt::format("{:.4g} {} of joint {}", after, unit_of(revolute, j), j + 1);
     if (far) reason += fmt::format(" beside a noise of {:.4g}", floor);
     if (worse) reason += fmt::format(", {:.4g} without the findings", before);
-    const bool extrapolated =
-        known.predicted[j] > rules.open_parameters ||
+    const bool extrapolated = known.predicted[j] > rules.open_parameters ||
                               (j < rms.visited.size() && rms.visited[j] < rules.visited_part);
     beyond = beyond && extrapolated;
     reasons.push_back(std::move(reason));

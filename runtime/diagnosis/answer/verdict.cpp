@@ -38,9 +38,10 @@ std::string explanation(const std::vector<Finding>& findings, double probable) {
                        effects == 1 ? "" : "s", effects == 1 ? "s" : "");
   }
   if (uncertain > 0) {
-    text += fmt::format("{}{} effect{} {} found whose name{} uncertain (probability below {:g}).",
-                        text.empty() ? "" : " ", uncertain, uncertain == 1 ? "" : "s",
-                        uncertain == 1 ? "was" : "were", uncertain == 1 ? " is" : "s are", probable);
+    text +=
+        fmt::format("{}{} effect{} {} found whose name{} uncertain (probability below {:g}).",
+                    text.empty() ? "" : " ", uncertain, uncertain == 1 ? "" : "s",
+                    uncertain == 1 ? "was" : "were", uncertain == 1 ? " is" : "s are", probable);
   }
   if (changes > 0) {
     text += fmt::format(
@@ -57,7 +58,7 @@ bool found_nothing(const CompetitionResult& result) {
   return result.winners.empty() && result.nameless.empty();
 }
 
-std::string why_too_slow(const CompetitionResult& result, const AnswerRules& rules) {
+std::string why_too_slow(const CompetitionResult& result, const NoiseRules& rules) {
   Eigen::Index joint = 0;
   const double least = result.noise.worth.minCoeff(&joint);
   if (least >= rules.least_independent) return {};

@@ -20,7 +20,7 @@ bool found_nothing(const CompetitionResult& result);
 
 /// Why what the model leaves is too slow to call recordings clean: they are worth too few
 /// independent samples. Empty: they are worth enough.
-std::string why_too_slow(const CompetitionResult& result, const AnswerRules& rules);
+std::string why_too_slow(const CompetitionResult& result, const NoiseRules& rules);
 
 /// @param findings  of the winners, in their order, then those since the reference
 Conclusion concluded(const Search& search, const std::vector<Finding>& findings,

@@ -80,9 +80,8 @@ bool NamelessSearch::next_likely(const ModelSide& plain) {
       likeliest_structure(data_, signals_, structures_, result_, plain);
   if (!likely || plain.screening.family_wise(likely->generic.surprise) > false_alarm_) return false;
   const std::vector<double> no_repeats(data_.runs.size(), 0.0);
-  TorqueNoiseModel noise =
-      torque_noise_model(data_, likely->residuals, no_repeats, options_.with_regressor,
-                         options_.rules.noise);
+  TorqueNoiseModel noise = torque_noise_model(data_, likely->residuals, no_repeats,
+                                              options_.with_regressor, options_.rules.noise);
   std::swap(result_.noise, noise);
   const EvidenceSystem system = system_beside(data_, signals_, hypotheses_, result_,
                                               result_.fit.point, result_.noise, options_);

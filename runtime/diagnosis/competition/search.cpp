@@ -49,9 +49,8 @@ void Search::compete(CompetitionOptions options, const CompetitionProgress& prog
 bool Search::look_beside(const std::vector<RestingJoint>& found) {
   std::vector<RestingJoint> joints = seen_.resting;
   if (!join(joints, found)) return false;
-  const ViewOptions beside =
-      beside_rests({.rows = diagnosis_rows(parts_.train, decimation_), .rules = rules_},
-                   parts_.train, joints);
+  const ViewOptions beside = beside_rests(
+      {.rows = diagnosis_rows(parts_.train, decimation_), .rules = rules_}, parts_.train, joints);
   Views views = views_of(input_, parts_, beside);
   const Eigen::ArrayXd left = counted_part(views.train).array();
   if ((left < kLeastCounted * moving_.array()).any()) return false;

@@ -35,9 +35,8 @@ Witness::Witness(const EffectRecordings& data)
 EvidenceSystem Witness::system(const std::vector<Hypothesis>& hypotheses,
                                const CompetitionResult& result, const EffectPoint& point,
                                EvidenceSystem::Options options) {
-  const TorqueNoiseModel noise =
-      torque_noise_model(data_, residuals_of(data_, point), repeats_, options.with_regressor,
-                         options.rules.noise);
+  const TorqueNoiseModel noise = torque_noise_model(data_, residuals_of(data_, point), repeats_,
+                                                    options.with_regressor, options.rules.noise);
   options.surrogates = 0;
   return system_beside(data_, signals_, hypotheses, result, point, noise, options);
 }

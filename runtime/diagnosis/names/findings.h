@@ -12,9 +12,9 @@
 namespace dyngen::runtime {
 
 enum class Verdict {
-  kClean,                 ///< nothing above the noise
-  kExplained,             ///< findings explain it
-  kNotExplained,          ///< held-out torque is far above the noise, or predicted worse than before
+  kClean,         ///< nothing above the noise
+  kExplained,     ///< findings explain it
+  kNotExplained,  ///< held-out torque is far above the noise, or predicted worse than before
   kUnexplainedStructure,  ///< something is left that no effect explains
   kInsufficientData       ///< the recordings cannot carry a test
 };
@@ -35,8 +35,8 @@ struct Whereabouts {
 
 /// How strongly the recordings speak for an effect.
 struct Evidence {
-  double lambda = 0;        ///< noncentrality of what a refit of the model does not absorb
-  double delta_bic = 0;     ///< of adding it; negative is better
+  double lambda = 0;     ///< noncentrality of what a refit of the model does not absorb
+  double delta_bic = 0;  ///< of adding it; negative is better
   /// Part by which it lowers the rms of the held-out torque of its joints: 1 less the rms of the
   /// answer over that of the answer without it, refitted
   double heldout_gain = 0;

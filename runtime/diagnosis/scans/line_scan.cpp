@@ -14,8 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFinest = 2;  // frequencies for each that the longest run resolves
-constexpr double kReached = 0.9;    // of half the rate of the equations
+constexpr double kFinest = 2;     // frequencies for each that the longest run resolves
+constexpr double kReached = 0.9;  // of half the rate of the equations
 
 /// The next length whose Fourier transform is quick: of factors 2, 3 and 5.
 Index quick_length(Index length) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "runtime/diagnosis/scans/turning.h"
 #include "runtime/signals/decimation.h"
@@ -17,25 +18,52 @@ using Eigen::VectorXd;
 
 constexpr std::array<double, 3> kBands = {kWidestRepeatBand / 4, kWidestRepeatBand / 2,
                                           kWidestRepeatBand};
-constexpr double kOfRate = 0.4;  // of the equations' rate: no band beyond it
+constexpr double kOfRate = 0.4;    // of the equations' rate: no band beyond it
+constexpr Index kMostBetween = 4;  // lines between two harmonics: more tell little more
 
 double row_time(const EffectRun& run) {
   return run.motion.sample_time * static_cast<double>(run.decimator.factor);
 }
 
+/// Whole periods of a run; a run of fewer than two has no lines between its harmonics.
+Index periods_of(const EffectRun& run, double period) {
+  return period > 0 ? static_cast<Index>(static_cast<double>(run.rows.Y.rows()) / period) : 0;
+}
+
 /// How many harmonics of a run there are up to a frequency.
 Index harmonics_of(const EffectRun& run, double period, double frequency) {
-  if (!(period > 0)) return 0;
+  if (periods_of(run, period) < 2) return 0;
   return static_cast<Index>(frequency * period * row_time(run));
 }
 
-/// Squares per degree of freedom between the harmonics; at least 1.
-double level_beside(const EffectRecordings& data, const EvidenceSystem& system, int joint,
-                    const std::vector<double>& repeats, double band) {
-  const Score between = score_of(
-      system.products(system.whitened(harmonic_columns(data, joint, repeats, band, 0.5)), false),
-      false);
-  return between.degrees > 0 ? std::max(1.0, between.squares / between.degrees) : 1;
+/// Squares of the lines between the harmonics.
+struct Level {
+  double squares = 0, degrees = 0;
+  [[nodiscard]] double of_noise() const {
+    return degrees > 0 ? std::max(1.0, squares / degrees) : 1;
+  }
+};
+
+/// A run of P periods tells P - 1 lines between two harmonics apart.
+Level level_beside(const EffectRecordings& data, const EvidenceSystem& system, int joint,
+                   const std::vector<double>& repeats, double band) {
+  Index fewest = std::numeric_limits<Index>::max();
+  for (std::size_t run = 0; run < repeats.size(); ++run) {
+    const Index periods = periods_of(data.runs[run], repeats[run]);
+    if (periods >= 2) fewest = std::min(fewest, periods);
+  }
+  Level level;
+  for (Index line = 1; line < std::min(fewest, kMostBetween + 1); ++line) {
+    const double aside =
+        static_cast<double>(line) / static_cast<double>(std::min(fewest, kMostBetween + 1));
+    const Score between =
+        score_of(system.products(
+                     system.whitened(harmonic_columns(data, joint, repeats, band, aside)), false),
+                 false);
+    level.squares += between.squares;
+    level.degrees += between.degrees;
+  }
+  return level;
 }
 
 }  // namespace
@@ -53,12 +81,14 @@ RepeatScan scan_repeats(const EffectRecordings& data, const EvidenceSystem& syst
     if (columns.columns() == 0) continue;
     Score score = score_of(system.products(system.whitened(columns), surrogates), surrogates);
     if (score.degrees == 0) continue;
-    score.squares /= level_beside(data, system, joint, repeats, band);
+    const Level level = level_beside(data, system, joint, repeats, band);
+    score.squares /= level.of_noise();
     const double above = (score.squares - score.degrees) / std::sqrt(2.0 * score.degrees);
     if (scan.score.degrees > 0 && above <= most) continue;
     most = above;
     scan.frequency = band;
     scan.score = std::move(score);
+    scan.worth = level.degrees;
   }
   return scan;
 }

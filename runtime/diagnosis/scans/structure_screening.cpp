@@ -36,6 +36,7 @@ class Group {
   [[nodiscard]] GenericResult result_of(const GenericStructure& structure) const {
     GenericResult result;
     const int joint = structure.joint;
+    double worth = system_.worth(joint);
     switch (structure.form) {
       case Form::kLine: {
         LineScan scan = scan_lines(data_.whole(), system_, joint, surrogates_);
@@ -48,6 +49,7 @@ class Group {
             scan_repeats(data_.coarse(), system_, joint, data_.repeats(), surrogates_);
         result.frequency[0] = scan.frequency;
         result.score = std::move(scan.score);
+        worth = std::min(worth, std::max(scan.worth, 1.0));
         break;
       }
       case Form::kWave: {
@@ -67,7 +69,7 @@ class Group {
         result.score = score(generic_columns(data_.whole(), reader_.whole, structure));
         break;
     }
-    result.surprise = surprise_of(result.score.squares, result.score.degrees, system_.worth(joint));
+    result.surprise = surprise_of(result.score.squares, result.score.degrees, worth);
     return result;
   }
 

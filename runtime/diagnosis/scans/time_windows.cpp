@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kBlocks = 120;          // of the longest recording
+constexpr int kBlocks = 120;  // of the longest recording
 constexpr int kWindowSurrogates = 16;
 
 /// Time of each equation, s from the recording's first sample, and its recording.
@@ -135,8 +135,8 @@ Products beside(const Window& window, const Window& other) {
 /// Mean of the squares per degree of freedom in windows as long as the best one, end to end, of all
 /// recordings and beside it, less those that overlap it; 1 where white noise may have as many.
 /// @param recording  the best one's place, -1: all
-double squares_elsewhere(const std::vector<Running>& recordings, int recording,
-                         const Window& best, const ScanRules& rules) {
+double squares_elsewhere(const std::vector<Running>& recordings, int recording, const Window& best,
+                         const ScanRules& rules) {
   const std::size_t length = best.to - best.from;
   double squares = 0, degrees = 0;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
@@ -210,8 +210,8 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
   }
   if (scan.found) {
     const Running& own = scan.recording < 0 ? all : parts[static_cast<std::size_t>(scan.recording)];
-    scan.elsewhere = squares_elsewhere(parts, scan.recording, {own, best_from, best_to},
-                                      system.rules());
+    scan.elsewhere =
+        squares_elsewhere(parts, scan.recording, {own, best_from, best_to}, system.rules());
   }
   // the same number of surrogates as everywhere: those that were not scanned repeat the others
   if (scan.found && largest.size() > 0) {
@@ -232,7 +232,7 @@ bool is_jolt(const EvidenceSystem& system, const JointColumns& torque) {
   }
   double all = 0, of_few = 0;
   for (const double gain : gains) all += gain;
-  const std::size_t few = 
+  const std::size_t few =
       std::min(static_cast<std::size_t>(system.rules().jolt_equations), gains.size());
   std::partial_sort(gains.begin(), gains.begin() + static_cast<std::ptrdiff_t>(few), gains.end(),
                     std::greater<>());

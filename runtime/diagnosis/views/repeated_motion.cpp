@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "runtime/effects/effect_fit.h"
-#include "runtime/recordings/periods.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -31,16 +30,12 @@ MatrixXd of_the_others(const MatrixXd& rows, Index period) {
 
 /// Samples after which a motion repeats, often enough and in whole samples; 0: it does not.
 Index period_of(const Motion& run, const EquationRules& rules) {
-  Recording positions;
-  positions.time = run.time;
-  positions.q = run.q;
-  positions.run_starts = {0};
-  const Periods periods = find_periods(positions);
-  const double off =
-      std::abs(periods.period / run.sample_time - static_cast<double>(periods.samples));
-  return periods.count < rules.fewest_periods || off * periods.count > rules.period_mismatch
+  const double length = run.period / run.sample_time, samples = std::round(length);
+  if (!(samples > 0)) return 0;
+  const double count = std::floor(static_cast<double>(run.samples()) / samples);
+  return count < rules.fewest_periods || std::abs(length - samples) * count > rules.period_mismatch
              ? 0
-             : periods.samples;
+             : static_cast<Index>(samples);
 }
 
 Motion repeated(Motion run, const EquationRules& rules) {

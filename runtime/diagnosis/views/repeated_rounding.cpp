@@ -6,7 +6,6 @@
 #include <random>
 #include <vector>
 
-#include "runtime/recordings/periods.h"
 #include "runtime/signals/low_pass_state.h"
 
 namespace dyngen::runtime {
@@ -21,13 +20,9 @@ constexpr double kHighestOfRate = 0.49;  // of the sampling frequency: a cut-off
 
 /// Standard deviation of a motion's accelerations around their mean over periods; NaN: none repeat.
 VectorXd scatter(const Motion& run) {
-  Recording positions;
-  positions.time = run.time;
-  positions.q = run.q;
-  positions.run_starts = {0};
-  const Periods periods = find_periods(positions);
-  const Index period = periods.samples, rows = run.samples() - period;
-  if (periods.count < 2 || rows < 1) return VectorXd::Constant(run.joints(), NAN);
+  const auto period = static_cast<Index>(std::llround(run.period / run.sample_time));
+  const Index rows = run.samples() - period;
+  if (period == 0 || 2 * rows < period) return VectorXd::Constant(run.joints(), NAN);
   const MatrixXd difference = run.ddq.bottomRows(rows) - run.ddq.topRows(rows);
   return (difference.colwise().squaredNorm() / (2 * static_cast<double>(rows)))
       .cwiseSqrt()
@@ -58,8 +53,7 @@ bool repeats_rounding(const MotionSource& source, const EquationRules& rules) {
     rounding[static_cast<Index>(j)] = steps[j] / std::sqrt(12.0);
   }
   if (rounding.isZero(0)) return false;
-  const VectorXd much_less =
-      rules.repeated_rounding * gain_of(filter_of(source)) * rounding;
+  const VectorXd much_less = rules.repeated_rounding * gain_of(filter_of(source)) * rounding;
   bool repeats = false;
   source.pieces([&](const StreamPiece& piece) {
     repeats = repeats || (scatter(piece.motion).array() < much_less.array()).any();

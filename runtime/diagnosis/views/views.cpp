@@ -21,7 +21,7 @@ constexpr double kBand = 0.9;  // of the cut-off: what is faster is damped in th
 constexpr double kPass =
     0.5;  // of the parallel filter: a short one, that standstill cuts less from
 constexpr double kSlowBand =
-    0.5;                       // of the band: the cut-off is twice as fast as motion is seen to be
+    0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
 constexpr double kHighest = 1.0 / 3;  // of the sampling frequency: a cut-off
 constexpr int kSteep = 8;             // order of that low-pass
 constexpr double kBesideJolts = 0.5;  // of its cut-off: what is slower is not damped at all
@@ -46,7 +46,8 @@ VectorXd still_speed(const std::vector<MotionSource>& sources, const RowOptions&
 
 /// @param highest  of the sampling frequency
 double quick_cutoff(const MotionSource& source, double highest, const EquationRules& rules) {
-  return std::max(source.cutoff.hz, std::min<double>(rules.jolt_bandwidth, highest / source.sample_time));
+  return std::max(source.cutoff.hz,
+                  std::min<double>(rules.jolt_bandwidth, highest / source.sample_time));
 }
 
 /// Recordings with the joint state of a view.

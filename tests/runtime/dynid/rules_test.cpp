@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path written_rules(const std::string& text) {
-  const fs::path path = fs::path(testing::TempDir()) /
-                        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
-                         ".rules");
+  const fs::path path =
+      fs::path(testing::TempDir()) /
+      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".rules");
   std::ofstream(path) << text;
   return path;
 }

@@ -65,8 +65,7 @@ class RulesReader {
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value) ||
         value < 0) {
-      error(words.back(),
-            fmt::format("expected one number behind '{}', not negative", name.text),
+      error(words.back(), fmt::format("expected one number behind '{}', not negative", name.text),
             "for example: " + std::string(name.text) + " 2");
       return;
     }
