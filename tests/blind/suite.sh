@@ -1,5 +1,5 @@
 #!/bin/sh
-# The blind suite: docs/proof.md.
+# The blind suite: docs/explanation/proof.md.
 #
 #   suite.sh BUILD SET              all of it: make, seal, diagnose, score
 #   suite.sh BUILD SET make         simulates the cases of sets/SET.txt and seals what is in them

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The pictures of docs/proof.md, from what blind_score --figures wrote:
+# The pictures of docs/explanation/proof.md, from what blind_score --figures wrote:
 #   gnuplot -e "folder='FOLDER'; pictures='FOLDER'" proof.gnuplot
 set datafile separator ","
 set encoding utf8
