@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Few repetitions of docs/explanation/identification_study.md. Bounds come from its tables: how far
+// Few repetitions of docs/explanation/studies.md. Bounds come from its tables: how far
 // a median over twenty recordings was, times what is said beside each.
 #include <gtest/gtest.h>
 
