@@ -66,16 +66,16 @@ include(${PROJECT_SOURCE_DIR}/cmake/PkgConfig.cmake)
 
 # The documents, as they stand in the source tree, so that their links hold. Robots stand elsewhere: the one page that
 # links to them is told where.
-file(RELATIVE_PATH robots_from_docs "${CMAKE_INSTALL_FULL_DOCDIR}/docs" "${CMAKE_INSTALL_FULL_DATADIR}/dyngen/robots")
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS docs/robots.md)
-file(READ docs/robots.md robots_page)
-string(REPLACE "](../robots/" "](${robots_from_docs}/" robots_page "${robots_page}")
+file(RELATIVE_PATH robots_from_docs "${CMAKE_INSTALL_FULL_DOCDIR}/docs/reference" "${CMAKE_INSTALL_FULL_DATADIR}/dyngen/robots")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS docs/reference/robots.md)
+file(READ docs/reference/robots.md robots_page)
+string(REPLACE "](../../robots/" "](${robots_from_docs}/" robots_page "${robots_page}")
 file(WRITE ${PROJECT_BINARY_DIR}/package/robots.md "${robots_page}")
 install(FILES ${PROJECT_BINARY_DIR}/package/robots.md
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT documents)
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/reference COMPONENT documents)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents
-  FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png" PATTERN robots.md EXCLUDE)
-install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png" PATTERN "*.schema.json" PATTERN robots.md EXCLUDE)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
 foreach(component IN ITEMS runtime tool documents)  # whatever is passed on has its licence
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${component})
   install(DIRECTORY LICENSES DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${component})

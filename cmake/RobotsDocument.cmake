@@ -1,6 +1,6 @@
 # Writes robots.md and a drawing of each robot, OUTPUT/robots.md and OUTPUT/robots/NAME.svg, from robots/*.robot:
 # what heads each file, and what dyngen reads of it.
-#   cmake -DDYNGEN=dyngen -DSOURCE_DIR=the project -DOUTPUT=docs -P cmake/RobotsDocument.cmake
+#   cmake -DDYNGEN=dyngen -DSOURCE_DIR=the project -DOUTPUT=docs/reference -P cmake/RobotsDocument.cmake
 foreach(name IN ITEMS DYNGEN SOURCE_DIR OUTPUT)
   if(NOT DEFINED ${name})
     message(FATAL_ERROR "RobotsDocument.cmake needs -D${name}=...")
@@ -67,7 +67,7 @@ ${heading}
 ${words}
 ```
 
-${base} ([file](../robots/${name}.robot))
+${base} ([file](../../robots/${name}.robot))
 ")
 endforeach()
 file(WRITE ${OUTPUT}/robots.md "${page}")

@@ -21,7 +21,7 @@ sh cmake/install_packages.sh build-essential cmake ninja-build ccache pkg-config
   libopenblas-pthread-dev libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev liborocos-kdl-dev libkdl-parser-dev libmujoco-dev \
   libdart-dev libboost-dev libceres-dev libnlopt-dev libopenmpi-dev openmpi-bin python3-numpy gnuplot-nox \
   libmatio-dev libhdf5-dev libzip-dev libsqlite3-dev liblz4-dev libzstd-dev libbz2-dev libyaml-cpp-dev \
-  python3-scipy python3-h5py python3-lz4 python3-zstandard
+  python3-scipy python3-h5py python3-lz4 python3-zstandard python3-jsonschema
 took "packages" "$begin"
 
 build=${BUILD:-build/test}

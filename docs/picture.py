@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Draws docs/picture.svg from real files: a robot file, the code dyngen wrote from it, and the speed table.
 
-Run from the top of the project after `regenerate_all` and after docs/benchmarks.md got new numbers:
+Run from the top of the project after `regenerate_all` and after docs/reference/benchmarks.md got new numbers:
     python3 docs/picture.py
 """
 
@@ -40,7 +40,7 @@ def speed_rows():
     """(robot, dyngen ns, MuJoCo ns, KDL ns) of inverse dynamics, numbers in the code."""
     rows = []
     header = None
-    for line in (TOP / "docs/benchmarks.md").read_text().splitlines():
+    for line in (TOP / "docs/reference/benchmarks.md").read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         if cells[:2] == ["function", "robot"]:
             if header:  # the second table is of other parameters

@@ -33,7 +33,8 @@ GiNaC::exmap random_lengths(const SymbolicRobot& robot, std::uint64_t seed);
 /// M and g are sums of products of 1, cos q, sin q, cos^2 q, cos q sin q of the joints (1, q, q^2
 /// of a prismatic one), which are independent functions: the coefficients of these products, linear
 /// in the standard parameters, span what can be identified. No motion is drawn and no rank of
-/// sampled torques is taken. See docs/base_parameters.md for how the products are kept few.
+/// sampled torques is taken. See docs/explanation/base_parameters.md for how the products are kept
+/// few.
 ///
 /// @param lengths  a number for every unknown of the geometry
 /// @param motions  kStanding: the coefficients of gravity alone

@@ -121,7 +121,7 @@ class Checks {
       const std::string_view near = nearest_word(expression.name, views);
       error(expression.position,
             fmt::format("unknown name '{}' in '{}'", printable(expression.name), where),
-            near.empty() ? "see the table of variables in docs/effect_file.md"
+            near.empty() ? "see the table of variables in docs/reference/effect_file.md"
                          : fmt::format("did you mean '{}'?", near),
             expression.length);
     }

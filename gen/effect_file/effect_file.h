@@ -83,7 +83,7 @@ struct EffectTest {
 enum class AlignmentOperator { kDelay, kLag };
 
 /// A physical effect as its file says: the one definition from which it is emitted, fitted,
-/// simulated and documented. docs/effect_file.md has the grammar.
+/// simulated and documented. docs/reference/effect_file.md has the grammar.
 struct EffectFile {
   std::string file_name;
   std::string name;

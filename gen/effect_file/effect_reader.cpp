@@ -424,7 +424,7 @@ class Reader {
          {"effect", "family", "title", "kind", "scope", "torque", "hidden", "separate", "plot"}) {
       if (first_.contains(std::string(needed))) continue;
       error(SourcePosition{1, 1}, fmt::format("there is no row '{}'", needed),
-            "see docs/effect_file.md");
+            "see docs/reference/effect_file.md");
     }
     effect_.torque.push_back(std::move(torque_));
     if (first_.contains("torque_other")) effect_.torque.push_back(std::move(torque_other_));

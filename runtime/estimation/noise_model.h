@@ -20,7 +20,7 @@ struct AutoregressiveNoise {
 
 /// Fits an autoregressive process to autocovariances; the order with the least Bayesian information
 /// criterion (Schwarz 1978). Akaike's takes longer processes, and intervals that cover 1 % less
-/// (docs/identification_study.md).
+/// (docs/explanation/studies.md).
 /// @param autocovariance  lags 0 .. L, not all zero       @param samples  how many they come from
 /// Source: the Levinson-Durbin recursion on the Yule-Walker equations.
 AutoregressiveNoise fit_autoregression(const Eigen::VectorXd& autocovariance, double samples);

@@ -40,7 +40,7 @@ struct MultistageResult {
 /// iterations, or where no step lowers J within the limits.
 /// Source: thesis (1995), section 5.3, after Armstrong (1989), "On finding exciting trajectories
 /// for identification experiments involving systems with nonlinear dynamics", and Bryson and Ho,
-/// "Applied optimal control" (1975); docs/excitation.md lists what is corrected.
+/// "Applied optimal control" (1975); docs/howto/excitation.md lists what is corrected.
 /// @throws std::invalid_argument  if the start does not keep the limits, or sizes do not fit
 MultistageResult multistage(const LinearModel& model, const MotionLimits& limits,
                             const HeldAccelerations& start, const MultistageOptions& options);

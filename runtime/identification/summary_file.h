@@ -16,7 +16,7 @@ class SummaryFileError : public std::runtime_error {
 };
 
 /// The bytes of a .qr file: the word "dyngenqr", a version, little-endian numbers, and a checksum
-/// of all that stands before it. docs/fleet.md has the layout.
+/// of all that stands before it. docs/howto/fleet.md has the layout.
 std::string write_summaries(const RobotSummaries& all);
 
 /// @param name  of the file, for messages

@@ -99,7 +99,7 @@ struct FileMap {
 };
 
 /// What makes a recording of a log: which columns are which, in which units, on which side of the
-/// gears. docs/import.md has the file that it is read from.
+/// gears. docs/reference/import.md has the file that it is read from.
 struct ImportMap {
   std::string name;  ///< of its file, for messages
   int joints = 0;    ///< 0: as many as the robot has, or as the log has columns

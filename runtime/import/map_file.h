@@ -10,8 +10,8 @@ namespace dyngen::runtime {
 /// Whether maps can be read: yaml-cpp is part of this build.
 bool import_maps_available();
 
-/// Reads a map (YAML). docs/import.md has all keys. Unknown keys, wrong units, lists of another
-/// length than the robot has joints, and questions that were not answered are errors.
+/// Reads a map (YAML). docs/reference/import.md has all keys. Unknown keys, wrong units, lists of
+/// another length than the robot has joints, and questions that were not answered are errors.
 /// @throws ImportError  with a line for each fault
 ImportMap read_import_map(const std::string& path);
 

@@ -10,7 +10,8 @@
 
 namespace dyngen::runtime {
 
-/// JSON lines, or one document, told by the second line. docs/logs.md says what becomes what.
+/// JSON lines, or one document, told by the second line. docs/reference/logs.md says what becomes
+/// what.
 ///
 /// @param open  opens the bytes, from their beginning, each time it is called
 /// @throws LogError with line or byte

@@ -59,7 +59,7 @@ enum class RosVersion { kOne, kTwo };
 MessageDefinition read_definition(std::string_view text, std::string_view name, RosVersion version);
 
 /// The definitions of a type that are known without the file's help, one for each version of it;
-/// empty: none. docs/logs.md names them.
+/// empty: none. docs/reference/logs.md names them.
 std::vector<std::string> known_definitions(std::string_view name);
 
 /// Without "/msg/": "sensor_msgs/JointState".

@@ -9,7 +9,8 @@
 
 namespace dyngen::runtime {
 
-/// Rows of text: docs/logs.md says what is understood. Memory is bounded by the longest line.
+/// Rows of text: docs/reference/logs.md says what is understood. Memory is bounded by the longest
+/// line.
 ///
 /// @param name  of the file, for messages
 /// @throws LogError

@@ -29,8 +29,8 @@ struct ReadOptions {
   bool repair_signals = true;
 };
 
-/// Reads a recording (.csv, .csv.gz) piece by piece in constant memory. docs/recordings.md has the
-/// format, what is repaired and what is refused.
+/// Reads a recording (.csv, .csv.gz) piece by piece in constant memory.
+/// docs/reference/recordings.md has the format, what is repaired and what is refused.
 ///
 ///     RecordingReader reader("run.csv.gz");
 ///     Recording chunk;

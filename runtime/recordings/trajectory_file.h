@@ -25,8 +25,8 @@ struct Trajectory {
 };
 
 /// Reads a trajectory (.csv, .csv.gz): a header `time,q1..qn[,qd1..qdn][,qdd1..qddn]` and one row a
-/// sample, with the repairs of recordings (docs/recordings.md). A recording is accepted too; what
-/// else it has is ignored.
+/// sample, with the repairs of recordings (docs/reference/recordings.md). A recording is accepted
+/// too; what else it has is ignored.
 ///
 /// Velocities that are absent are the derivative of a cubic spline through the positions, and
 /// absent accelerations that of a spline through the velocities (differentiate_spline()).

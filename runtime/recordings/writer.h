@@ -40,8 +40,8 @@ class RecordingWriter {
 /// Writes a recording as .csv, or as .csv.gz if the name ends in ".gz".
 ///
 /// Numbers are the shortest that read back the same; reading gives the identical recording, as long
-/// as nothing in it wants repair (docs/recordings.md). With more than one run there is a column
-/// `segment`. The file appears at once when it is complete.
+/// as nothing in it wants repair (docs/reference/recordings.md). With more than one run there is a
+/// column `segment`. The file appears at once when it is complete.
 ///
 /// @param options  without torque_required tau may be 0 x 0: a trajectory
 /// @throws std::invalid_argument if the sizes in the recording do not fit together

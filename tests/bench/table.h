@@ -6,7 +6,7 @@
 
 namespace dyngen::bench {
 
-/// Rows of text under a header, for a terminal or for docs/benchmarks.md.
+/// Rows of text under a header, for a terminal or for docs/reference/benchmarks.md.
 struct Table {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;  ///< each as long as the header

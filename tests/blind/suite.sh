@@ -1,24 +1,24 @@
 #!/bin/sh
-# The blind suite: docs/proof.md.
+# The blind suite: docs/explanation/proof.md.
 #
 #   suite.sh BUILD SET              all of it: make, seal, diagnose, score
-#   suite.sh BUILD SET make         simulates the cases of sets/SET.txt and seals what is in them
-#   suite.sh BUILD SET diagnose     answers every case, in a process that can read nothing else; broken off, the
-#                                   same dynid goes on with those that have no answer
-#   suite.sh BUILD SET baselines    the same of simpler methods
-#   suite.sh BUILD SET active       lets dynid ask for one more recording where names are left, makes
-#                                   it, and has it answered again
-#   suite.sh BUILD SET strength     what of the single effects is left where friction may do anything in the
-#                                   instants in which joints stop, turn and let go
-#   suite.sh BUILD SET reach        what of single effects and foreign physics is in the equations that dynid makes
-#   suite.sh BUILD SET score        holds the answers against the truth
-#   suite.sh BUILD real [STEP]      make, diagnose, score of real recordings with something added
-#   suite.sh BUILD case KIND LAMBDA SEED [FAMILY]    one case, told in full
+#   suite.sh BUILD SET make         simulates the cases of sets/SET.txt and seals their truths
+#   suite.sh BUILD SET diagnose     answers every case, in a process that can read nothing else; after an
+#                                   interruption the same dynid continues with the cases without an answer
+#   suite.sh BUILD SET baselines    the same with simpler methods
+#   suite.sh BUILD SET active       lets dynid ask for one more recording where several names remain, makes
+#                                   it, and has the case answered again
+#   suite.sh BUILD SET strength     lambda of the single effects without the stiction intervals, in which
+#                                   friction can take any value
+#   suite.sh BUILD SET reach        chi-square of single and foreign effects in the equations of dynid
+#   suite.sh BUILD SET score        compares the answers with the truth
+#   suite.sh BUILD real [STEP]      make, diagnose, score of real recordings with an added effect
+#   suite.sh BUILD case KIND LAMBDA SEED [FAMILY]    one case: its truth, its answer, its report
 #
-# BUILD is a configured build folder: the targets blind and dynid are built where they are missing. Real
-# recordings lie in DYNGEN_SHARED_DATA, else in ../shared/data beside the project; where they are absent nothing is done.
-# With UNSEALED=allowed a kernel that cannot seal is no error: a comparison, but no proof. Everything is
-# written to BUILD/blind/SET, pictures to PICTURES where that is set. JOBS processes work at once.
+# BUILD is a configured build folder: the targets blind and dynid are built if they are missing. Real
+# recordings are in DYNGEN_SHARED_DATA, else in ../shared/data beside the project; without them the set is skipped.
+# UNSEALED=allowed accepts a kernel that cannot seal: a comparison, but no proof. Output goes to
+# BUILD/blind/SET, pictures to PICTURES if it is set. JOBS processes work at once.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
@@ -77,7 +77,7 @@ spoil_recordings() {
   seal_cases
 }
 
-# What is in the cases was fixed before they were diagnosed: a set with a committed seal is that set.
+# The truths were fixed before the diagnosis: a set with a committed seal is that set.
 check_seal() {
   (cd "$out/sealed" && sha256sum --quiet -c ../manifest.sha256)
   if [ -f "$seal" ] && ! cmp -s "$seal" "$out/manifest.sha256"; then
@@ -119,7 +119,7 @@ answer_simply() {
   echo "answers of simpler methods sealed as $(sha256sum <"$out/baselines.sha256" | cut -d' ' -f1)"
 }
 
-# Whoever moves the machine knows what is in the cases; dynid has no more than it had, and the recording.
+# The program that moves the machine knows the truth; dynid gets only the new recording.
 active_cases() {
   check_seal
   (cd "$out/answers" && sha256sum --quiet -c ../answers.sha256)
@@ -198,7 +198,7 @@ one_case() {
   "$tools/blind_make" --kind "$1" --lambda "$2" --seed "$3" ${4:+--family "$4"} --cases 1 \
     --arms "$here/arms" --out "$out/cases" --sealed "$out/sealed"
   cd "$out"/cases/*
-  echo "what is in it:"
+  echo "the truth:"
   cat "$out"/sealed/*.json
   "$dynid" diagnose robot.robot train1.csv train2.csv train3.csv --holdout held1.csv \
     --holdout held2.csv --json "$out/answer.json" -o "$out/improved.robot" --report "$out/report.html"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// docs/cpp_wrapper.md, "From Orocos KDL": each row of the table, both sides, on the PUMA 560.
+// docs/howto/cpp_wrapper.md, "From Orocos KDL": each row of the table, both sides, on the PUMA 560.
 #include <gtest/gtest.h>
 
 #include <kdl/chain.hpp>

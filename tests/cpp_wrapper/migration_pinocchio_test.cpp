@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// docs/cpp_wrapper.md, "From Pinocchio": the right column of the table under the names of the left
-// one, held to what Pinocchio's functions promise each other. (Debian has no Pinocchio.)
+// docs/howto/cpp_wrapper.md, "From Pinocchio": the right column of the table under the names of the
+// left one, held to what Pinocchio's functions promise each other. (Debian has no Pinocchio.)
 #include <gtest/gtest.h>
 
 #include "arm.hpp"

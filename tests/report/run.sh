@@ -2,7 +2,7 @@
 # run.sh BUILD [FOLDER]: the tests of the report's page in headless Chromium, on reports that the dynid of a build
 # folder makes.
 # Where chromium, node or npm are absent it says so and ends with 77; with REPORT_TESTS=required that is a failure.
-# SCREENSHOTS=docs/report makes the pictures of the docs anew.
+# SCREENSHOTS=docs/howto/report makes the pictures of the docs anew.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 dynid=${DYNID:-$(realpath "$1")/runtime/dynid}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables of docs/control_and_simulation.md, in Markdown.
+// The tables of docs/howto/control_and_simulation.md, in Markdown.
 //
 //   control_study [rates|errors|geared|stability|all]
 //   control_study regions > regions.csv

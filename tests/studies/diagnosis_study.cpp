@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Diagnoses simulated recordings whose truth is known, and prints as markdown how well:
-// docs/diagnosis_study.md.
+// docs/explanation/studies.md.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cases of docs/diagnosis_study.md are what they say they are.
+// The cases of docs/explanation/studies.md are what they say they are.
 #include "runtime/diagnosis/diagnosis.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Few recordings of docs/effects_study.md.
+// Few recordings of docs/explanation/studies.md.
 #include <gtest/gtest.h>
 
 #include <cstdio>

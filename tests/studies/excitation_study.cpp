@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The figures of docs/excitation.md: excitation_study conditions | thesis | estimates | names
+// The figures of docs/howto/excitation.md: excitation_study conditions | thesis | estimates | names
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exciting trajectories of real robots, with small budgets: docs/excitation.md has the large ones.
+// Exciting trajectories of real robots, with small budgets: docs/howto/excitation.md has the large
+// ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>

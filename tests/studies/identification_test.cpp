@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Few repetitions of docs/identification_study.md. Bounds come from its tables: how far a median
-// over twenty recordings was, times what is said beside each.
+// Few repetitions of docs/explanation/studies.md. Bounds come from its tables: how far
+// a median over twenty recordings was, times what is said beside each.
 #include <gtest/gtest.h>
 
 #include <cmath>

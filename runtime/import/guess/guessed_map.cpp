@@ -231,7 +231,7 @@ void MapGuess::count_joints() {
     }
     throw ImportError(
         fmt::format("{}: error: no column looks like a position; it has {}. Write the map by hand "
-                    "(docs/import.md)",
+                    "(docs/reference/import.md)",
                     logs_.paths.front(), listed(names)));
   }
 }

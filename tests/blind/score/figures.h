@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the pictures of docs/proof.md show, as CSV: proof.gnuplot draws them.
+// What the pictures of docs/explanation/proof.md show, as CSV: proof.gnuplot draws them.
 #pragma once
 
 #include <map>

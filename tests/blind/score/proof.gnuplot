@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The pictures of docs/proof.md, from what blind_score --figures wrote:
+# The pictures of docs/explanation/proof.md, from what blind_score --figures wrote:
 #   gnuplot -e "folder='FOLDER'; pictures='FOLDER'" proof.gnuplot
 set datafile separator ","
 set encoding utf8
@@ -19,12 +19,12 @@ if (has("detection.csv")) {
   set xrange [4:450]
   set yrange [0:100]
   set xtics (5, 10, 20, 40, 80, 160, 300)
-  set xlabel "lambda: squares of noise that a refit of the model leaves"
+  set xlabel "lambda: chi-square that a refit of the model leaves"
   set ylabel "share of the cases, %"
   set key outside top center vertical maxrows 3 Left reverse samplen 2.5
-  plot table("oracle.csv") using "lambda":(100 * column("one")) with lines linewidth 2 linecolor rgb grey title "who knows the form, 1 parameter", \
-    "" using "lambda":(100 * column("asked")) with lines linewidth 2 dashtype 3 linecolor rgb grey title "the same at a diagnosis's level", \
-    "" using "lambda":(100 * column("four")) with lines linewidth 2 dashtype 2 linecolor rgb grey title "who knows the form, 4 parameters", \
+  plot table("oracle.csv") using "lambda":(100 * column("one")) with lines linewidth 2 linecolor rgb grey title "oracle, 1 parameter", \
+    "" using "lambda":(100 * column("asked")) with lines linewidth 2 dashtype 3 linecolor rgb grey title "oracle at the level of a diagnosis", \
+    "" using "lambda":(100 * column("four")) with lines linewidth 2 dashtype 2 linecolor rgb grey title "oracle, 4 parameters", \
     table("detection.csv") using (column("lambda") / 1.02):(100 * column("found")):(100 * column("found_low")):(100 * column("found_high")) with yerrorbars pointtype 7 pointsize 0.8 linewidth 1.5 linecolor rgb blue title "found", \
     "" using (column("lambda") / 1.02):(100 * column("found")) with lines linecolor rgb blue notitle, \
     "" using (column("lambda") * 1.02):(100 * column("first")):(100 * column("first_low")):(100 * column("first_high")) with yerrorbars pointtype 9 pointsize 0.8 linewidth 1.5 linecolor rgb red title "family named first", \
@@ -34,7 +34,7 @@ if (has("detection.csv")) {
   set autoscale
 }
 
-# held-out error over that of who knows the form
+# held-out error over that of the oracle
 if (has("heldout.csv")) {
   set terminal svg size 760,400 font "sans,13" background rgb "white"
   set output picture("heldout")
@@ -42,7 +42,7 @@ if (has("heldout.csv")) {
   set yrange [0:100]
   set xrange [*:*] noextend
   set xtics (0.9, 1, 1.1, 1.2, 1.3, 1.5, 2, 3, 5, 10)
-  set xlabel "held-out rms over that of who knows the form"
+  set xlabel "held-out rms over that of the oracle"
   set ylabel "share of the cases, %"
   set key bottom right Left reverse samplen 2.5
   set arrow 1 from 1, 0 to 1, 100 nohead dashtype 2 linecolor rgb grey
@@ -54,13 +54,13 @@ if (has("heldout.csv")) {
   set autoscale
 }
 
-# how well the refit hides what was left out
+# which part of an effect the refit absorbs
 if (has("concealed.csv")) {
   set terminal svg size 860,380 font "sans,13" background rgb "white"
   set output picture("concealed")
   set key off
   set multiplot layout 1,2
-  set xlabel "squares that the refit absorbs, %"
+  set xlabel "chi-square that the refit absorbs, %"
   set ylabel "cases"
   set xrange [0:100]
   set yrange [0:*]
@@ -82,7 +82,7 @@ if (has("concealed.csv")) {
   set autoscale
 }
 
-# what was there, and what was said first
+# the truth, and the first answer
 if (has("confusion.csv")) {
   rows = int(system(sprintf("wc -l < %s", table("confusion.csv")))) - 1
   columns = int(system(sprintf("head -1 %s | tr -cd , | wc -c", table("confusion.csv"))))

@@ -61,7 +61,7 @@ struct Bounds {
 /// A line for each bound that is broken; empty: none.
 std::string broken(const std::vector<Judged>& all, const Bounds& bounds);
 
-/// Tables of docs/proof.md, Markdown.
+/// Tables of docs/explanation/proof.md, Markdown.
 std::string tables(const std::vector<Judged>& all);
 
 /// A line for each case: what was in it, and what was said.

@@ -8,8 +8,8 @@
 /// Judges of what dynid diagnose writes, made from the documents alone.
 namespace dyngen::test {
 
-/// What does not fit the schema dynid.diagnosis/1 of docs/diagnosis.md, a line each: keys that are
-/// missing or unknown, values of the wrong kind.
+/// What does not fit the schema dynid.diagnosis/1 of docs/reference/diagnosis.md, a line each: keys
+/// that are missing or unknown, values of the wrong kind.
 std::vector<std::string> schema_faults(const nlohmann::json& json);
 
 /// Places of all keys of all objects.

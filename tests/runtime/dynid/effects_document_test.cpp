@@ -18,15 +18,15 @@ std::string text_of_file(const std::string& path) {
 
 TEST(EffectsDocument, IsWhatTheEffectFilesSay) {
   const EffectCatalogue catalogue;
-  EXPECT_TRUE(text_of_file(std::string(DYNGEN_SOURCE_DIR "/docs/effects.md")) ==
+  EXPECT_TRUE(text_of_file(std::string(DYNGEN_SOURCE_DIR "/docs/reference/effects.md")) ==
               effects_markdown(catalogue, "effects"))
-      << "run: dynid effects --markdown docs/effects.md --figures docs/effects";
+      << "run: dynid effects --markdown docs/reference/effects.md --figures docs/reference/effects";
 }
 
 TEST(EffectsDocument, HasAPictureOfEveryFamily) {
   const EffectCatalogue catalogue;
   for (const FamilyFigure& own : family_figures(catalogue)) {
-    EXPECT_TRUE(std::filesystem::exists(std::string(DYNGEN_SOURCE_DIR "/docs/effects/") +
+    EXPECT_TRUE(std::filesystem::exists(std::string(DYNGEN_SOURCE_DIR "/docs/reference/effects/") +
                                         own.family + ".svg"))
         << own.family;
     for (const Panel& panel : own.figure.panels) {

@@ -86,7 +86,7 @@ class ImportCommand : public testing::Test {
     for (const auto& entry : fs::directory_iterator(DYNGEN_SOURCE_DIR "/examples/" + example)) {
       fs::copy_file(entry.path(), made(entry.path().filename().string()));
     }
-    std::istringstream lines(content(DYNGEN_SOURCE_DIR "/docs/" + page));
+    std::istringstream lines(content(DYNGEN_SOURCE_DIR "/docs/howto/" + page));
     int commands = 0;
     bool shell = false;
     for (std::string line; std::getline(lines, line);) {
@@ -210,7 +210,7 @@ TEST_F(ImportCommand, ListsAndGuesses) {
 TEST_F(ImportCommand, TheTutorialOfMotorCurrentsRuns) {
   EXPECT_EQ(run_tutorial("tutorial_motor_currents.md", "motor_currents"), 5);
   // the map of the page is the file's
-  const std::string page = content(DYNGEN_SOURCE_DIR "/docs/tutorial_motor_currents.md");
+  const std::string page = content(DYNGEN_SOURCE_DIR "/docs/howto/tutorial_motor_currents.md");
   EXPECT_THAT(
       page, HasSubstr(content(made("map.yaml")).substr(content(made("map.yaml")).find('\n') + 1)));
 }

@@ -31,7 +31,7 @@ constexpr double kLeastLikeness = 0.1;  ///< what is less is no alias
 int atlas_joint(const AtlasReport& report, std::size_t entry);
 
 std::string atlas_table(const AtlasReport& report);
-/// Schema dynid.atlas/1, docs/atlas.md.
+/// Schema dynid.atlas/1, docs/explanation/atlas.md.
 std::string atlas_json(const AtlasReport& report);
 /// How alike effects are after the projection; those that are all absorbed are left out.
 HeatMap atlas_picture(const AtlasReport& report);

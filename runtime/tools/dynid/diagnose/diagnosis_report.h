@@ -93,7 +93,7 @@ std::string parameter_text(const Finding& finding, std::size_t place, double int
 /// The command that makes a file of the next experiment, of the findings in the JSON.
 std::string next_command(const DiagnosisReport& report);
 
-/// Schema dynid.diagnosis/1, docs/diagnosis.md.
+/// Schema dynid.diagnosis/1, docs/reference/diagnosis.md.
 std::string diagnosis_json(const DiagnosisReport& report);
 
 /// What a person reads on a terminal: some 20 lines.

@@ -31,7 +31,7 @@ struct ForwardTask {
 /// @param tell    told the share that is done, 0 .. 1; may be empty
 /// @throws std::invalid_argument  if a commanded motion has another number of joints or does not
 ///                                cover its recording; ModelError of the controller's file
-/// Source: docs/diagnosis.md, "Simulation before and after".
+/// Source: docs/reference/diagnosis.md, "Simulation before and after".
 ForwardComparison compare_forward(const DiagnosisReport& report, const DescribedRobot& robot,
                                   const EffectCatalogue& catalogue, const ForwardTask& task,
                                   const std::function<void(double)>& tell = {});

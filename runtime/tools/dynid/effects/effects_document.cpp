@@ -207,7 +207,7 @@ std::string effects_markdown(const EffectCatalogue& catalogue, const std::string
       "size, on a pendulum of 10 kg that swings in gravity: before any refit, which may take up "
       "most\n"
       "of it. How much is left on a robot's own motion says `dynid atlas` "
-      "([atlas.md](atlas.md)).\n\n";
+      "([atlas.md](../explanation/atlas.md)).\n\n";
   std::string family;
   for (const auto& effect : catalogue.all()) {
     if (effect->family != family) {

@@ -128,7 +128,8 @@ void set_noise(SeparationReport& report) {
       known ? "the noise floor of the findings" : "not known: 1 (--noise says it better)";
 }
 
-/// Below a hundredth of its largest speed a joint says nothing of friction (docs/diagnosis.md).
+/// Below a hundredth of its largest speed a joint says nothing of friction
+/// (docs/reference/diagnosis.md).
 VectorXd still_speeds(const MotionLimits& limits) {
   constexpr double kPart = 0.01;
   const VectorXd without =

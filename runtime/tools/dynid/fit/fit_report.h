@@ -69,7 +69,7 @@ std::string fit_table(const FitReport& report);
 /// The page. @param command  as it was called
 ReportDocument fit_document(const FitReport& report, const std::string& command);
 
-/// The report for programs: schema dynid.fit/1, docs/identification.md.
+/// The report for programs: schema dynid.fit/1, docs/howto/identification.md.
 std::string fit_json(const FitReport& report);
 
 /// What is known of the identified numbers, lines of a comment.
