@@ -155,7 +155,7 @@ RowPlan plan_rows(const MotionSource& source, const RowOptions& options) {
   plan.still_speed = options.still_speed >= 0
                          ? VectorXd::Constant(source.joints(), options.still_speed).eval()
                          : (3 * velocity_noise)
-                               .cwiseMax(0.01 * source.fastest)
+                               .cwiseMax(kStandstillPart * source.fastest)
                                .cwiseMax(std::numeric_limits<double>::min())
                                .eval();
   const std::vector<bool>& dead = source.condition.torque_dead;

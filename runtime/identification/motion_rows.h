@@ -25,6 +25,9 @@ struct RowOptions {
   double row_time = 0;        ///< s, between equations: a decimation that is chosen gives no less
 };
 
+/// Part of a joint's largest speed below which it stands, unless a speed is given.
+inline constexpr double kStandstillPart = 0.01;
+
 /// How the equations of a recording are made.
 struct RowPlan {
   Eigen::Index decimation = 1;

@@ -14,22 +14,21 @@ void each(Rules& rules, const Visit& visit) {
     visit(*rule);
   }
   auto& equations = rules.equations;
-  for (auto* rule : {&equations.longest_reversal, &equations.least_kept, &equations.fewest_periods,
-                     &equations.period_mismatch, &equations.moving_speed, &equations.heldout_motion,
-                     &equations.repeated_rounding, &equations.least_equations,
-                     &equations.most_predicted, &equations.jolt_bandwidth}) {
+  for (auto* rule :
+       {&equations.longest_reversal, &equations.least_kept, &equations.fewest_periods,
+        &equations.period_mismatch, &equations.heldout_motion, &equations.repeated_rounding,
+        &equations.least_equations, &equations.most_predicted, &equations.jolt_bandwidth}) {
     visit(*rule);
   }
   auto& scans = rules.scans;
-  for (auto* rule :
-       {&scans.longest_push, &scans.fewest_degrees, &scans.window_deviations, &scans.jolt_equations,
-        &scans.jolt_gain, &scans.line_periods, &scans.line_equations}) {
+  for (auto* rule : {&scans.longest_push, &scans.window_deviations, &scans.jolt_equations,
+                     &scans.jolt_gain, &scans.line_periods}) {
     visit(*rule);
   }
   auto& answer = rules.answer;
   for (auto* rule :
        {&answer.unexplained_part, &answer.probable, &answer.stability, &answer.heldout_excess,
-        &answer.heldout_chance, &answer.open_parameters, &answer.worse_rms, &answer.visited_part}) {
+        &answer.heldout_chance, &answer.open_parameters, &answer.printed_part}) {
     visit(*rule);
   }
 }

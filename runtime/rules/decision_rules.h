@@ -81,10 +81,6 @@ struct EquationRules {
       0.1, "equations.period_mismatch", "samples",
       "By how much the last period may be off whole samples, for periods to be averaged.",
       "sensitivity"};
-  DecisionRule moving_speed{
-      0.01, "equations.moving_speed", "1",
-      "Part of a joint's largest speed above which it moves, when held-out parts are chosen.",
-      "the standstill speed of the fit"};
   DecisionRule heldout_motion{
       0.5, "equations.heldout_motion", "1",
       "Part of the usual moving time that every joint must have in the held-out fifth.",
@@ -115,10 +111,6 @@ struct ScanRules {
       0.3, "scans.longest_push", "1",
       "Part of a recording that a passing event may last: what lasts longer is no event.",
       "sensitivity"};
-  DecisionRule fewest_degrees{
-      4, "scans.fewest_degrees", "1",
-      "Degrees of freedom outside of an event's window from which its surroundings are known.",
-      "sensitivity"};
   DecisionRule window_deviations{
       2, "scans.window_deviations", "standard deviations",
       "Mean chi-square per degree in other windows that white noise explains.",
@@ -132,9 +124,6 @@ struct ScanRules {
       1.5, "scans.line_periods", "1",
       "Periods that a spectral line must have in the longest run: with fewer it is a drift.",
       "sensitivity"};
-  DecisionRule line_equations{20, "scans.line_equations", "1",
-                              "Equations of a run from which its periodogram is used.",
-                              "sensitivity"};
 };
 
 /// What is said of the result.
@@ -164,15 +153,11 @@ struct AnswerRules {
       "Predicted variance over the residual's, above which held-out motion goes beyond the fitted "
       "one.",
       "sensitivity"};
-  DecisionRule worse_rms{
-      1.02, "answer.worse_rms", "1",
-      "Held-out rms with the findings over that of the model alone, above which it is worse.",
-      "rounding of two printed digits"};
-  DecisionRule visited_part{
-      0.98, "answer.visited_part", "1",
-      "Part of held-out equations at visited positions, below which findings were not judged "
-      "everywhere.",
-      "rounding of two printed digits"};
+  DecisionRule printed_part{
+      0.02, "answer.printed_part", "1",
+      "Ratios that differ from 1 by less are equal: a held-out rms that is worse, equations at "
+      "visited positions.",
+      "rounding of the two digits that are printed"};
 };
 
 /// Every number that accepts, rejects or ranks in a diagnosis, outside of the competition of

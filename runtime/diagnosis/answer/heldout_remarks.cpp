@@ -7,10 +7,10 @@ namespace dyngen::runtime {
 std::vector<std::string> heldout_remarks(const HeldoutResidual& rms, const AnswerRules& rules) {
   std::vector<std::string> remarks;
   for (Eigen::Index j = 0; j < rms.before.size(); ++j) {
-    if (!(rms.after[j] > rules.worse_rms * rms.before[j])) continue;
+    if (!(rms.after[j] > (1 + rules.printed_part) * rms.before[j])) continue;
     std::string remark = fmt::format(
         "joint {}: held-out recordings are predicted worse with the findings than without", j + 1);
-    if (j < rms.visited.size() && rms.visited[j] < rules.visited_part) {
+    if (j < rms.visited.size() && rms.visited[j] < 1 - rules.printed_part) {
       remark += fmt::format(
           "; {:.0f} % of them are within the positions of the fitted ones, where findings are "
           "judged: beyond, what was found is not known to go on so",

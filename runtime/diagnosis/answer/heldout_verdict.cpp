@@ -73,7 +73,7 @@ std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const Heldout
   for (Index j = 0; j < rms.after.size(); ++j) {
     const double floor = rms.floor[j], after = rms.after[j], before = rms.before[j];
     const bool worse =
-        !found_nothing && after > rules.worse_rms * before && known.worse[j] > certainly;
+        !found_nothing && after > (1 + rules.printed_part) * before && known.worse[j] > certainly;
     const bool far = far_above(after, floor, known.predicted[j], known.fitted_worth[j],
                                known.heldout_worth[j], rules);
     if (!worse && !far) continue;
@@ -81,7 +81,7 @@ std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const Heldout
     if (far) reason += fmt::format(" beside a noise of {:.4g}", floor);
     if (worse) reason += fmt::format(", {:.4g} without the findings", before);
     const bool extrapolated = known.predicted[j] > rules.open_parameters ||
-                              (j < rms.visited.size() && rms.visited[j] < rules.visited_part);
+                              (j < rms.visited.size() && rms.visited[j] < 1 - rules.printed_part);
     beyond = beyond && extrapolated;
     reasons.push_back(std::move(reason));
   }

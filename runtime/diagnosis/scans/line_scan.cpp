@@ -81,7 +81,7 @@ LineScan scan_lines(const EffectRecordings& data, const EvidenceSystem& system, 
     const Index rows = run.rows.Y.rows();
     const double dt = run.motion.sample_time * static_cast<double>(run.decimator.factor);
     const double counted = run.rows.counted.col(joint).sum();
-    if (counted >= system.rules().line_equations) {
+    if (counted > 0) {
       squares += periodogram.of(rest.segment(start, rows), dt, counted);
       for (Index m = 0; m < noise.cols(); ++m) {
         of_noise.col(m) += periodogram.of(noise.col(m).segment(start, rows), dt, counted);

@@ -149,7 +149,7 @@ double squares_elsewhere(const std::vector<Running>& recordings, int recording, 
       degrees += score.degrees;
     }
   }
-  if (degrees < rules.fewest_degrees) return 1;
+  if (degrees < 1) return 1;
   const double by_chance = 1 + rules.window_deviations * std::sqrt(2 / degrees);  // of white noise
   return squares / degrees < by_chance ? 1 : squares / degrees;
 }

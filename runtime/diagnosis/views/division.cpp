@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "runtime/identification/motion_rows.h"
+
 namespace dyngen::runtime {
 namespace {
 
@@ -13,13 +15,14 @@ using Eigen::Index;
 constexpr int kDivisionParts = 5;
 
 /// How often each joint moves in every part of a recording. @return (joints x parts) samples
-Eigen::ArrayXXd moving(const MotionSource& source, double moving_speed) {
+Eigen::ArrayXXd moving(const MotionSource& source) {
   Eigen::ArrayXXd counts = Eigen::ArrayXXd::Zero(source.joints(), kDivisionParts);
   for (int part = 0; part < kDivisionParts; ++part) {
     const double from = static_cast<double>(part) / kDivisionParts;
     part_of(source, from, from + 1.0 / kDivisionParts).pieces([&](const StreamPiece& piece) {
       for (Index j = 0; j < counts.rows(); ++j) {
-        const auto moves = piece.motion.dq.col(j).array().abs() > moving_speed * source.fastest[j];
+        const auto moves =
+            piece.motion.dq.col(j).array().abs() > kStandstillPart * source.fastest[j];
         counts(j, part) += static_cast<double>(moves.count());
       }
     });
@@ -28,7 +31,7 @@ Eigen::ArrayXXd moving(const MotionSource& source, double moving_speed) {
 }
 
 int held_part(const MotionSource& source, const EquationRules& rules) {
-  const Eigen::ArrayXXd counts = moving(source, rules.moving_speed);
+  const Eigen::ArrayXXd counts = moving(source);
   const ArrayXd mean = counts.rowwise().sum() / kDivisionParts;
   for (int part = kDivisionParts - 1; part >= 0; --part) {
     if ((counts.col(part) >= rules.heldout_motion.value * mean).all()) return part;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The rules of a diagnosis: all in one place, and set by a file.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -35,6 +36,16 @@ TEST(Rules, AreAllListedOnceAndExplained) {
     EXPECT_GT(rule->value, 0) << rule->name;
   }
   EXPECT_EQ(names.size() * sizeof(DecisionRule), sizeof(DecisionRules));
+}
+
+TEST(Rules, StandInTheReferenceWithTheirValues) {
+  const std::string page =
+      test::content(DYNGEN_SOURCE_DIR "/docs/reference/decision_rules.md");
+  for (const DecisionRule* rule : all_rules({})) {
+    const std::string row = fmt::format("| `{}` | {:g} | {} | {} | {} |", rule->name, rule->value,
+                                        rule->unit, rule->meaning, rule->source);
+    EXPECT_NE(page.find(row), std::string::npos) << row;
+  }
 }
 
 TEST(Rules, ArePrintedAsAFileThatSetsThem) {
