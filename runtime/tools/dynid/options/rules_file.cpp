@@ -19,15 +19,15 @@
 namespace dyngen::runtime {
 namespace {
 
-struct Word {
+struct RuleWord {
   std::string_view text;
   int column = 1;
 };
 
 /// Words of a line before a comment.
-std::vector<Word> words_of(std::string_view line) {
+std::vector<RuleWord> words_of(std::string_view line) {
   line = line.substr(0, line.find('#'));
-  std::vector<Word> words;
+  std::vector<RuleWord> words;
   constexpr std::string_view kBlank = " \t\r";
   for (std::size_t at = line.find_first_not_of(kBlank); at != std::string_view::npos;) {
     const std::size_t end = std::min(line.find_first_of(kBlank, at), line.size());
@@ -43,12 +43,13 @@ class RulesReader {
     for (const DecisionRule* rule : all_rules(rules_)) names_.push_back(rule->name);
   }
 
-  void read_line(int line, const std::vector<Word>& words) {
+  void read_line(int line, const std::vector<RuleWord>& words) {
     if (words.empty()) return;
-    const auto error = [&](const Word& word, const std::string& message, const std::string& hint) {
+    const auto error = [&](const RuleWord& word, const std::string& message,
+                           const std::string& hint) {
       diagnostics_.error({line, word.column}, static_cast<int>(word.text.size()), message, hint);
     };
-    const Word& name = words.front();
+    const RuleWord& name = words.front();
     if (std::find(names_.begin(), names_.end(), name.text) == names_.end()) {
       const std::string_view near = nearest_word(name.text, names_);
       error(name, fmt::format("unknown rule '{}'", printable(name.text)),
