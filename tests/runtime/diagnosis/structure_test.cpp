@@ -290,7 +290,7 @@ TEST(Diagnosis, WhatFrictionHoldsAtReversalsIsNoNameAndNoStructure) {
   const Diagnosis diagnosis = diagnose(input, test::every_sample());
   EXPECT_EQ(diagnosis.verdict, Verdict::kClean) << diagnosis.sentence;
   EXPECT_TRUE(diagnosis.findings.empty());
-  EXPECT_NE(diagnosis.noise.how.find("joints 1, 2 rest for an instant"), std::string::npos)
+  EXPECT_NE(diagnosis.noise.how.find("Joints 1, 2 stick at reversals"), std::string::npos)
       << diagnosis.noise.how;
 }
 
