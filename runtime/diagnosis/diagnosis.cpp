@@ -17,12 +17,12 @@
 #include "runtime/diagnosis/answer/unnamed_text.h"
 #include "runtime/diagnosis/answer/verdict.h"
 #include "runtime/diagnosis/competition/search.h"
+#include "runtime/diagnosis/equation_sets/raw_residual.h"
+#include "runtime/diagnosis/equation_sets/sufficiency.h"
 #include "runtime/diagnosis/names/next_experiment.h"
 #include "runtime/diagnosis/names/noise_sentence.h"
 #include "runtime/diagnosis/names/reference.h"
 #include "runtime/diagnosis/names/undecidable.h"
-#include "runtime/diagnosis/views/raw_residual.h"
-#include "runtime/diagnosis/views/sufficiency.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -55,16 +55,16 @@ VectorXd without_nameless(const VectorXd& floor, const CompetitionResult& result
 class Diagnostician {
  public:
   Diagnostician(const DiagnosisInput& input, const DiagnosisOptions& options,
-                const DiagnosisProgress& progress, const DiagnosisWitness& witness)
+                const DiagnosisProgress& progress, const DiagnosisObserver& observer)
       : input_(input),
         options_(options),
         progress_(progress),
-        witness_(witness),
+        observer_(observer),
         search_(input, options.decimation, options.rules.equations) {}
 
   Diagnosis run() {
     answer_.condition = condition_lines(input_, search_.parts(), &search_.shown_train());
-    answer_.sentence = why_too_few(search_.views().train, options_.rules.equations);
+    answer_.sentence = why_too_few(search_.sets().train, options_.rules.equations);
     if (!answer_.sentence.empty()) return std::move(answer_);
     const std::string too_little = why_not_clean();
     CompetitionOptions settings;
@@ -106,7 +106,7 @@ class Diagnostician {
   /// Why recordings in which nothing is found would not be clean; empty: they are.
   [[nodiscard]] std::string why_not_clean() const {
     if (options_.residual_only) return {};
-    return why_too_little_motion(search_.views().train, search_.views().proof,
+    return why_too_little_motion(search_.sets().train, search_.sets().proof,
                                  options_.rules.equations);
   }
 
@@ -122,15 +122,15 @@ class Diagnostician {
     answer_.noise.worth = noise.worth;
     answer_.noise.from_periods = noise.from_periods;
     answer_.noise.how =
-        noise_sentence(noise, search_.parts().train, search_.seen().resting, result().resting);
+        noise_sentence(noise, search_.parts().train, search_.seen().sticking, result().sticking);
   }
 
   std::vector<StructureTest> tests_of(const Screening& screening) const {
     const std::vector<GenericStructure> structures =
-        generic_structures(search_.views().train.joints());
+        generic_structures(search_.sets().train.joints());
     std::vector<StructureTest> tests;
     const double threshold = screening.threshold(options_.false_alarm);
-    for (int j = 0; j < search_.views().train.joints(); ++j) {
+    for (int j = 0; j < search_.sets().train.joints(); ++j) {
       StructureTest test{j, 0, threshold, ""};
       for (const GenericResult& generic : screening.generic) {
         const GenericStructure& structure = structures[generic.structure];
@@ -147,7 +147,7 @@ class Diagnostician {
     if (input_.reference.empty()) return;
     tell("changes since the reference", 0);
     const EffectRecordings reference = equations_of(input_, input_.reference, search_.seen());
-    for (Finding& change : changes_since(reference, search_.views().train, search_.hypotheses(),
+    for (Finding& change : changes_since(reference, search_.sets().train, search_.hypotheses(),
                                          result(), options_.false_alarm)) {
       answer_.findings.push_back(std::move(change));
     }
@@ -175,8 +175,8 @@ class Diagnostician {
     answer_.noise.deviation = without_nameless(
         raw_floor(train, raw_residuals(train, after), repeats_of(train)), result());
     answer_.heldout.floor = answer_.noise.deviation;
-    const Eigen::ArrayXd judged = counted_part(search_.views().proof).array();
-    const Eigen::ArrayXd all = counted_part(search_.views().heldout).array();
+    const Eigen::ArrayXd judged = counted_part(search_.sets().proof).array();
+    const Eigen::ArrayXd all = counted_part(search_.sets().heldout).array();
     answer_.heldout.visited = (all > 0).select(judged / all.max(1e-300), 0.0).matrix();
     answer_.heldout.remarks = heldout_remarks(answer_.heldout, options_.rules.answer);
   }
@@ -193,7 +193,7 @@ class Diagnostician {
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
         EffectFitOptions settings;
         if (result().noise.from_periods) settings.noise = result().noise.known();
-        const EffectFit fit = fit_effects(search_.views().train, others, settings);
+        const EffectFit fit = fit_effects(search_.sets().train, others, settings);
         without = raw_rms(heldout, raw_residuals(heldout, from_rest(fit.point)));
       }
       double all = 0, left = 0;
@@ -212,10 +212,10 @@ class Diagnostician {
     const VectorXd none = VectorXd::Zero(input_.model.joints());
     known.predicted = options_.residual_only
                           ? none
-                          : predicted_variance(search_.views().train, search_.views().proof);
+                          : predicted_variance(search_.sets().train, search_.sets().proof);
     known.fitted_worth = result().noise.worth;
-    const VectorXd fitted = counted_equations(search_.views().train),
-                   heldout = counted_equations(search_.views().proof);
+    const VectorXd fitted = counted_equations(search_.sets().train),
+                   heldout = counted_equations(search_.sets().proof);
     known.heldout_worth =
         known.fitted_worth.cwiseProduct(heldout).cwiseQuotient(fitted.cwiseMax(1.0));
     known.worse = worse_;
@@ -233,7 +233,7 @@ class Diagnostician {
   }
 
   void show() const {
-    if (!witness_) return;
+    if (!observer_) return;
     tell("the report", 0);
     DiagnosedRecordings shown{answer_,
                               search_.shown_train(),
@@ -244,13 +244,13 @@ class Diagnostician {
     for (const MotionSource& source : search_.parts().heldout) {
       shown.heldout_names.push_back(source.name);
     }
-    witness_(shown);
+    observer_(shown);
   }
 
   const DiagnosisInput& input_;
   const DiagnosisOptions& options_;
   const DiagnosisProgress& progress_;
-  const DiagnosisWitness& witness_;
+  const DiagnosisObserver& observer_;
   Search search_;
   Diagnosis answer_;
   VectorXd worse_;  ///< (n) worsening() of held-out torque
@@ -270,10 +270,10 @@ void DiagnosisOptions::validate() const {
 }
 
 Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,
-                   const DiagnosisProgress& progress, const DiagnosisWitness& witness) {
+                   const DiagnosisProgress& progress, const DiagnosisObserver& observer) {
   options.validate();
   try {
-    return Diagnostician(input, options, progress, witness).run();
+    return Diagnostician(input, options, progress, observer).run();
   } catch (const TooLittleDataError& error) {
     Diagnosis answer;
     answer.condition = condition_lines(input, {}, nullptr);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/diagnosis/equation_sets/diagnosis_input.h"
 #include "runtime/diagnosis/names/findings.h"
-#include "runtime/diagnosis/views/diagnosis_input.h"
 #include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
@@ -39,12 +39,12 @@ struct DiagnosedRecordings {
   std::vector<std::string> heldout_names;
 };
 /// Told at the end of a diagnosis that had data enough; what it is shown is gone afterwards.
-using DiagnosisWitness = std::function<void(const DiagnosedRecordings& recordings)>;
+using DiagnosisObserver = std::function<void(const DiagnosedRecordings& recordings)>;
 
 /// Locates the mismatch between a model and recordings, names the physics that was left out, fits
 /// it, and says what the data cannot decide. The same input gives the same answer.
 /// @throws std::invalid_argument  if recordings do not fit the model
 Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options = {},
-                   const DiagnosisProgress& progress = {}, const DiagnosisWitness& witness = {});
+                   const DiagnosisProgress& progress = {}, const DiagnosisObserver& observer = {});
 
 }  // namespace dyngen::runtime

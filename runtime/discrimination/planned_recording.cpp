@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/discrimination/planned_recording.h"
 
-#include "runtime/diagnosis/views/left_out_rows.h"
+#include "runtime/diagnosis/equation_sets/left_out_rows.h"
 #include "runtime/signals/decimation.h"
 
 namespace dyngen::runtime {

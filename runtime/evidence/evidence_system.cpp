@@ -103,7 +103,7 @@ Score score_of(const Products& products, bool surrogates) {
   };
   score.degrees = static_cast<int>(independent.columns.size());
   MatrixXd rest = innovations(products.rest);
-  score.squares = rest.squaredNorm();
+  score.delta_chi2 = rest.squaredNorm();
   L.adjoint().solveInPlace(rest);
   for (std::size_t i = 0; i < independent.columns.size(); ++i) {
     const Index c = independent.columns[i];

@@ -26,7 +26,7 @@ struct Products {
 
 /// What columns explain beside the model.
 struct Score {
-  double squares = 0;            ///< r'P r: how far the whitened squares would fall
+  double delta_chi2 = 0;         ///< r'P r: the chi-square reduction
   int degrees = 0;               ///< independent columns that the model does not absorb
   double part_left = 0;          ///< of the columns' squares, before and after projection
   Eigen::VectorXd coefficients;  ///< (k) of the columns; 0 of those that are absorbed

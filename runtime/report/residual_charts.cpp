@@ -67,8 +67,8 @@ bool has_values(const VectorXd& y) {
 
 }  // namespace
 
-ReportChart where_chart(const ResidualView& view, const Whereabouts& where, const AxisLabel& label,
-                        const std::string& unit, const std::string& id) {
+ReportChart where_chart(const ResidualView& view, const EffectLocation& where,
+                        const AxisLabel& label, const std::string& unit, const std::string& id) {
   RobustRange range;
   range.add(view.left);
   range.settle();

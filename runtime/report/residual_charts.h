@@ -16,8 +16,8 @@ using AxisLabel = std::function<std::string(const std::string& variable)>;
 
 /// What the model alone leaves of a joint over each variable, with what was found drawn over it.
 /// @param where  its range is shaded  @param unit  of the joint's torque
-ReportChart where_chart(const ResidualView& view, const Whereabouts& where, const AxisLabel& label,
-                        const std::string& unit, const std::string& id);
+ReportChart where_chart(const ResidualView& view, const EffectLocation& where,
+                        const AxisLabel& label, const std::string& unit, const std::string& id);
 
 /// What is left without one effect, and the effect with its band.
 ReportChart model_chart(const ResidualView& view, const AxisLabel& label, const std::string& unit,

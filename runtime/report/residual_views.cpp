@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "runtime/diagnosis/equation_sets/raw_residual.h"
 #include "runtime/diagnosis/scans/generic_structure.h"
-#include "runtime/diagnosis/views/raw_residual.h"
 #include "runtime/report/thinning.h"
 
 namespace dyngen::runtime {
@@ -230,7 +230,7 @@ class ViewMaker {
 
   /// The variables, each once, with their bins and the samples that are drawn.
   ResidualView view_over(const Samples& samples, int joint, const std::vector<std::string>& names,
-                         const Whereabouts& where, const EffectInstance* effect) {
+                         const EffectLocation& where, const EffectInstance* effect) {
     ResidualView view;
     view.joint = joint;
     if (samples.size() < 2) return view;

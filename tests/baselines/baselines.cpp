@@ -6,7 +6,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "runtime/diagnosis/views/raw_residual.h"
+#include "runtime/diagnosis/equation_sets/raw_residual.h"
 #include "runtime/effects/effect_fit.h"
 #include "runtime/effects/equation_stack.h"
 #include "runtime/recordings/spline.h"

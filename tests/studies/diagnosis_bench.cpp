@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "runtime/diagnosis/diagnosis.h"
-#include "runtime/diagnosis/views/views.h"
+#include "runtime/diagnosis/equation_sets/equation_sets.h"
 #include "runtime/tools/dynid/effects/robot_tangents.h"
 
 namespace dyngen::test {

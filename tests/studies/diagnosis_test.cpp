@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "runtime/diagnosis/views/views.h"
+#include "runtime/diagnosis/equation_sets/equation_sets.h"
 #include "runtime/effects/effect_fit.h"
 #include "runtime/effects/effect_rows.h"
 #include "tests/studies/diagnosis_cases.h"

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "runtime/diagnosis/equation_sets/diagnosis_input.h"
+#include "runtime/diagnosis/equation_sets/division.h"
 #include "runtime/diagnosis/names/findings.h"
-#include "runtime/diagnosis/views/diagnosis_input.h"
-#include "runtime/diagnosis/views/division.h"
 
 namespace dyngen::runtime {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/diagnosis/names/effect_location.h"
 #include "runtime/diagnosis/names/name_tests.h"
 #include "runtime/diagnosis/names/naming.h"
-#include "runtime/diagnosis/names/whereabouts.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -22,7 +22,7 @@ std::string where_it_acts(const EffectInstance& effect) {
   return fmt::format("joint {}", effect.joint + 1);
 }
 
-std::string when_it_acts(const Whereabouts& where) {
+std::string when_it_acts(const EffectLocation& where) {
   return where.recording.empty() ? "" : " in " + where.recording;
 }
 
@@ -55,26 +55,26 @@ FalsifierOutcome stability_test(const Naming& naming, double stability) {
 
 std::string why(const Finding& finding, const Naming& naming) {
   std::string text = fmt::format(
-      "{} on {} explains {:.0f} squares of noise that the model cannot", finding.effect.law.family,
+      "{} on {} lowers chi-square by {:.0f} beside the refitted model", finding.effect.law.family,
       where_it_acts(finding.effect) + when_it_acts(finding.where), finding.evidence.lambda);
   if (!finding.unnamed.empty()) {
-    text += fmt::format("; {}, is {:.0f} squares {}", finding.unnamed,
-                        std::abs(naming.unnamed_distance),
-                        naming.unnamed_distance < 0 ? "better" : "worse");
+    text += fmt::format("; {}: chi-square {} by {:.0f}", finding.unnamed,
+                        naming.unnamed_distance < 0 ? "lower" : "higher",
+                        std::abs(naming.unnamed_distance));
   } else if (naming.rivals.empty() && finding.elsewhere.empty()) {
-    text += "; nothing else comes near";
+    text += "; no other effect is near";
   }
   std::vector<std::string> alike;
   if (!finding.elsewhere.empty()) alike.push_back(finding.elsewhere);
   const bool several = finding.aliases.size() > 1 && !naming.rivals.empty();
   if (several) alike.push_back(naming.rivals.front().name);
   if (!alike.empty()) {
-    text += fmt::format("; these data do not tell it from {}", fmt::join(alike, " or "));
+    text += fmt::format("; these data cannot separate it from {}", fmt::join(alike, " or "));
   }
   if (several || naming.rivals.empty()) return text;
   const Rival& next = naming.rivals.front();
   return text +
-         fmt::format("; the next name, {}, is {:.0f} squares worse", next.name, next.distance);
+         fmt::format("; the next name, {}: chi-square higher by {:.0f}", next.name, next.distance);
 }
 
 struct Found {
@@ -91,7 +91,7 @@ void share_among_all(std::vector<Found>& all_found, const std::vector<Nameless>&
     for (const Found& own : all_found) all += own.located.squares[joint];
     for (const Nameless& own : nameless) {
       if (own.structure.joint != joint) continue;
-      all += std::max(0.0, own.score.squares - own.score.degrees);
+      all += std::max(0.0, own.score.delta_chi2 - own.score.degrees);
     }
     found.finding.where.share *= found.located.squares[joint] / std::max(all, 1e-300);
   }
@@ -100,7 +100,7 @@ void share_among_all(std::vector<Found>& all_found, const std::vector<Nameless>&
 Found found(const Search& search, std::size_t place, const Naming& naming, EffectSignals& signals,
             const EvidenceSystem::Options& options) {
   const AnswerRules& rules = options.rules.answer;
-  const EffectRecordings& evidence = search.views().evidence();
+  const EffectRecordings& evidence = search.sets().evidence();
   const CompetitionResult& result = search.result();
   const EffectFit& fit = result.fit;
   const Winner& winner = result.winners[place];
@@ -146,15 +146,15 @@ std::vector<Finding> found_effects(Search& search, const CompetitionOptions& opt
   EffectFitOptions settings;
   // where motions repeat it is free of what the model leaves out, and has slow parts
   if (result.noise.from_periods) settings.noise = result.noise.known();
-  result.fit = fit_effects(search.views().train, effects, settings);
-  EffectSignals signals(search.views().evidence());
+  result.fit = fit_effects(search.sets().train, effects, settings);
+  EffectSignals signals(search.sets().evidence());
   EvidenceSystem::Options system;
   system.seed = options.seed;
   system.surrogates = 0;
   system.with_regressor = options.with_regressor;
   system.rules = options.rules;
   const std::vector<Naming> namings =
-      settle_names(search.views().evidence(), search.views().train, search.views().proof, signals,
+      settle_names(search.sets().evidence(), search.sets().train, search.sets().proof, signals,
                    search.hypotheses(), result, system, progress);
   std::vector<Found> all;
   for (std::size_t i = 0; i < namings.size(); ++i) {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "runtime/diagnosis/answer/verdict.h"
+#include "runtime/diagnosis/equation_sets/raw_residual.h"
 #include "runtime/diagnosis/names/findings.h"
-#include "runtime/diagnosis/views/raw_residual.h"
 #include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {

@@ -15,13 +15,13 @@ double nameless_part(const Search& search, const std::vector<Finding>& findings,
   double named = 0;
   for (std::size_t i = 0; i < result.winners.size(); ++i) {
     const std::vector<int> joints = joints_of(
-        search.hypotheses()[result.winners[i].hypothesis].effect, search.views().train.joints());
+        search.hypotheses()[result.winners[i].hypothesis].effect, search.sets().train.joints());
     if (std::find(joints.begin(), joints.end(), nameless.structure.joint) == joints.end()) {
       continue;
     }
     named += findings[i].evidence.lambda;
   }
-  const double left = std::max(0.0, nameless.score.squares - nameless.score.degrees);
+  const double left = std::max(0.0, nameless.score.delta_chi2 - nameless.score.degrees);
   return left / std::max(left + named, 1e-300);
 }
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "runtime/diagnosis/competition/own_scatter.h"
+#include "runtime/diagnosis/competition/sandwich_test.h"
 
 namespace dyngen::runtime {
 
@@ -35,7 +35,7 @@ HeldoutProof Acceptance::proof_of(const EffectFit& next) const {
   return heldout_proof(heldout_, result_.fit.point, next.point, result_.noise, known_);
 }
 
-/// Whether its own columns in each period, or the witness, ask for another size.
+/// Whether its own columns in each period, or the half_band, ask for another size.
 bool Acceptance::refuted(const Candidate& candidate) {
   const Hypothesis& hypothesis = hypotheses_[candidate.named.hypothesis];
   if (result_.noise.from_periods) {
@@ -45,7 +45,7 @@ bool Acceptance::refuted(const Candidate& candidate) {
       return true;
     }
   }
-  return witness_.contradicts(hypotheses_, result_, hypothesis, candidate.fit.point, options_);
+  return half_band_.contradicts(hypotheses_, result_, hypothesis, candidate.fit.point, options_);
 }
 
 /// Whether held-out recordings speak for it, or, of one beyond doubt, agree with it; an event is
@@ -53,7 +53,7 @@ bool Acceptance::refuted(const Candidate& candidate) {
 bool Acceptance::proved(const Candidate& candidate, HeldoutProof proof) const {
   const Hypothesis& hypothesis = hypotheses_[candidate.named.hypothesis];
   proof.parameters = static_cast<double>(hypothesis.linear.size() + hypothesis.shapes.size());
-  proof.fitted = candidate.named.best.score.squares;
+  proof.fitted = candidate.named.best.score.delta_chi2;
   if (hypothesis.windowed) return !proof.harms();
   return proof.helps() || (candidate.beyond_doubt && proof.agrees());
 }
@@ -66,7 +66,7 @@ bool Acceptance::keep(Candidate candidate, const Screening& screening) {
   winner.hypothesis = candidate.named.hypothesis;
   winner.trial = std::move(candidate.named.best);
   winner.surprise = candidate.named.surprise;
-  winner.at_stops = candidate.at_stops;
+  winner.at_stiction = candidate.at_stiction;
   winner.others = screening.named;
   winner.generic = screening.generic;
   result_.winners.push_back(std::move(winner));

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition_result.h"
+#include "runtime/diagnosis/competition/half_band_test.h"
 #include "runtime/diagnosis/competition/heldout.h"
-#include "runtime/diagnosis/competition/witness.h"
 
 namespace dyngen::runtime {
 
@@ -21,13 +21,14 @@ class Acceptance {
   /// @param result   what was found so far; grows
   Acceptance(const EffectRecordings& train, EffectSignals& signals, const EffectRecordings& fitted,
              const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
-             Witness& witness, const EvidenceSystem::Options& options, CompetitionResult& result)
+             HalfBandTest& half_band, const EvidenceSystem::Options& options,
+             CompetitionResult& result)
       : train_(train),
         signals_(signals),
         fitted_(fitted),
         heldout_(heldout),
         hypotheses_(hypotheses),
-        witness_(witness),
+        half_band_(half_band),
         options_(options),
         result_(result) {}
 
@@ -39,10 +40,10 @@ class Acceptance {
     NamedResult named;
     EffectFit fit;              ///< of the winners and, as its last, the effect
     bool beyond_doubt = false;  ///< by its p-value: then it is enough that held-out data agree
-    bool at_stops = false;      ///< of Winner
+    bool at_stiction = false;   ///< of Winner
   };
-  /// Keeps an effect that is no estimate held by a bound, that neither what is left nor the witness
-  /// refutes, and that held-out recordings speak for. @return whether it is a winner now
+  /// Keeps an effect that is no estimate held by a bound, that neither what is left nor the
+  /// half_band refutes, and that held-out recordings speak for. @return whether it is a winner now
   bool accept(Candidate candidate, const Screening& screening);
   /// The same of the first of the round that was turned down for a bound alone.
   bool accept_at_bound(const Screening& screening);
@@ -60,7 +61,7 @@ class Acceptance {
   const EffectRecordings& fitted_;
   const EffectRecordings& heldout_;
   const std::vector<Hypothesis>& hypotheses_;
-  Witness& witness_;
+  HalfBandTest& half_band_;
   EvidenceSystem::Options options_;
   CompetitionResult& result_;
   std::optional<Candidate> at_bound_;  // of this round

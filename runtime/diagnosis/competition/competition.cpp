@@ -13,7 +13,7 @@
 #include "runtime/diagnosis/competition/nameless_search.h"
 #include "runtime/diagnosis/competition/pair_search.h"
 #include "runtime/diagnosis/competition/second_scan.h"
-#include "runtime/diagnosis/competition/stops.h"
+#include "runtime/diagnosis/competition/stiction_impulses.h"
 #include "runtime/diagnosis/competition/within_rounding.h"
 #include "runtime/diagnosis/scans/in_parallel.h"
 
@@ -33,9 +33,10 @@ constexpr std::size_t kRivals = 5;    // that are compared again once the winner
 /// One competition's data and what was found so far.
 class Competition {
  public:
-  Competition(const EffectRecordings& train, const EffectRecordings& fitted, Witness& witness,
-              const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
-              const CompetitionOptions& options, const CompetitionProgress& progress)
+  Competition(const EffectRecordings& train, const EffectRecordings& fitted,
+              HalfBandTest& half_band, const EffectRecordings& heldout,
+              const std::vector<Hypothesis>& hypotheses, const CompetitionOptions& options,
+              const CompetitionProgress& progress)
       : train_(train),
         fitted_(fitted),
         heldout_(heldout),
@@ -47,20 +48,20 @@ class Competition {
         signals_(train),
         screening_data_(train),
         repeats_(repeats_of(fitted)),
-        witness_(witness),
-        stops_(train_, signals_, structures_, result_.resting, options_.false_alarm),
-        conditions_(train_, signals_, hypotheses_, structures_, stops_, result_),
-        nameless_(train_, signals_, heldout_, hypotheses_, structures_, stops_, witness_,
+        half_band_(half_band),
+        stiction_(train_, signals_, structures_, result_.sticking, options_.false_alarm),
+        conditions_(train_, signals_, hypotheses_, structures_, stiction_, result_),
+        nameless_(train_, signals_, heldout_, hypotheses_, structures_, stiction_, half_band_,
                   system_options(), options_.false_alarm, result_),
         likely_(train_, signals_, hypotheses_, scales_, result_,
                 [this](const EffectInstance& effect) { return with(effect); }),
-        pairs_(train_, signals_, hypotheses_, stops_, conditions_, options_.false_alarm, result_,
+        pairs_(train_, signals_, hypotheses_, stiction_, conditions_, options_.false_alarm, result_,
                {[this](const std::vector<EffectInstance>& all) {
                   tell("pairs of effects", 0);
                   return fit(all);
                 },
                 [this](std::size_t wanted) { return next_beside(wanted); }}),
-        acceptance_(train_, signals_, fitted_, heldout_, hypotheses_, witness_, system_options(),
+        acceptance_(train_, signals_, fitted_, heldout_, hypotheses_, half_band_, system_options(),
                     result_) {}
 
   CompetitionResult run() {
@@ -71,9 +72,9 @@ class Competition {
       acceptance_.begin_round();
       const EvidenceSystem system = model_system();
       std::vector<GenericResult> structure;
-      if (round == 0 && asks_for_rests()) {
+      if (round == 0 && asks_for_stiction()) {
         structure = screen_structures(system);
-        if (!result_.resting.empty()) return std::move(result_);
+        if (!result_.sticking.empty()) return std::move(result_);
       }
       Screening screening = screen_beside(system, round == 0, structure);
       if (round == 0) result_.first = screening;
@@ -84,7 +85,7 @@ class Competition {
                                    nameless_.next(system, screening)
                              : next_likely(system, screening);
       if (!found) break;
-      if (options_.until_rest && !result_.resting.empty()) return std::move(result_);
+      if (options_.until_stiction && !result_.sticking.empty()) return std::move(result_);
     }
     drop_superfluous();
     if (scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {
@@ -131,17 +132,17 @@ class Competition {
   }
 
   /// Whether it is asked at once which joints rest, before any effect is looked at.
-  [[nodiscard]] bool asks_for_rests() const {
-    // where nothing repeats, what rests leave is taken for noise, in which nothing is seen
-    return options_.until_rest && (options_.rests || !result_.noise.from_periods);
+  [[nodiscard]] bool asks_for_stiction() const {
+    // where nothing repeats, what sticks leave is taken for noise, in which nothing is seen
+    return options_.until_stiction && (options_.sticks || !result_.noise.from_periods);
   }
 
   /// Structures alone, and which joints rest by them.
   std::vector<GenericResult> screen_structures(const EvidenceSystem& system) {
     Screening structure =
         screen(screening_data_, system, scales_, result_.fit.point.beta, {}, structures_, nullptr,
-               [&](double done) { tell("joints that rest", done); });
-    result_.resting = stops_.strongest(system, structure);
+               [&](double done) { tell("joints that stick", done); });
+    result_.sticking = stiction_.strongest(system, structure);
     return std::move(structure.generic);
   }
 
@@ -229,11 +230,12 @@ class Competition {
         if (!costly) costly = place;
         continue;
       }
-      if (named.best.score.squares < conditions_.least_squares(named, screening)) continue;
+      if (named.best.score.delta_chi2 < conditions_.least_squares(named, screening)) continue;
       if (conditions_.outdone(named, system, screening)) continue;
       if (attempted.contains(place)) continue;
-      const Stops::Part stops = stops_.part_in(system, screening, hypotheses_[place], named);
-      if (stops == Stops::Part::kAll || conditions_.is_no_event(system, named) ||
+      const StictionImpulses::Part stiction =
+          stiction_.part_in(system, screening, hypotheses_[place], named);
+      if (stiction == StictionImpulses::Part::kAll || conditions_.is_no_event(system, named) ||
           is_remnant(named, screening)) {
         stopped.insert(place);
         continue;
@@ -241,7 +243,7 @@ class Competition {
       stopped.insert(attempted.begin(), attempted.end());
       const NamedResult best = settled(named, order, stopped, screening);
       attempted.insert(best.hypothesis);
-      if (accept(best, screening, stops == Stops::Part::kBecause)) return true;
+      if (accept(best, screening, stiction == StictionImpulses::Part::kBecause)) return true;
     }
     if (acceptance_.accept_at_bound(screening)) return true;
     return costly && keep_without_name(*costly, system, screening);
@@ -267,7 +269,7 @@ class Competition {
     const NamedResult& named = screening.named[place];
     const std::string name = short_name(named.best.effect);
     if (!nameless_.sure(screening, named.surprise) || nameless_.is_costly(name)) return false;
-    if (stops_.explain(system, screening, hypotheses_[place], named)) return false;
+    if (stiction_.explain(system, screening, hypotheses_[place], named)) return false;
     const GenericResult* nearest = nullptr;
     for (const int joint : joints_of_hypothesis(place)) {
       for (const GenericResult& generic : screening.generic) {
@@ -292,13 +294,15 @@ class Competition {
     const ModelSide plain{white, beside};
     const auto take = [&](const LikelyEffect& likely) {
       if (screening.family_wise(likely.named.surprise) > options_.false_alarm) return false;
-      if (likely.net < stops_.unseen_on(joints_of_hypothesis(likely.named.hypothesis))) {
+      if (likely.net < stiction_.unseen_on(joints_of_hypothesis(likely.named.hypothesis))) {
         return false;
       }
-      const Stops::Part stops =
-          stops_.part_in(white, beside, hypotheses_[likely.named.hypothesis], likely.named);
-      if (stops == Stops::Part::kAll || conditions_.is_no_event(white, likely.named)) return false;
-      return accept(likely.named, screening, stops == Stops::Part::kBecause, likely.fit);
+      const StictionImpulses::Part stiction =
+          stiction_.part_in(white, beside, hypotheses_[likely.named.hypothesis], likely.named);
+      if (stiction == StictionImpulses::Part::kAll || conditions_.is_no_event(white, likely.named))
+        return false;
+      return accept(likely.named, screening, stiction == StictionImpulses::Part::kBecause,
+                    likely.fit);
     };
     return likely_.next({system, screening}, plain, take) || nameless_.next(system, screening) ||
            nameless_.next_likely(plain);
@@ -326,7 +330,7 @@ class Competition {
       if (tried++ == kRivals) break;
       const NamedResult& rival = screening.named[place];
       if (refused.contains(place)) continue;
-      if (rival.best.score.squares < kLeastAsGood * named.best.score.squares) continue;
+      if (rival.best.score.delta_chi2 < kLeastAsGood * named.best.score.delta_chi2) continue;
       const Hypothesis& hypothesis = hypotheses_[place];
       const EffectScales scales = scales_.of(beside.beta, hypothesis.effect);
       EffectInstance start = rival.best.effect;
@@ -347,13 +351,14 @@ class Competition {
   }
 
   /// Fits the model with one more effect, and keeps it if nothing speaks against it.
-  bool accept(const NamedResult& named, const Screening& screening, bool at_stops) {
+  bool accept(const NamedResult& named, const Screening& screening, bool at_stiction) {
     if (screening.family_wise(named.surprise) > options_.false_alarm) return false;
-    return accept(named, screening, at_stops, with(named.best.effect));
+    return accept(named, screening, at_stiction, with(named.best.effect));
   }
-  bool accept(const NamedResult& named, const Screening& screening, bool at_stops, EffectFit fit) {
+  bool accept(const NamedResult& named, const Screening& screening, bool at_stiction,
+              EffectFit fit) {
     const bool beyond_doubt = nameless_.sure(screening, named.surprise);
-    return acceptance_.accept({named, std::move(fit), beyond_doubt, at_stops}, screening);
+    return acceptance_.accept({named, std::move(fit), beyond_doubt, at_stiction}, screening);
   }
 
   EffectFit with(const EffectInstance& effect) {
@@ -372,7 +377,7 @@ class Competition {
       const TrialScore again =
           try_hypothesis(train_, signals_, system, hypothesis, result_.fit.point.effects[i],
                          scales_.of(result_.fit.point.beta, hypothesis.effect), false);
-      const double surprise = surprise_of(again.score.squares, again.score.degrees);
+      const double surprise = surprise_of(again.score.delta_chi2, again.score.degrees);
       if (result_.last.family_wise(surprise) <= options_.false_alarm) {
         ++i;
         continue;
@@ -395,9 +400,9 @@ class Competition {
   EffectSignals signals_;
   ScreeningData screening_data_;
   std::vector<double> repeats_;
-  Witness& witness_;
+  HalfBandTest& half_band_;
   CompetitionResult result_;
-  Stops stops_;
+  StictionImpulses stiction_;
   EffectConditions conditions_;
   NamelessSearch nameless_;
   LikelySearch likely_;
@@ -408,10 +413,10 @@ class Competition {
 }  // namespace
 
 CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
-                          Witness& witness, const EffectRecordings& heldout,
+                          HalfBandTest& half_band, const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options, const CompetitionProgress& progress) {
-  return Competition(train, fitted, witness, heldout, hypotheses, options, progress).run();
+  return Competition(train, fitted, half_band, heldout, hypotheses, options, progress).run();
 }
 
 }  // namespace dyngen::runtime

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition_result.h"
-#include "runtime/diagnosis/competition/witness.h"
+#include "runtime/diagnosis/competition/half_band_test.h"
 
 namespace dyngen::runtime {
 
@@ -18,23 +18,24 @@ struct CompetitionOptions {
   bool with_regressor = true;
   DecisionRules rules;
   /// Whether it ends as soon as a joint is found to rest.
-  bool until_rest = false;
+  bool until_stiction = false;
   /// Whether joints of this robot are known to rest: then another one does wherever impulses at its
   /// reversals are its strongest structure, and that is looked for first, as where nothing repeats.
-  bool rests = false;
+  bool sticks = false;
 };
 
 using CompetitionProgress = std::function<void(const std::string& stage, double done)>;
 
 /// Round by round: everything is tested beside the model with what was found before; the best
 /// effect is fitted together with all of it and stays if noise alone would hardly have given it, it
-/// is proved on held-out recordings and the witness does not contradict it. At the end each winner
-/// is tested again beside all others.
+/// is proved on held-out recordings and the half_band does not contradict it. At the end each
+/// winner is tested again beside all others.
 /// @param train    what evidence is of
-/// @param fitted   the same equations, without those near rests: what fits are of, and noise
-/// @param witness  of the same recordings
+/// @param fitted   the same equations, without those near stiction intervals: what fits are of, and
+/// noise
+/// @param half_band  of the same recordings
 CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
-                          Witness& witness, const EffectRecordings& heldout,
+                          HalfBandTest& half_band, const EffectRecordings& heldout,
                           const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options,
                           const CompetitionProgress& progress = {});

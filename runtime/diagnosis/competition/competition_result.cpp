@@ -70,12 +70,12 @@ double net_of(const GenericStructure& structure, const Score& score,
   const int frequencies = structure.form == GenericStructure::Form::kLine   ? 1
                           : structure.form == GenericStructure::Form::kWave ? 2
                                                                             : 0;
-  return score.squares - (score.degrees + frequencies) * price_of_one(noise);
+  return score.delta_chi2 - (score.degrees + frequencies) * price_of_one(noise);
 }
 
 double net_of(const Hypothesis& hypothesis, const TrialScore& trial,
               const TorqueNoiseModel& noise) {
-  double best = trial.score.squares - price_of(hypothesis, trial, noise);
+  double best = trial.score.delta_chi2 - price_of(hypothesis, trial, noise);
   double choices = 1;  // ways to take m of all linear parameters
   const auto all = static_cast<double>(trial.few.size());
   for (std::size_t m = 1; m < trial.few.size(); ++m) {
@@ -135,10 +135,10 @@ EffectPoint without(EffectPoint point, std::size_t place) {
 void add_nameless(const EffectRecordings& data, EffectSignals& signals,
                   const CompetitionResult& result, EvidenceSystem& system,
                   const std::vector<int>& but_for) {
-  for (const RestingJoint& resting : result.resting) {
-    if (std::find(but_for.begin(), but_for.end(), resting.joint) != but_for.end()) continue;
+  for (const StictionJoint& sticking : result.sticking) {
+    if (std::find(but_for.begin(), but_for.end(), sticking.joint) != but_for.end()) continue;
     system.leave_out(
-        system.whitened(generic_columns(data, signals, impulses_at_reversals(resting.joint))));
+        system.whitened(generic_columns(data, signals, impulses_at_reversals(sticking.joint))));
   }
   for (const Nameless& nameless : result.nameless) {
     system.add(system.whitened(nameless_columns(data, signals, nameless)));
@@ -169,7 +169,7 @@ EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signa
       system_at(data, signals, without(result.fit.point, winner), beside, result.noise, options);
   const Winner& own = result.winners[winner];
   const std::vector<int> joints = joints_of(hypotheses[own.hypothesis].effect, data.joints());
-  add_nameless(data, signals, result, system, own.at_stops ? joints : std::vector<int>{});
+  add_nameless(data, signals, result, system, own.at_stiction ? joints : std::vector<int>{});
   return system;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/diagnosis/competition/stops.h"
+#include "runtime/diagnosis/competition/stiction_impulses.h"
 #include "runtime/diagnosis/scans/screening.h"
 #include "runtime/effects/effect_fit.h"
 
@@ -17,9 +17,9 @@ struct Winner {
   std::size_t hypothesis = 0;  ///< its place
   TrialScore trial;            ///< beside the model of its round
   double surprise = 0;         ///< in its round
-  /// It makes the impulses at the stops of its joints (Stops::Part::kBecause): judged beside what
-  /// is left of those it would not be seen.
-  bool at_stops = false;
+  /// It makes the impulses at the stops of its joints (StictionImpulses::Part::kBecause): judged
+  /// beside what is left of those it would not be seen.
+  bool at_stiction = false;
   std::vector<NamedResult> others;     ///< its round's results, its own among them
   std::vector<GenericResult> generic;  ///< and those of structures without a name
 };
@@ -48,7 +48,7 @@ JointColumns nameless_columns(const EffectRecordings& data, EffectSignals& signa
 struct CompetitionResult {
   std::vector<Winner> winners;
   std::vector<Nameless> nameless;
-  std::vector<RestingJoint> resting;
+  std::vector<StictionJoint> sticking;
   EffectFit base;          ///< of the model alone
   EffectFit fit;           ///< of the model with the winners
   TorqueNoiseModel noise;  ///< of the last round

@@ -34,11 +34,11 @@ double EffectConditions::structure_of(const Screening& screening, int joint) con
     if (structure.joint != joint) continue;
     if (!structure.is_specific()) continue;
     if (structure.form == GenericStructure::Form::kImpulses &&
-        (stops_.rests(joint) ||
-         generic.score.squares < kHardlyMoreThanNoise * generic.score.degrees)) {
+        (stiction_.sticks(joint) ||
+         generic.score.delta_chi2 < kHardlyMoreThanNoise * generic.score.degrees)) {
       continue;
     }
-    most = std::max(most, generic.score.squares - generic.score.degrees);
+    most = std::max(most, generic.score.delta_chi2 - generic.score.degrees);
   }
   return most;
 }
@@ -47,13 +47,13 @@ double EffectConditions::least_squares(const NamedResult& named, const Screening
   const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
   double structure = 0;
   for (const int joint : joints) structure = std::max(structure, structure_of(screening, joint));
-  return std::max(kLeastExplained * structure, stops_.unseen_on(joints));
+  return std::max(kLeastExplained * structure, stiction_.unseen_on(joints));
 }
 
 bool EffectConditions::is_no_event(const EvidenceSystem& system, const NamedResult& named) const {
   const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
   if (!hypothesis.windowed) return false;
-  const double slow = named.best.score.squares * (1 - 1 / named.slow_noise);
+  const double slow = named.best.score.delta_chi2 * (1 - 1 / named.slow_noise);
   if (net(named) - slow < kEventNet) return true;
   if (hypothesis.shapes.size() > 1) {  // it begins, and ends
     const Eigen::VectorXd& p = named.best.effect.parameters;
@@ -82,14 +82,14 @@ bool EffectConditions::outdone(double explained, const std::vector<int>& own,
         if (much >= net(other)) return false;
         const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
         return std::any_of(joints.begin(), joints.end(), is_own) &&
-               !stops_.hide(system, screening, hypotheses_[other.hypothesis], other);
+               !stiction_.hide(system, screening, hypotheses_[other.hypothesis], other);
       });
   if (by_form) return true;
   return std::any_of(
       screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
         const GenericStructure& structure = structures_[generic.structure];
         return structure.is_specific() && structure.form != GenericStructure::Form::kImpulses &&
-               is_own(structure.joint) && !stops_.rests(structure.joint) &&
+               is_own(structure.joint) && !stiction_.sticks(structure.joint) &&
                net_of(structure, generic.score, result_.noise) > much;
       });
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition_result.h"
-#include "runtime/diagnosis/competition/stops.h"
+#include "runtime/diagnosis/competition/stiction_impulses.h"
 
 namespace dyngen::runtime {
 
@@ -14,17 +14,17 @@ class EffectConditions {
   /// All of them have to outlive it.
   EffectConditions(const EffectRecordings& data, EffectSignals& signals,
                    const std::vector<Hypothesis>& hypotheses,
-                   const std::vector<GenericStructure>& structures, const Stops& stops,
-                   const CompetitionResult& result)
+                   const std::vector<GenericStructure>& structures,
+                   const StictionImpulses& stiction, const CompetitionResult& result)
       : data_(data),
         signals_(signals),
         hypotheses_(hypotheses),
         structures_(structures),
-        stops_(stops),
+        stiction_(stiction),
         result_(result) {}
 
   /// The squares that an effect has to explain: most of the structure of its joints, and more than
-  /// rests leave there.
+  /// sticks leave there.
   [[nodiscard]] double least_squares(const NamedResult& named, const Screening& screening) const;
 
   /// Whether what would be an event is a wild value, or too little: nothing held out speaks for it.
@@ -47,7 +47,7 @@ class EffectConditions {
   EffectSignals& signals_;
   const std::vector<Hypothesis>& hypotheses_;
   const std::vector<GenericStructure>& structures_;
-  const Stops& stops_;
+  const StictionImpulses& stiction_;
   const CompetitionResult& result_;
 };
 

@@ -55,8 +55,8 @@ std::optional<LikelyStructure> likeliest_structure(const EffectRecordings& data,
       with.add(with.whitened(generic_columns(data, signals, structure)));
       LikelyStructure likely{*generic, 0, rests_of(data, with, result.fit.rms)};
       Score& score = likely.generic.score;
-      score.squares = ratio.of(likely.residuals);
-      likely.generic.surprise = surprise_of(score.squares, score.degrees);
+      score.delta_chi2 = ratio.of(likely.residuals);
+      likely.generic.surprise = surprise_of(score.delta_chi2, score.degrees);
       likely.net = net_of(structure, score, result.noise);
       if (likely.net > (best ? best->net : 0)) best = std::move(likely);
     }

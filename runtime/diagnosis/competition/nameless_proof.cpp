@@ -40,7 +40,7 @@ HeldoutProof nameless_proof(const EffectRecordings& train, EffectSignals& signal
   proof.before = 2 * size.dot(products.rest);  // more than what it does not change
   proof.after = proof.change;
   proof.parameters = nameless.score.degrees;
-  proof.fitted = nameless.score.squares;
+  proof.fitted = nameless.score.delta_chi2;
   return proof;
 }
 

@@ -9,7 +9,7 @@
 
 #include "runtime/diagnosis/competition/likely_structure.h"
 #include "runtime/diagnosis/competition/nameless_proof.h"
-#include "runtime/diagnosis/competition/own_scatter.h"
+#include "runtime/diagnosis/competition/sandwich_test.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -22,16 +22,16 @@ constexpr double kRuledOutNet = 15;  // squares, net: a form that cannot be is n
 
 }  // namespace
 
-/// Structures that are more than noise, the strongest first, a few. Impulses of a joint that rests
+/// Structures that are more than noise, the strongest first, a few. Impulses of a joint that sticks
 /// are known, and what is little beside them is nothing.
 std::vector<const GenericResult*> NamelessSearch::candidates(const Screening& screening) const {
   std::vector<const GenericResult*> strongest;
   for (const GenericResult& generic : screening.generic) {
     const GenericStructure& structure = structures_[generic.structure];
     const bool known =
-        structure.form == GenericStructure::Form::kImpulses && stops_.rests(structure.joint);
-    const double squares = generic.score.squares - generic.score.degrees;
-    if (known || squares < stops_.unseen_on({structure.joint})) continue;
+        structure.form == GenericStructure::Form::kImpulses && stiction_.sticks(structure.joint);
+    const double squares = generic.score.delta_chi2 - generic.score.degrees;
+    if (known || squares < stiction_.unseen_on({structure.joint})) continue;
     if (screening.family_wise(generic.surprise) <= false_alarm_) strongest.push_back(&generic);
   }
   std::stable_sort(strongest.begin(), strongest.end(),
@@ -52,12 +52,12 @@ std::vector<const GenericResult*> NamelessSearch::candidates(const Screening& sc
 bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screening) {
   const std::vector<const GenericResult*> strongest = candidates(screening);
   if (!strongest.empty()) {
-    std::vector<RestingJoint> resting =
-        stops_.resting(system, screening, structures_[strongest.front()->structure]);
-    // what rests elsewhere jolts the whole arm: it is asked before anything is said without a name
-    if (resting.empty()) resting = stops_.strongest(system, screening);
-    if (!resting.empty()) {
-      result_.resting.insert(result_.resting.end(), resting.begin(), resting.end());
+    std::vector<StictionJoint> sticking =
+        stiction_.sticking(system, screening, structures_[strongest.front()->structure]);
+    // what sticks elsewhere jolts the whole arm: it is asked before anything is said without a name
+    if (sticking.empty()) sticking = stiction_.strongest(system, screening);
+    if (!sticking.empty()) {
+      result_.sticking.insert(result_.sticking.end(), sticking.begin(), sticking.end());
       return true;
     }
   }
@@ -122,7 +122,7 @@ double NamelessSearch::structure_surprise(const Screening& screening,
 /// structure there: it is of that form.
 bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screening& screening) {
   const std::vector<RuledOut> candidates = ruled_out(screening);
-  const RuledOut* strongest = strongest_apart_from_stops(candidates, system, screening);
+  const RuledOut* strongest = strongest_apart_from_stiction(candidates, system, screening);
   if (!strongest || strongest->named.surprise < structure_surprise(screening, strongest->joints)) {
     return false;
   }
@@ -143,9 +143,10 @@ std::vector<NamelessSearch::RuledOut> NamelessSearch::ruled_out(const Screening&
     const double net = net_of(hypotheses_[named.hypothesis], named.best, result_.noise);
     if (net <= kRuledOutNet || !sure(screening, named.surprise)) continue;
     std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
-    // beside a joint that rests, what friction left of the stops looks like friction that cannot be
+    // beside a joint that sticks, what friction left of the stops looks like friction that cannot
+    // be
     if (std::any_of(joints.begin(), joints.end(), [&](int joint) {
-          return has_nameless(result_, joint) || stops_.rests(joint);
+          return has_nameless(result_, joint) || stiction_.sticks(joint);
         })) {
       continue;
     }
@@ -158,7 +159,7 @@ std::vector<NamelessSearch::RuledOut> NamelessSearch::ruled_out(const Screening&
 
 /// The first that reversals of its joints do not hide, or none. Reversals are left out once for all
 /// candidates of the same joints.
-const NamelessSearch::RuledOut* NamelessSearch::strongest_apart_from_stops(
+const NamelessSearch::RuledOut* NamelessSearch::strongest_apart_from_stiction(
     const std::vector<RuledOut>& candidates, const EvidenceSystem& system,
     const Screening& screening) const {
   const RuledOut* strongest = nullptr;
@@ -166,12 +167,12 @@ const NamelessSearch::RuledOut* NamelessSearch::strongest_apart_from_stops(
   for (const RuledOut& first : candidates) {
     if (strongest && first.net <= strongest->net) break;
     if (!asked.insert(first.joints).second) continue;
-    const EvidenceSystem beside = stops_.beside_reversals(system, first.joints);
+    const EvidenceSystem beside = stiction_.beside_reversals(system, first.joints);
     for (const RuledOut& candidate : candidates) {
       if (strongest && candidate.net <= strongest->net) break;
       if (candidate.joints != first.joints) continue;
       const Hypothesis& hypothesis = hypotheses_[candidate.named.hypothesis];
-      if (!stops_.nothing_left_in(beside, screening, hypothesis, candidate.named)) {
+      if (!stiction_.nothing_left_in(beside, screening, hypothesis, candidate.named)) {
         strongest = &candidate;
       }
     }
@@ -206,9 +207,9 @@ bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system, bool n
   if (!is_proved(nameless, needs_proof)) return false;
   const auto own = std::find(plain.joints.begin(), plain.joints.end(), joint);
   const auto place = static_cast<std::size_t>(own - plain.joints.begin());
-  if (witness_.contradicts(hypotheses_, result_, nameless, options_)) return false;
+  if (half_band_.contradicts(hypotheses_, result_, nameless, options_)) return false;
   if (result_.noise.from_periods &&
-      own_scatter(system, white, nameless.score.coefficients).refutes()) {
+      sandwich_test(system, white, nameless.score.coefficients).refutes()) {
     return false;
   }
   const VectorXd& size = nameless.score.coefficients;

@@ -6,8 +6,8 @@
 
 #include "runtime/diagnosis/competition/beside_white_noise.h"
 #include "runtime/diagnosis/competition/competition_result.h"
-#include "runtime/diagnosis/competition/stops.h"
-#include "runtime/diagnosis/competition/witness.h"
+#include "runtime/diagnosis/competition/half_band_test.h"
+#include "runtime/diagnosis/competition/stiction_impulses.h"
 
 namespace dyngen::runtime {
 
@@ -20,21 +20,21 @@ class NamelessSearch {
   /// @param result   what was found so far; grows
   NamelessSearch(const EffectRecordings& data, EffectSignals& signals,
                  const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
-                 const std::vector<GenericStructure>& structures, const Stops& stops,
-                 Witness& witness, const EvidenceSystem::Options& options, double false_alarm,
-                 CompetitionResult& result)
+                 const std::vector<GenericStructure>& structures, const StictionImpulses& stiction,
+                 HalfBandTest& half_band, const EvidenceSystem::Options& options,
+                 double false_alarm, CompetitionResult& result)
       : data_(data),
         signals_(signals),
         heldout_(heldout),
         hypotheses_(hypotheses),
         structures_(structures),
-        stops_(stops),
-        witness_(witness),
+        stiction_(stiction),
+        half_band_(half_band),
         options_(options),
         false_alarm_(false_alarm),
         result_(result) {}
 
-  /// The strongest structure of a round: a joint that rests, the form of an effect that a bound or
+  /// The strongest structure of a round: a joint that sticks, the form of an effect that a bound or
   /// a falsifier rules out, or any function of the motion. @return whether there is any
   bool next(const EvidenceSystem& system, const Screening& screening);
 
@@ -43,7 +43,7 @@ class NamelessSearch {
   bool next_likely(const ModelSide& plain);
 
   /// Generic structure that `costly` would explain, for more parameters than the data pay for.
-  /// @return false if the witness contradicts it
+  /// @return false if the half_band contradicts it
   bool describe(const GenericResult& generic, const EvidenceSystem& system,
                 const std::string& costly) {
     return describe(generic, system, costly, false);
@@ -63,9 +63,9 @@ class NamelessSearch {
 
   bool next_ruled_out(const EvidenceSystem& system, const Screening& screening);
   [[nodiscard]] std::vector<RuledOut> ruled_out(const Screening& screening) const;
-  [[nodiscard]] const RuledOut* strongest_apart_from_stops(const std::vector<RuledOut>& candidates,
-                                                           const EvidenceSystem& system,
-                                                           const Screening& screening) const;
+  [[nodiscard]] const RuledOut* strongest_apart_from_stiction(
+      const std::vector<RuledOut>& candidates, const EvidenceSystem& system,
+      const Screening& screening) const;
   [[nodiscard]] double structure_surprise(const Screening& screening,
                                           const std::vector<int>& joints) const;
   [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
@@ -80,8 +80,8 @@ class NamelessSearch {
   const EffectRecordings& heldout_;
   const std::vector<Hypothesis>& hypotheses_;
   const std::vector<GenericStructure>& structures_;
-  const Stops& stops_;
-  Witness& witness_;
+  const StictionImpulses& stiction_;
+  HalfBandTest& half_band_;
   EvidenceSystem::Options options_;
   double false_alarm_;
   CompetitionResult& result_;

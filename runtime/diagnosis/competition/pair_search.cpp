@@ -31,7 +31,7 @@ std::vector<Member> members_of(const EffectRecordings& data,
     members.push_back({named.hypothesis, &named.freest, {}});
   }
   std::stable_sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
-    return a.trial->score.squares > b.trial->score.squares;
+    return a.trial->score.delta_chi2 > b.trial->score.delta_chi2;
   });
   if (members.size() > kMembers) members.resize(kMembers);
   return members;
@@ -83,12 +83,12 @@ std::vector<EffectPair> strongest_pairs(const EffectRecordings& data, EffectSign
       EffectPair pair;
       pair.stronger = members[a].hypothesis;
       pair.weaker = members[b].hypothesis;
-      pair.net = both.squares -
+      pair.net = both.delta_chi2 -
                  price_of(hypotheses[pair.stronger], *members[a].trial, result.noise) -
                  price_of(hypotheses[pair.weaker], *members[b].trial, result.noise);
       const auto beside = [&](const Score& single) {
         const int degrees = both.degrees - single.degrees;
-        return degrees > 0 ? surprise_of(both.squares - single.squares, degrees) : 0;
+        return degrees > 0 ? surprise_of(both.delta_chi2 - single.delta_chi2, degrees) : 0;
       };
       pair.surprise = std::max(std::min(beside(alone), beside(other)) - tried, 0.0);
       pairs.push_back(pair);
@@ -100,7 +100,7 @@ std::vector<EffectPair> strongest_pairs(const EffectRecordings& data, EffectSign
 }
 
 bool PairSearch::next(const EvidenceSystem& system, const Screening& screening) {
-  if (!stops_.strongest(system, screening).empty()) return false;
+  if (!stiction_.strongest(system, screening).empty()) return false;
   std::size_t tried = 0;
   for (const EffectPair& pair :
        strongest_pairs(data_, signals_, system, hypotheses_, screening, result_)) {
@@ -118,8 +118,8 @@ bool PairSearch::promising(const EffectPair& pair, const EvidenceSystem& system,
   joints.insert(joints.end(), others.begin(), others.end());
   if (conditions_.outdone(pair.net, joints, system, screening)) return false;
   const auto stopped = [&](std::size_t place) {
-    return stops_.explain(system, screening, hypotheses_[place],
-                          without_conditions(screening.named[place]));
+    return stiction_.explain(system, screening, hypotheses_[place],
+                             without_conditions(screening.named[place]));
   };
   return !stopped(pair.weaker) && !stopped(pair.stronger);
 }

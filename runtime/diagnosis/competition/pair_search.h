@@ -8,7 +8,7 @@
 
 #include "runtime/diagnosis/competition/competition_result.h"
 #include "runtime/diagnosis/competition/effect_conditions.h"
-#include "runtime/diagnosis/competition/stops.h"
+#include "runtime/diagnosis/competition/stiction_impulses.h"
 
 namespace dyngen::runtime {
 
@@ -45,13 +45,13 @@ class PairSearch {
 
   /// All must outlive it. @param false_alarm  as in CompetitionOptions
   PairSearch(const EffectRecordings& data, EffectSignals& signals,
-             const std::vector<Hypothesis>& hypotheses, const Stops& stops,
+             const std::vector<Hypothesis>& hypotheses, const StictionImpulses& stiction,
              const EffectConditions& conditions, double false_alarm, CompetitionResult& result,
              Steps steps)
       : data_(data),
         signals_(signals),
         hypotheses_(hypotheses),
-        stops_(stops),
+        stiction_(stiction),
         conditions_(conditions),
         false_alarm_(false_alarm),
         result_(result),
@@ -68,7 +68,7 @@ class PairSearch {
   const EffectRecordings& data_;
   EffectSignals& signals_;
   const std::vector<Hypothesis>& hypotheses_;
-  const Stops& stops_;
+  const StictionImpulses& stiction_;
   const EffectConditions& conditions_;
   double false_alarm_;
   CompetitionResult& result_;

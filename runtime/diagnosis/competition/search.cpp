@@ -6,7 +6,8 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kLeastCounted = 0.35;  // of the equations of a joint that moves, beside its rests
+constexpr double kLeastCounted =
+    0.35;  // of the equations of a joint that moves, beside its stiction intervals
 
 /// Parameters of the model without effects: typical sizes are parts of its friction.
 Eigen::VectorXd model_alone(const EffectRecordings& train) {
@@ -24,48 +25,46 @@ Search::Search(const DiagnosisInput& input, Eigen::Index decimation, const Equat
       parts_(input.heldout.empty() ? divided(input.train, rules)
                                    : Division{input.train, input.heldout}),
       seen_{.rows = diagnosis_rows(parts_.train, decimation), .rules = rules},
-      views_(views_of(input, parts_, seen_)),
-      moving_(counted_part(views_.train)) {}
+      sets_(equation_sets_of(input, parts_, seen_)),
+      moving_(counted_part(sets_.train)) {}
 
 void Search::compete(CompetitionOptions options, const CompetitionProgress& progress) {
-  const ScaleTable scales(views_.train);
-  const Eigen::VectorXd alone = model_alone(views_.train);
+  const ScaleTable scales(sets_.train);
+  const Eigen::VectorXd alone = model_alone(sets_.train);
   for (const EffectInstance& effect : input_.hypotheses) {
     hypotheses_.push_back(hypothesis_of(effect, scales.of(alone, effect)));
   }
-  options.until_rest = true;
+  options.until_stiction = true;
   for (;;) {
-    Witness slow(views_.slow);
-    result_ = runtime::compete(views_.evidence(), views_.train, slow, views_.proof, hypotheses_,
+    HalfBandTest slow(sets_.slow);
+    result_ = runtime::compete(sets_.evidence(), sets_.train, slow, sets_.proof, hypotheses_,
                                options, progress);
-    if (!options.until_rest || result_.resting.empty()) return;
+    if (!options.until_stiction || result_.sticking.empty()) return;
     // where that would leave too little, impulses at their reversals are left out instead
-    options.until_rest = look_beside(result_.resting);
-    options.rests = true;
+    options.until_stiction = look_beside(result_.sticking);
+    options.sticks = true;
   }
 }
 
 /// @return whether equations are left out that had not been before
-bool Search::look_beside(const std::vector<RestingJoint>& found) {
-  std::vector<RestingJoint> joints = seen_.resting;
+bool Search::look_beside(const std::vector<StictionJoint>& found) {
+  std::vector<StictionJoint> joints = seen_.sticking;
   if (!join(joints, found)) return false;
-  const ViewOptions beside = beside_rests(
+  const EquationSetOptions beside = beside_stiction(
       {.rows = diagnosis_rows(parts_.train, decimation_), .rules = rules_}, parts_.train, joints);
-  Views views = views_of(input_, parts_, beside);
-  const Eigen::ArrayXd left = counted_part(views.train).array();
+  EquationSets sets = equation_sets_of(input_, parts_, beside);
+  const Eigen::ArrayXd left = counted_part(sets.train).array();
   if ((left < kLeastCounted * moving_.array()).any()) return false;
-  if (!whole_) whole_ = Whole{std::move(views_.train), std::move(views_.heldout)};
+  if (!whole_) whole_ = Whole{std::move(sets_.train), std::move(sets_.heldout)};
   seen_ = beside;
-  views_ = std::move(views);
+  sets_ = std::move(sets);
   return true;
 }
 
-const EffectRecordings& Search::shown_train() const {
-  return whole_ ? whole_->train : views_.train;
-}
+const EffectRecordings& Search::shown_train() const { return whole_ ? whole_->train : sets_.train; }
 
 const EffectRecordings& Search::shown_heldout() const {
-  return whole_ ? whole_->heldout : views_.heldout;
+  return whole_ ? whole_->heldout : sets_.heldout;
 }
 
 }  // namespace dyngen::runtime

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition.h"
-#include "runtime/diagnosis/views/diagnosis_input.h"
-#include "runtime/diagnosis/views/division.h"
-#include "runtime/diagnosis/views/views.h"
+#include "runtime/diagnosis/equation_sets/diagnosis_input.h"
+#include "runtime/diagnosis/equation_sets/division.h"
+#include "runtime/diagnosis/equation_sets/equation_sets.h"
 
 namespace dyngen::runtime {
 
 /// What a diagnosis looks at and what its competition found there: all that an answer is told from.
-/// Where joints are found to rest, it looks again beside their rests.
+/// Where joints are found to rest, it looks again beside their stiction intervals.
 class Search {
  public:
   /// @param input  has to outlive it  @param decimation  as RowOptions
@@ -25,26 +25,26 @@ class Search {
 
   [[nodiscard]] const DiagnosisInput& input() const { return input_; }
   [[nodiscard]] const Division& parts() const { return parts_; }
-  [[nodiscard]] const ViewOptions& seen() const { return seen_; }
-  [[nodiscard]] const Views& views() const { return views_; }
+  [[nodiscard]] const EquationSetOptions& seen() const { return seen_; }
+  [[nodiscard]] const EquationSets& sets() const { return sets_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
   [[nodiscard]] const CompetitionResult& result() const { return result_; }
   [[nodiscard]] CompetitionResult& result() { return result_; }
-  /// Recordings that an rms is of: all of their equations, rests or not.
+  /// Recordings that an rms is of: all of their equations, sticks or not.
   [[nodiscard]] const EffectRecordings& shown_train() const;
   [[nodiscard]] const EffectRecordings& shown_heldout() const;
 
  private:
-  bool look_beside(const std::vector<RestingJoint>& found);
+  bool look_beside(const std::vector<StictionJoint>& found);
 
   const DiagnosisInput& input_;
   Eigen::Index decimation_;
   EquationRules rules_;
   Division parts_;
-  ViewOptions seen_;
-  Views views_;
+  EquationSetOptions seen_;
+  EquationSets sets_;
   Eigen::VectorXd moving_;  ///< (n) part of the equations in which a joint does not stand still
-  /// Recordings with the joint state that was chosen and where joints rest, if the views are
+  /// Recordings with the joint state that was chosen and where joints rest, if the sets are
   /// others.
   struct Whole {
     EffectRecordings train, heldout;

@@ -40,7 +40,8 @@ bool scan_again(const EffectRecordings& data, EffectSignals& signals,
     std::optional<TrialScore> best;
     for (const TrialScore& trial :
          try_shapes(data, signals, system, hypothesis, trials, here, false)) {
-      if (trial.admissible && (!best || trial.score.squares > best->score.squares)) best = trial;
+      if (trial.admissible && (!best || trial.score.delta_chi2 > best->score.delta_chi2))
+        best = trial;
     }
     if (!best) continue;
     best = refined(data, signals, system, hypothesis, *best, here);

@@ -20,7 +20,7 @@ enum class Verdict {
 };
 
 /// Where an effect shows: a range of a variable that holds most of it.
-struct Whereabouts {
+struct EffectLocation {
   std::string variable;     ///< "qd2", "q3", "tau_load2", "t", "distance2"; joints from 1
   double from = 0, to = 0;  ///< rad, rad/s, N m, s ...
   /// s: the part of the recordings in which it acts; NaN: all of it
@@ -64,7 +64,7 @@ struct Finding {
   bool since_reference = false;
   bool doubted = false;  ///< a bound holds the estimate, or a falsifier speaks against the name
   double absorbed = 0;   ///< part of its squares that a refit of the model takes up
-  Whereabouts where;
+  EffectLocation where;
   Evidence evidence;
   std::vector<FalsifierOutcome> tests;
   std::string formula;  ///< of the effect's file; empty where the caller knows it

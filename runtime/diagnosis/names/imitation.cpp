@@ -13,7 +13,7 @@ Imitation imitation(const EvidenceSystem& system, const JointColumns& torque,
   as_rest.left = products.left.bottomRightCorner(k, k);
   as_rest.rest = products.left.bottomLeftCorner(k, 1);
   const double whole = products.left(0, 0);
-  return {std::max(0.0, whole - score_of(as_rest, false).squares), whole};
+  return {std::max(0.0, whole - score_of(as_rest, false).delta_chi2), whole};
 }
 
 }  // namespace dyngen::runtime

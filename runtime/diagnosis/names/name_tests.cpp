@@ -122,10 +122,11 @@ Size size_where(const JointView& view, const ArrayXd& weight) {
   return {(weight * view.effect.square()).sum(), (weight * view.effect * view.rest).sum()};
 }
 
-std::vector<JointView> views_of(const EffectRecordings& data, EffectSignals& signals,
-                                const EvidenceSystem& system, const EffectInstance& effect) {
+std::vector<JointView> equation_sets_of(const EffectRecordings& data, EffectSignals& signals,
+                                        const EvidenceSystem& system,
+                                        const EffectInstance& effect) {
   const JointColumns columns = system.whitened(effect_columns(data, signals, effect, {0}));
-  std::vector<JointView> views;
+  std::vector<JointView> sets;
   for (const int joint : columns.joints) {
     JointView view;
     view.effect = system.left_of(columns, joint).col(0).array();
@@ -141,18 +142,18 @@ std::vector<JointView> views_of(const EffectRecordings& data, EffectSignals& sig
     const ArrayXd positions = at_equations(Kind::kPosition, joint);
     view.range = positions.maxCoeff() - positions.minCoeff();
     view.v90 = quantile(view.speed, ArrayXd::Ones(view.speed.size()), 0.9);
-    views.push_back(std::move(view));
+    sets.push_back(std::move(view));
   }
-  return views;
+  return sets;
 }
 
 std::string size_text(const Size& size) {
   return fmt::format("{:.2f} +- {:.2f}", size.value(), size.stddev());
 }
 
-FalsifierOutcome compared(const NameTest& test, const std::vector<JointView>& views) {
+FalsifierOutcome compared(const NameTest& test, const std::vector<JointView>& sets) {
   Size first, second;
-  for (const JointView& view : views) {
+  for (const JointView& view : sets) {
     const ArrayXd side = test.divide(view);
     const Size a = size_where(view, (side > 0).cast<double>()),
                b = size_where(view, (side < 0).cast<double>());
@@ -162,7 +163,7 @@ FalsifierOutcome compared(const NameTest& test, const std::vector<JointView>& vi
   for (const auto& [size, where] : {std::pair(first, test.first), {second, test.second}}) {
     if (size.squares >= kLeastShown) continue;
     return {test.name, true,
-            fmt::format("these recordings show too little of it {}: {:.0f} squares of noise", where,
+            fmt::format("these recordings show too little of it {}: chi-square {:.0f}", where,
                         size.squares),
             false};
   }
@@ -176,12 +177,12 @@ FalsifierOutcome compared(const NameTest& test, const std::vector<JointView>& vi
 }
 
 /// One value explains every joint on which the effect shows.
-FalsifierOutcome all_joints(const std::vector<JointView>& views, const std::vector<int>& joints) {
+FalsifierOutcome all_joints(const std::vector<JointView>& sets, const std::vector<int>& joints) {
   double sum = 0, product = 0;
   std::vector<Size> sizes;
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const Size size = size_where(views[i], ArrayXd::Ones(views[i].effect.size()));
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const Size size = size_where(sets[i], ArrayXd::Ones(sets[i].effect.size()));
     if (size.squares < kLeastShown) continue;
     sizes.push_back(size);
     texts.push_back(fmt::format("{} on joint {}", size_text(size), joints[i] + 1));
@@ -210,14 +211,14 @@ std::vector<FalsifierOutcome> name_tests(const EffectRecordings& data, EffectSig
                                          const EffectInstance& effect) {
   std::vector<FalsifierOutcome> outcomes;
   if (effect.law.tests.empty()) return outcomes;
-  const std::vector<JointView> views = views_of(data, signals, system, effect);
+  const std::vector<JointView> sets = equation_sets_of(data, signals, system, effect);
   for (const std::string& name : effect.law.tests) {
     const auto of_name = [&](const auto& entry) { return name == entry.name; };
     const auto split = std::find_if(two_sided().begin(), two_sided().end(), of_name);
     if (split != two_sided().end()) {
-      outcomes.push_back(compared(*split, views));
+      outcomes.push_back(compared(*split, sets));
     } else if (name == "all_joints") {
-      outcomes.push_back(all_joints(views, joints_of(effect, data.joints())));
+      outcomes.push_back(all_joints(sets, joints_of(effect, data.joints())));
     } else {
       const auto need = std::find_if(needs().begin(), needs().end(),
                                      [&](const auto& entry) { return name == entry.first; });

@@ -14,7 +14,7 @@ namespace dyngen::runtime {
 /// without what the model absorbs, is fitted to what is left on each side by itself; a name passes
 /// if both sizes agree within 3.5 standard deviations. Where one side holds too little of the
 /// effect, or a test asks for another recording, the outcome is not known and says what is needed.
-/// @param system  of the model without the effect, as whereabouts_of() has it
+/// @param system  of the model without the effect, as location_of() has it
 /// @param effect  at its estimate
 std::vector<FalsifierOutcome> name_tests(const EffectRecordings& data, EffectSignals& signals,
                                          const EvidenceSystem& system,

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "runtime/diagnosis/competition/heldout.h"
-#include "runtime/diagnosis/competition/own_scatter.h"
+#include "runtime/diagnosis/competition/sandwich_test.h"
 #include "runtime/diagnosis/names/rivals.h"
 #include "runtime/diagnosis/names/stability.h"
 #include "runtime/diagnosis/names/unnamed_rival.h"
@@ -63,7 +63,7 @@ void select_from_halves(const EffectRecordings& data, EffectSignals& signals,
   const auto contender = [&](std::size_t hypothesis, const TrialScore& trial, double left) {
     return Contender{
         hypothesis_columns(data, signals, system, hypotheses[hypothesis], trial.effect),
-        trial.score.squares - left};
+        trial.score.delta_chi2 - left};
   };
   std::vector<Contender> contenders = {contender(own.hypothesis, found, net)};
   for (const auto& [family, rival] : rivals) {
@@ -112,7 +112,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   Naming naming;
   naming.families = {hypothesis.effect.law.family};
   const double best = rivals.net;
-  naming.lambda = std::max(0.0, rivals.own.score.squares - rivals.own.score.degrees);
+  naming.lambda = std::max(0.0, rivals.own.score.delta_chi2 - rivals.own.score.degrees);
   naming.delta_bic = -best;
   naming.part_left = rivals.own.score.part_left;
   naming.kin = std::move(rivals.kin);

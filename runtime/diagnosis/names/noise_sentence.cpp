@@ -18,21 +18,19 @@ std::string in_some(const std::vector<MotionSource>& sources, const std::vector<
 }
 
 /// Joints of the same recordings in one clause.
-std::string rests(const std::vector<RestingJoint>& joints, const std::vector<MotionSource>& train,
-                  const char* what) {
+std::string sticks(const std::vector<StictionJoint>& joints, const std::vector<MotionSource>& train,
+                   const char* what) {
   std::map<std::vector<int>, std::vector<int>> by_recordings;
-  for (const RestingJoint& resting : joints) {
-    by_recordings[resting.recordings].push_back(resting.joint + 1);
+  for (const StictionJoint& sticking : joints) {
+    by_recordings[sticking.recordings].push_back(sticking.joint + 1);
   }
   std::string text;
   for (auto& [recordings, numbers] : by_recordings) {
     std::sort(numbers.begin(), numbers.end());
     const bool several = numbers.size() > 1;
-    text += fmt::format(
-        "; joint{} {} rest{} for an instant where {}{}: friction there may be of any size, and {} "
-        "left out of the judgement",
-        several ? "s" : "", fmt::join(numbers, ", "), several ? "" : "s",
-        several ? "they turn" : "it turns", in_some(train, recordings), what);
+    text += fmt::format(". Joint{} {} {} at reversals{}. Friction can take any value there; {}",
+                        several ? "s" : "", fmt::join(numbers, ", "), several ? "stick" : "sticks",
+                        in_some(train, recordings), what);
   }
   return text;
 }
@@ -40,13 +38,13 @@ std::string rests(const std::vector<RestingJoint>& joints, const std::vector<Mot
 }  // namespace
 
 std::string noise_sentence(const TorqueNoiseModel& noise, const std::vector<MotionSource>& train,
-                           const std::vector<RestingJoint>& left_out,
-                           const std::vector<RestingJoint>& impulses) {
-  return (noise.from_periods ? "from what differs between periods of the same motion"
-                             : "from what the last model leaves: a lower bound of what is missing, "
-                               "since no motion repeats") +
-         rests(left_out, train, "what it would change there is") +
-         rests(impulses, train, "an impulse at each reversal is");
+                           const std::vector<StictionJoint>& left_out,
+                           const std::vector<StictionJoint>& impulses) {
+  return (noise.from_periods ? "from the differences between periods of the same motion"
+                             : "from the residual of the last model, since no motion repeats: an "
+                               "upper bound of the noise") +
+         sticks(left_out, train, "these equations are excluded") +
+         sticks(impulses, train, "an impulse at each reversal is excluded");
 }
 
 }  // namespace dyngen::runtime

@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "runtime/diagnosis/views/resting_joint.h"
+#include "runtime/diagnosis/equation_sets/stiction_joint.h"
 #include "runtime/evidence/torque_noise_model.h"
 #include "runtime/identification/motion_source.h"
 
 namespace dyngen::runtime {
 
 /// How the noise is known, and what of joints that rest is not judged.
-/// @param train     what RestingJoint::recordings counts
+/// @param train     what StictionJoint::recordings counts
 /// @param left_out  joints whose equations at their reversals do not count
 /// @param impulses  joints that have an impulse at each reversal instead
 std::string noise_sentence(const TorqueNoiseModel& noise, const std::vector<MotionSource>& train,
-                           const std::vector<RestingJoint>& left_out,
-                           const std::vector<RestingJoint>& impulses);
+                           const std::vector<StictionJoint>& left_out,
+                           const std::vector<StictionJoint>& impulses);
 
 }  // namespace dyngen::runtime

@@ -112,7 +112,7 @@ class Changes {
           change.trial.score.coefficients[static_cast<Index>(i)];
     }
     change.covariance = products.left.completeOrthogonalDecomposition().pseudoInverse();
-    change.net = change.trial.score.squares - price_of(hypothesis, change.trial, result_.noise);
+    change.net = change.trial.score.delta_chi2 - price_of(hypothesis, change.trial, result_.noise);
     return change;
   }
 
@@ -145,7 +145,8 @@ Finding finding_of(const Change& change, const std::vector<Change>& ranked,
     }
   }
   finding.probability = 1 / (1 + rest);
-  finding.evidence.lambda = std::max(0.0, change.trial.score.squares - change.trial.score.degrees);
+  finding.evidence.lambda =
+      std::max(0.0, change.trial.score.delta_chi2 - change.trial.score.degrees);
   finding.evidence.delta_bic = -change.net;
   finding.parameters.resize(static_cast<std::size_t>(hypothesis.effect.law.size()));
   for (int p = 0; p < hypothesis.effect.law.size(); ++p) {
@@ -162,8 +163,8 @@ Finding finding_of(const Change& change, const std::vector<Change>& ranked,
   }
   finding.where.share = std::numeric_limits<double>::quiet_NaN();
   finding.why = fmt::format(
-      "the parameters of the reference recordings do not fit the others: a change by {} explains "
-      "{:.0f} squares of noise",
+      "the parameters of the reference recordings do not fit the others: a change by {} lowers "
+      "chi-square by {:.0f}",
       hypothesis.effect.law.family, finding.evidence.lambda);
   return finding;
 }
@@ -179,7 +180,7 @@ std::vector<Finding> changes_since(const EffectRecordings& reference, const Effe
     const std::vector<Change> ranked = changes.ranked();
     if (ranked.empty()) break;
     const Change& best = ranked.front();
-    const double surprise = surprise_of(best.trial.score.squares, best.trial.score.degrees);
+    const double surprise = surprise_of(best.trial.score.delta_chi2, best.trial.score.degrees);
     if (best.net <= 0 || static_cast<double>(ranked.size()) * std::exp(-surprise) > false_alarm) {
       break;
     }

@@ -22,11 +22,11 @@ std::vector<std::size_t> strongest_of_round(const Winner& winner,
   for (const NamedResult& named : winner.others) {
     if (named.hypothesis == winner.hypothesis || !named.seen || !named.best.admissible) continue;
     if (hypotheses[named.hypothesis].windowed && !hypotheses[winner.hypothesis].windowed) continue;
-    if (named.best.score.squares < kStrongEnough * winner.trial.score.squares) continue;
+    if (named.best.score.delta_chi2 < kStrongEnough * winner.trial.score.delta_chi2) continue;
     places.push_back(named.hypothesis);
   }
   std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
-    return winner.others[a].best.score.squares > winner.others[b].best.score.squares;
+    return winner.others[a].best.score.delta_chi2 > winner.others[b].best.score.delta_chi2;
   });
   if (places.size() > kCompared) places.resize(kCompared);
   return places;

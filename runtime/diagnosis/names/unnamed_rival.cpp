@@ -36,8 +36,8 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
                            const EffectInstance& found, const EvidenceSystem& system) {
   std::vector<int> joints = joints_of(hypotheses[winner.hypothesis].effect, data.joints());
   std::erase_if(joints, [&](int joint) {
-    return std::any_of(result.resting.begin(), result.resting.end(),
-                       [&](const RestingJoint& resting) { return resting.joint == joint; });
+    return std::any_of(result.sticking.begin(), result.sticking.end(),
+                       [&](const StictionJoint& sticking) { return sticking.joint == joint; });
   });
   const auto meets = [&](int joint) {
     return std::find(joints.begin(), joints.end(), joint) != joints.end();

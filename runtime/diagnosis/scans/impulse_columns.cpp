@@ -60,17 +60,17 @@ class FeltSamples {
 /// which the joint may have stopped, two or more of each.
 std::vector<Index> impulses_of(const EffectRun& run, int joint, double still, Index apart) {
   const auto dq = run.motion.dq.col(joint);
-  const auto stops = [&](Index k) {
+  const auto stiction = [&](Index k) {
     return std::abs(dq[k]) < still || (k > 0 && dq[k] * dq[k - 1] < 0);
   };
   std::vector<Index> middles;
   Index end = -1;  // of the last stretch
   for (Index k = 0; k < dq.size(); ++k) {
-    if (!stops(k)) continue;
+    if (!stiction(k)) continue;
     const Index from = k;
     Index to = k;
     for (Index i = k; i < std::min(dq.size(), to + apart); ++i) {
-      if (stops(i)) to = i;
+      if (stiction(i)) to = i;
     }
     const Index length = to - from, count = std::max<Index>(4, 3 + (length + apart) / apart);
     const Index first = (from + to) / 2 - (count - 1) * apart / 2;

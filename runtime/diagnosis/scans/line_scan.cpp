@@ -92,7 +92,7 @@ LineScan scan_lines(const EffectRecordings& data, const EvidenceSystem& system, 
   }
   if (scan.score.degrees == 0) return scan;
   Index best = 0;
-  scan.score.squares = squares.tail(lines - first).maxCoeff(&best);
+  scan.score.delta_chi2 = squares.tail(lines - first).maxCoeff(&best);
   scan.frequency = static_cast<double>(first + best) / duration;
   scan.score.part_left = 1;
   if (surrogates) {

@@ -100,7 +100,7 @@ OrderScan scan_orders(const EffectRecordings& data, const EvidenceSystem& system
          system.products_of_groups(system.whitened(columns), 2, surrogates)) {
       const Score score = score_of(products, surrogates);
       if (surrogates) scan.surrogates = scan.surrogates.cwiseMax(score.surrogates);
-      (error ? error_squares : squares).push_back(score.squares);
+      (error ? error_squares : squares).push_back(score.delta_chi2);
       error = !error;
     }
   }

@@ -60,7 +60,7 @@ Level level_beside(const EffectRecordings& data, const EvidenceSystem& system, i
         score_of(system.products(
                      system.whitened(harmonic_columns(data, joint, repeats, band, aside)), false),
                  false);
-    level.squares += between.squares;
+    level.squares += between.delta_chi2;
     level.degrees += between.degrees;
   }
   return level;
@@ -82,8 +82,8 @@ RepeatScan scan_repeats(const EffectRecordings& data, const EvidenceSystem& syst
     Score score = score_of(system.products(system.whitened(columns), surrogates), surrogates);
     if (score.degrees == 0) continue;
     const Level level = level_beside(data, system, joint, repeats, band);
-    score.squares /= level.of_noise();
-    const double above = (score.squares - score.degrees) / std::sqrt(2.0 * score.degrees);
+    score.delta_chi2 /= level.of_noise();
+    const double above = (score.delta_chi2 - score.degrees) / std::sqrt(2.0 * score.degrees);
     if (scan.score.degrees > 0 && above <= most) continue;
     most = above;
     scan.frequency = band;

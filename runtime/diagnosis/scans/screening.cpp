@@ -48,7 +48,7 @@ struct NoiseSurprises {
 
 bool better(const TrialScore& a, const TrialScore& b) {
   if (a.admissible != b.admissible) return a.admissible;
-  return a.score.squares > b.score.squares;
+  return a.score.delta_chi2 > b.score.delta_chi2;
 }
 
 /// Trial shapes of an effect that repeats with position: its order is a peak, or a peak is one of
@@ -195,12 +195,13 @@ class Screener {
         for (TrialScore& trial : try_shapes(data, signals, system_, hypothesis,
                                             trials(place, scales), scales, !before_)) {
           if (!before_) noise.add(trial.score.surrogates, trial.score.degrees);
-          if (first || trial.score.squares > result.freest.score.squares) result.freest = trial;
+          if (first || trial.score.delta_chi2 > result.freest.score.delta_chi2)
+            result.freest = trial;
           if (first || better(trial, result.best)) result.best = std::move(trial);
           first = false;
         }
       }
-      result.seen = std::isfinite(result.best.score.squares) && result.best.score.degrees > 0;
+      result.seen = std::isfinite(result.best.score.delta_chi2) && result.best.score.degrees > 0;
     } catch (const std::invalid_argument&) {
       result.seen = false;  // a signal is missing
     }
@@ -244,7 +245,7 @@ double surprise_of(double squares, int degrees, double worth) {
 }
 
 double surprise_of(const NamedResult& named) {
-  return surprise_of(named.best.score.squares / named.slow_noise, named.best.score.degrees,
+  return surprise_of(named.best.score.delta_chi2 / named.slow_noise, named.best.score.degrees,
                      named.worth);
 }
 
@@ -253,7 +254,7 @@ int degrees_of_refined(const NamedResult& named, const Hypothesis& hypothesis) {
 }
 
 double surprise_of_refined(const NamedResult& named, const Hypothesis& hypothesis) {
-  const double searched = surprise_of(named.best.score.squares / named.slow_noise,
+  const double searched = surprise_of(named.best.score.delta_chi2 / named.slow_noise,
                                       degrees_of_refined(named, hypothesis), named.worth);
   return std::max(named.surprise, searched);
 }

@@ -69,7 +69,7 @@ class Group {
         result.score = score(generic_columns(data_.whole(), reader_.whole, structure));
         break;
     }
-    result.surprise = surprise_of(result.score.squares, result.score.degrees, worth);
+    result.surprise = surprise_of(result.score.delta_chi2, result.score.degrees, worth);
     return result;
   }
 

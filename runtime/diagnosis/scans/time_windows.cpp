@@ -145,7 +145,7 @@ double squares_elsewhere(const std::vector<Running>& recordings, int recording, 
     for (std::size_t at = own ? best.from % length : 0; at + length <= kBlocks; at += length) {
       if (own && at < best.to && best.from < at + length) continue;
       const Score score = score_of(beside({recordings[r], at, at + length}, best), false);
-      squares += score.squares;
+      squares += score.delta_chi2;
       degrees += score.degrees;
     }
   }
@@ -194,7 +194,7 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
         if (!ends && (from == 0 || from + 3 > kBlocks)) continue;
         Score score = score_of(between(sums, from, to), surrogates);
         if (surrogates) largest = largest.cwiseMax(score.surrogates);
-        if (scan.found && score.squares <= scan.score.squares) continue;
+        if (scan.found && score.delta_chi2 <= scan.score.delta_chi2) continue;
         scan.score = std::move(score);
         scan.begin = static_cast<double>(from) * step;
         scan.end = static_cast<double>(to) * step;

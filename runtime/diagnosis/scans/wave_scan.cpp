@@ -50,7 +50,7 @@ WaveScan scan_waves(const EffectRecordings& data, const EvidenceSystem& system, 
   for (std::size_t i = 0; i < groups.size(); ++i) {
     Score score = score_of(groups[i], surrogates);
     if (surrogates) score.surrogates = score.surrogates.cwiseMax(scan.score.surrogates);
-    const bool better = score.squares > scan.score.squares;
+    const bool better = score.delta_chi2 > scan.score.delta_chi2;
     if (better) {
       scan.frequency = waves.frequencies.col(static_cast<Index>(i));
       scan.score = std::move(score);

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "runtime/diagnosis/views/views.h"
+#include "runtime/diagnosis/equation_sets/equation_sets.h"
 #include "tests/baselines/baselines.h"
 #include "tests/blind/dynid/case_input.h"
 
@@ -16,7 +16,7 @@ namespace dyngen::test {
 namespace {
 
 std::vector<BaselineResult> results(const runtime::DiagnosisInput& input) {
-  const runtime::ViewOptions view{runtime::diagnosis_rows(input.train, 0), {}};
+  const runtime::EquationSetOptions view{runtime::diagnosis_rows(input.train, 0), {}};
   return baseline_results(runtime::equations_of(input, input.train, view),
                           runtime::equations_of(input, input.heldout, view), input.hypotheses);
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/diagnosis/views/diagnosis_input.h"
+#include "runtime/diagnosis/equation_sets/diagnosis_input.h"
 
 namespace blind {
 

@@ -15,7 +15,7 @@ namespace {
 using namespace dyngen::runtime;
 using Eigen::Index;
 
-/// What two views of the same equations differ in, as one column.
+/// What two sets of the same equations differ in, as one column.
 JointColumns difference(const EffectRecordings& a, const EffectRecordings& b) {
   JointColumns column;
   for (int j = 0; j < a.joints(); ++j) {
@@ -56,7 +56,7 @@ double repeating_part(const EffectRecordings& data, const EvidenceSystem& system
   products.rest = products.left.col(0).tail(lines).eval();
   products.left = products.left.bottomRightCorner(lines, lines).eval();
   products.whole = products.whole.bottomRightCorner(lines, lines).eval();
-  return score_of(products, false).squares;
+  return score_of(products, false).delta_chi2;
 }
 
 }  // namespace
@@ -70,25 +70,25 @@ Reach reach_of(const DiagnosisInput& input, std::vector<MotionSource> without) {
   options.seed = defaults.seed;
   search.compete(options, {});
   const Division parts{std::move(without), search.parts().heldout};
-  const Views bare = views_of(input, parts, search.seen());
-  const Views& views = search.views();
-  const JointColumns column = difference(views.evidence(), bare.evidence());
-  const EffectPoint model = model_of(views.train), truth = model_of(bare.train);
-  const std::vector<double> repeats = repeats_of(views.train);
+  const EquationSets bare = equation_sets_of(input, parts, search.seen());
+  const EquationSets& sets = search.sets();
+  const JointColumns column = difference(sets.evidence(), bare.evidence());
+  const EffectPoint model = model_of(sets.train), truth = model_of(bare.train);
+  const std::vector<double> repeats = repeats_of(sets.train);
   // the model alone, with the noise that residuals at a point show
-  EffectSignals signals(views.evidence());
+  EffectSignals signals(sets.evidence());
   const auto system_with = [&](const EffectRecordings& data, const EffectPoint& point) {
     const TorqueNoiseModel noise =
         torque_noise_model(data, residuals_of(data, point), repeats, true);
-    return system_at(views.evidence(), signals, model, {}, noise, {});
+    return system_at(sets.evidence(), signals, model, {}, noise, {});
   };
   Reach reach;
   reach.lambda = beside_model(system_with(bare.train, truth), column).left(0, 0);
-  const EvidenceSystem system = system_with(views.train, model);
+  const EvidenceSystem system = system_with(sets.train, model);
   const Products seen = beside_model(system, column);
   reach.seen = seen.left(0, 0);
-  reach.found = score_of(seen, false).squares;
-  reach.repeating = repeating_part(views.evidence(), system, column, repeats);
+  reach.found = score_of(seen, false).delta_chi2;
+  reach.repeating = repeating_part(sets.evidence(), system, column, repeats);
   const double surprise = search.result().last.threshold(defaults.false_alarm);
   reach.needed =
       quantile(complement(boost::math::chi_squared_distribution<>(1), std::exp(-surprise)));

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "runtime/diagnosis/views/diagnosis_input.h"
+#include "runtime/diagnosis/equation_sets/diagnosis_input.h"
 
 namespace blind {
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "runtime/diagnosis/views/sufficiency.h"
+#include "runtime/diagnosis/equation_sets/sufficiency.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {
@@ -109,7 +109,7 @@ TEST(Diagnosis, SaysOnWhichOtherJointAnEffectWouldDoAsWell) {
   const int other = finding.effect.joint == 0 ? 2 : 1;
   EXPECT_EQ(finding.elsewhere.find("the same of joint " + std::to_string(other)), 0U)
       << finding.elsewhere;
-  EXPECT_NE(finding.why.find("do not tell it from " + finding.elsewhere), std::string::npos)
+  EXPECT_NE(finding.why.find("cannot separate it from " + finding.elsewhere), std::string::npos)
       << finding.why;
 
   const EffectInstance spring = test::known(test::spring_law(), 1, {0.4});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/views/division.h"
+#include "runtime/diagnosis/equation_sets/division.h"
 
 #include <gtest/gtest.h>
 

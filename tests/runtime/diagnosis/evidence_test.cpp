@@ -6,9 +6,9 @@
 #include <random>
 #include <utility>
 
+#include "runtime/diagnosis/equation_sets/left_out_rows.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
 #include "runtime/diagnosis/scans/screening.h"
-#include "runtime/diagnosis/views/left_out_rows.h"
 #include "runtime/effects/absorption.h"
 #include "runtime/evidence/evidence_system.h"
 #include "tests/runtime/effects/effect_arm.h"
@@ -173,7 +173,7 @@ TEST(EvidenceSystem, NoiseGivesChiSquare) {
   const double mean = score.surrogates.mean();
   EXPECT_NEAR(mean, score.degrees, 4 * std::sqrt(2.0 * score.degrees / 400));
   // and the recording's own noise is one of them
-  EXPECT_LT(score.squares, score.degrees + 5 * std::sqrt(2.0 * score.degrees));
+  EXPECT_LT(score.delta_chi2, score.degrees + 5 * std::sqrt(2.0 * score.degrees));
 }
 
 TEST(EvidenceSystem, WhatTheModelSpansIsNoEvidence) {
@@ -199,7 +199,7 @@ TEST(EvidenceSystem, SquaresGrowAsTheNoncentralitySays) {
       system.products(system.whitened(effect_columns(data, signals, spring, {1})));
   const double lambda = 0.04 * products.left(0, 0);
   const Score score = score_of(products);
-  EXPECT_NEAR(score.squares, lambda + 1, 4 * std::sqrt(2 + 4 * lambda));
+  EXPECT_NEAR(score.delta_chi2, lambda + 1, 4 * std::sqrt(2 + 4 * lambda));
   EXPECT_NEAR(score.coefficients[0], 0.2, 4 * 0.2 / std::sqrt(lambda));
 }
 

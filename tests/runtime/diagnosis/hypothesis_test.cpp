@@ -53,7 +53,7 @@ TEST_F(TryHypothesis, FindsTheSizeOfAnEffectWhereverItIsNone) {
   const TrialScore moved = score_of(wave_law(2));
   EXPECT_NEAR(moved.effect.parameters[0], plain.effect.parameters[0] + 2, 1e-6);
   EXPECT_NEAR(moved.typical[0], 0.1, 1e-6);
-  EXPECT_NEAR(moved.score.squares, plain.score.squares, 1e-6 * plain.score.squares);
+  EXPECT_NEAR(moved.score.delta_chi2, plain.score.delta_chi2, 1e-6 * plain.score.delta_chi2);
 }
 
 TEST_F(TryHypothesis, OfAProportionalLawIsTheSameWithoutItsTorque) {
@@ -61,7 +61,7 @@ TEST_F(TryHypothesis, OfAProportionalLawIsTheSameWithoutItsTorque) {
   const TrialScore by_torque = score_of(law);
   law.proportional = true;
   const TrialScore without = score_of(law);
-  EXPECT_EQ(without.score.squares, by_torque.score.squares);
+  EXPECT_EQ(without.score.delta_chi2, by_torque.score.delta_chi2);
   EXPECT_EQ(without.effect.parameters[0], by_torque.effect.parameters[0]);
   EXPECT_EQ(without.typical_lambda, by_torque.typical_lambda);
 }

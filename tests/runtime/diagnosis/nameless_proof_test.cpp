@@ -62,7 +62,7 @@ TEST(NamelessProof, HeldOutRecordingsThatHaveItHelp) {
   constexpr double kSize = 0.03;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Trial there = trial(kSize, kSize, seed);
-    ASSERT_GT(there.nameless.score.squares, 30) << seed;
+    ASSERT_GT(there.nameless.score.delta_chi2, 30) << seed;
     EXPECT_TRUE(there.proof.helps()) << seed;
     EXPECT_TRUE(there.proof.agrees()) << seed;
     const Trial gone = trial(kSize, 0, seed);

@@ -50,7 +50,7 @@ struct RepeatCase {
   }
   [[nodiscard]] double p_of(int joint) const {
     const Score score = scan(joint).score;
-    return variance_ratio_tail(score.squares / score.degrees, score.degrees, 2000);
+    return variance_ratio_tail(score.delta_chi2 / score.degrees, score.degrees, 2000);
   }
 
   EffectRecordings data;

@@ -84,7 +84,7 @@ TEST_F(ScreeningTest, OfAGroupIsThatOfEachAlone) {
     structure.frequency = result.frequency;
     const Score alone = score_of(
         system_.products(system_.whitened(generic_columns(data_, signals, structure))), true);
-    EXPECT_NEAR(alone.squares, result.score.squares, 1e-9 * (1 + alone.squares))
+    EXPECT_NEAR(alone.delta_chi2, result.score.delta_chi2, 1e-9 * (1 + alone.delta_chi2))
         << result.structure;
     EXPECT_EQ(alone.degrees, result.score.degrees);
     ++compared;

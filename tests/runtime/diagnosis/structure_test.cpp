@@ -9,11 +9,11 @@
 #include <random>
 
 #include "runtime/diagnosis/competition/heldout.h"
+#include "runtime/diagnosis/equation_sets/left_out_rows.h"
 #include "runtime/diagnosis/names/naming.h"
 #include "runtime/diagnosis/scans/impulse_columns.h"
 #include "runtime/diagnosis/scans/line_scan.h"
 #include "runtime/diagnosis/scans/time_windows.h"
-#include "runtime/diagnosis/views/left_out_rows.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {
@@ -65,11 +65,11 @@ TEST(LineScan, FindsTheFrequencyOfASinusoid) {
   // lambda = N a^2 / (2 sigma^2)
   const double lambda =
       static_cast<double>(data.equations()) * 0.0025 / (2 * test::kArmNoise * test::kArmNoise);
-  EXPECT_NEAR(there.score.squares, lambda + 4, 4 * std::sqrt(8 + 4 * lambda));
+  EXPECT_NEAR(there.score.delta_chi2, lambda + 4, 4 * std::sqrt(8 + 4 * lambda));
   // noise alone does not come near, and the other joint is noise
   EXPECT_LT(there.score.surrogates.maxCoeff(), 0.5 * lambda);
-  EXPECT_LT(other.score.squares, 1.5 * other.score.surrogates.maxCoeff());
-  EXPECT_GT(other.score.squares, 0.5 * other.score.surrogates.minCoeff());
+  EXPECT_LT(other.score.delta_chi2, 1.5 * other.score.surrogates.maxCoeff());
+  EXPECT_GT(other.score.delta_chi2, 0.5 * other.score.surrogates.minCoeff());
 }
 
 TEST(ImpulseColumns, AreFewWhereAJointStandsForLong) {
@@ -129,7 +129,7 @@ TEST(SquaresOfFew, RiseToThoseOfAllColumns) {
   ASSERT_EQ(squares.size(), 2U);
   EXPECT_NEAR(squares[0], 9, 1e-12);
   EXPECT_NEAR(squares[1], 10, 1e-12);
-  EXPECT_NEAR(score_of(products, false).squares, 10, 1e-12);
+  EXPECT_NEAR(score_of(products, false).delta_chi2, 10, 1e-12);
 }
 
 TEST(WindowScan, SaysInWhichRecording) {
@@ -144,7 +144,7 @@ TEST(WindowScan, SaysInWhichRecording) {
   EXPECT_EQ(scan.recording, 1);
   EXPECT_NEAR(scan.begin, 12, 0.3);
   EXPECT_NEAR(scan.end, 12.8, 0.3);
-  EXPECT_GT(scan.score.squares, 2 * scan.score.surrogates.maxCoeff());
+  EXPECT_GT(scan.score.delta_chi2, 2 * scan.score.surrogates.maxCoeff());
   // an effect of one recording has no columns in the others
   EffectInstance event = test::known(push_law(), 0, {0.3, 12, 12.8});
   event.recording = 1;
@@ -290,7 +290,7 @@ TEST(Diagnosis, WhatFrictionHoldsAtReversalsIsNoNameAndNoStructure) {
   const Diagnosis diagnosis = diagnose(input, test::every_sample());
   EXPECT_EQ(diagnosis.verdict, Verdict::kClean) << diagnosis.sentence;
   EXPECT_TRUE(diagnosis.findings.empty());
-  EXPECT_NE(diagnosis.noise.how.find("joints 1, 2 rest for an instant"), std::string::npos)
+  EXPECT_NE(diagnosis.noise.how.find("Joints 1, 2 stick at reversals"), std::string::npos)
       << diagnosis.noise.how;
 }
 

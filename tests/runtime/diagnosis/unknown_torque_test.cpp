@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "runtime/diagnosis/views/left_out_rows.h"
+#include "runtime/diagnosis/equation_sets/left_out_rows.h"
 #include "runtime/effects/absorption.h"
 #include "runtime/evidence/evidence_system.h"
 #include "tests/runtime/effects/effect_arm.h"
@@ -31,10 +31,10 @@ EffectRecordings recordings() {
       rows, {true, true});
 }
 
-EffectRecordings with_rests() {
+EffectRecordings with_stiction() {
   EffectRecordings data = recordings();
   EffectRun& run = data.runs.front();
-  mark_rests(run, run.motion, VectorXd::Constant(2, 1e-3), {kJoint}, 0.01);
+  mark_stiction(run, run.motion, VectorXd::Constant(2, 1e-3), {kJoint}, 0.01);
   return data;
 }
 
@@ -60,7 +60,7 @@ TorqueNoiseModel slow_noise() {
   return model;
 }
 
-/// Torque of any size where the joint rests, behind the parallel filter.
+/// Torque of any size where the joint sticks, behind the parallel filter.
 VectorXd at_rests(const EffectRun& run) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal(0, 100 * kDeviation);
@@ -77,7 +77,7 @@ VectorXd at_rests(const EffectRun& run) {
 }
 
 TEST(UnknownTorque, LeavesNothingOfAnyTorqueAtRests) {
-  const EffectRecordings data = with_rests();
+  const EffectRecordings data = with_stiction();
   const RunResiduals before = residuals(data);
   RunResiduals after = before;
   after[0].col(kJoint) += at_rests(data.runs.front());
@@ -93,10 +93,10 @@ TEST(UnknownTorque, LeavesNothingOfAnyTorqueAtRests) {
   }
 }
 
-/// A torque within the parallel filter's reach of rests is seen, which equations far from them
-/// miss.
+/// A torque within the parallel filter's reach of stiction intervals is seen, which equations far
+/// from them miss.
 TEST(UnknownTorque, LeavesWhatIsBesideThem) {
-  const EffectRecordings data = with_rests();
+  const EffectRecordings data = with_stiction();
   const EffectRun& run = data.runs.front();
   MatrixXd torque = MatrixXd::Zero(run.motion.samples(), 1);
   for (const SampleRange& range : run.unknown[kJoint]) {  // for 24 ms after each
@@ -109,7 +109,7 @@ TEST(UnknownTorque, LeavesWhatIsBesideThem) {
   };
   EffectRecordings known = data, left_out = data;
   for (EffectRecordings* each : {&known, &left_out}) each->runs.front().unknown.clear();
-  leave_out_rests(left_out.runs.front(), VectorXd::Constant(2, 1e-3), {kJoint});
+  leave_out_stiction(left_out.runs.front(), VectorXd::Constant(2, 1e-3), {kJoint});
   JointColumns masked = column;
   masked.parts[0] = left_out.runs.front().rows.counted.col(kJoint).asDiagonal() * masked.parts[0];
   const EvidenceSystem without(left_out, residuals(left_out), noise(), {});
@@ -121,7 +121,7 @@ TEST(UnknownTorque, LeavesWhatIsBesideThem) {
 
 /// Surrogates are what noise leaves: so much fewer squares as degrees are taken.
 TEST(UnknownTorque, IsTakenOutOfSurrogatesAndCounted) {
-  const EffectRecordings data = with_rests();
+  const EffectRecordings data = with_stiction();
   EffectRecordings known = data;
   known.runs.front().unknown.clear();
   EvidenceSystem::Options options;
@@ -138,7 +138,7 @@ TEST(UnknownTorque, IsTakenOutOfSurrogatesAndCounted) {
 /// Where noise has slow parts columns are not sparse: their basis lies in several pieces, each from
 /// another equation on. What they take out, taken out of equations, is all of it and nothing else.
 TEST(UnknownTorque, IsTakenOutInPiecesAsAWhole) {
-  const EffectRecordings data = with_rests();
+  const EffectRecordings data = with_stiction();
   const EffectRun& run = data.runs.front();
   const Whitener whitener(slow_noise().joints[kJoint], run.rows.counted.col(kJoint));
   const UnknownTorque unknown(run, kJoint, whitener);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/diagnosis/competition/stops.h"
+#include "runtime/diagnosis/competition/stiction_impulses.h"
 #include "runtime/diagnosis/names/naming.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
 #include "runtime/diagnosis/scans/screening.h"
@@ -51,9 +51,9 @@ TEST(WaveScan, FindsWhatAWaveTurnsByWithEachPosition) {
   // one of the grid, which is half a wave over the range of a position
   EXPECT_NEAR(there.frequency[0], 2, 0.8);
   EXPECT_NEAR(there.frequency[1], 3, 0.8);
-  EXPECT_GT(there.score.squares, 3 * there.score.surrogates.maxCoeff());
+  EXPECT_GT(there.score.delta_chi2, 3 * there.score.surrogates.maxCoeff());
   EXPECT_EQ(there.score.degrees, 2);
-  EXPECT_LT(other.score.squares, 2 * other.score.surrogates.maxCoeff());
+  EXPECT_LT(other.score.delta_chi2, 2 * other.score.surrogates.maxCoeff());
 }
 
 TEST(WaveScan, HasTheColumnsOfAWaveWhateverItsFrequenciesSigns) {
@@ -158,11 +158,11 @@ TEST(Naming, WhatHasNoNameTakesItsPartOfTheProbability) {
 }
 
 /// What a rest does lasts longer than an impulse does: friction goes with the way since then.
-TEST(Stops, AJointRestsWhereFrictionGoesWithTheWaySinceItTurned) {
+TEST(StictionImpulses, AJointRestsWhereFrictionGoesWithTheWaySinceItTurned) {
   const std::vector<GenericStructure> structures = generic_structures(2);
-  const std::vector<RestingJoint> none;
-  const auto resting = [&](const std::vector<EffectInstance>& effects,
-                           const GenericStructure& structure) {
+  const std::vector<StictionJoint> none;
+  const auto sticking = [&](const std::vector<EffectInstance>& effects,
+                            const GenericStructure& structure) {
     const EffectRecordings data = test::arm_recordings(test::two_recordings(effects, 4));
     EffectSignals signals(data);
     signals.set_beta(test::planar_arm_values());
@@ -170,33 +170,34 @@ TEST(Stops, AJointRestsWhereFrictionGoesWithTheWaySinceItTurned) {
     ScreeningData screened(data);
     const Screening screening = screen(screened, system, ScaleTable(data),
                                        test::planar_arm_values(), {}, structures, nullptr);
-    return Stops(data, signals, structures, none, 0.01).resting(system, screening, structure);
+    return StictionImpulses(data, signals, structures, none, 0.01)
+        .sticking(system, screening, structure);
   };
   const GenericStructure since{1, {{Kind::kDistance, 1}}, Form::kFriction};
   const GenericStructure by_load{1, {{Kind::kLoad, 1}}, Form::kFriction};
   const EffectInstance slip = test::known(test::slip_law(), 1, {60, 0.05});
-  const std::vector<RestingJoint> found = resting({slip}, since);
+  const std::vector<StictionJoint> found = sticking({slip}, since);
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found.front().joint, 1);
   EXPECT_EQ(found.front().recordings.size(), 2U);
   // what is no function of that way, and more than impulses explain, is no rest
-  EXPECT_TRUE(resting({slip}, by_load).empty());
-  // where impulses are noise nothing rests
-  EXPECT_TRUE(resting({}, since).empty());
+  EXPECT_TRUE(sticking({slip}, by_load).empty());
+  // where impulses are noise nothing sticks
+  EXPECT_TRUE(sticking({}, since).empty());
 }
 
-TEST(Stops, LittleIsNothingOnAJointThatRests) {
+TEST(StictionImpulses, LittleIsNothingOnAJointThatRests) {
   const EffectRecordings data = test::arm_recordings(test::two_recordings({}, 1));
   EffectSignals signals(data);
   const std::vector<GenericStructure> structures;
-  std::vector<RestingJoint> resting;
-  const Stops stops(data, signals, structures, resting, 0.01);
-  EXPECT_EQ(stops.unseen_on({0, 1}), 0);
-  resting = {{1, 500, {}}};
-  EXPECT_NEAR(stops.unseen_on({0}), 1, 1e-12);  // through the arm
-  EXPECT_NEAR(stops.unseen_on({0, 1}), 10, 1e-12);
-  EXPECT_TRUE(stops.rests(1));
-  EXPECT_FALSE(stops.rests(0));
+  std::vector<StictionJoint> sticking;
+  const StictionImpulses stiction(data, signals, structures, sticking, 0.01);
+  EXPECT_EQ(stiction.unseen_on({0, 1}), 0);
+  sticking = {{1, 500, {}}};
+  EXPECT_NEAR(stiction.unseen_on({0}), 1, 1e-12);  // through the arm
+  EXPECT_NEAR(stiction.unseen_on({0, 1}), 10, 1e-12);
+  EXPECT_TRUE(stiction.sticks(1));
+  EXPECT_FALSE(stiction.sticks(0));
 }
 
 }  // namespace

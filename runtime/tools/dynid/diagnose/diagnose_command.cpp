@@ -10,7 +10,7 @@
 
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/tool/output_files.h"
-#include "runtime/diagnosis/views/division.h"
+#include "runtime/diagnosis/equation_sets/division.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_document.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_recordings.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_report.h"
@@ -245,7 +245,7 @@ int run_diagnose(const ToolOptions& options) {
   Diagnosis diagnosis;
   DiagnosisViews views;
   Eigen::VectorXd posture = Eigen::VectorXd::Zero(robot.linear.joints());
-  const auto witness = [&](const DiagnosedRecordings& shown) {
+  const auto observer = [&](const DiagnosedRecordings& shown) {
     std::vector<std::string> plots;
     for (const EffectInstance& effect : shown.after.effects) {
       plots.push_back(catalogue.find(effect.law.name)->plot);
@@ -266,7 +266,7 @@ int run_diagnose(const ToolOptions& options) {
     const auto tell = [&](const std::string& stage, double done) {
       progress.show(stage, static_cast<std::size_t>(100 * done), 100);
     };
-    diagnosis = diagnose(input, settings, tell, witness);
+    diagnosis = diagnose(input, settings, tell, observer);
   } catch (const TooLittleDataError& error) {
     diagnosis.sentence = error.what();
   } catch (const ImplausibleError& error) {

@@ -26,11 +26,11 @@ ReportBars rms_bars(const DiagnosisReport& report) {
   const HeldoutResidual& rms = report.diagnosis.heldout;
   ReportBars bars;
   bars.id = "heldout-rms";
-  bars.title = "What is left of recordings that were not fitted, rms";
+  bars.title = "Held-out residual, rms";
   bars.caption =
-      "Of the recorded torque: less the model alone, refitted; less the model with what was found; "
-      "and the noise of the recordings that were fitted. Held-out ones may have more rests, where "
-      "friction may be anything. Each joint has its own scale.";
+      "Recorded torque less the refitted model, less the model with the findings, and the noise of "
+      "the fitted recordings. Held-out recordings may have more stiction, where friction can take "
+      "any value. Each joint has its own scale.";
   for (int j = 0; j < report.joints(); ++j) {
     const auto& marked = report.arm.joints;
     const bool found = std::any_of(marked.begin(), marked.end(), [&](const ReportArm::Joint& own) {

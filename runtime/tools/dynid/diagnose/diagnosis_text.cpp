@@ -16,7 +16,7 @@ using Eigen::Index;
 constexpr std::size_t kMostLines = 3;   // of what is listed besides findings
 constexpr std::size_t kMostShapes = 2;  // findings with a small plot
 
-std::string where_text(const DiagnosisReport& report, const Whereabouts& where) {
+std::string where_text(const DiagnosisReport& report, const EffectLocation& where) {
   std::string text;
   if (!where.variable.empty()) {
     const std::string unit = variable_unit(where.variable, report.revolute);

@@ -55,7 +55,7 @@ class FindingWriter {
   [[nodiscard]] bool drawn() const { return view_ != nullptr && !view_->over.empty(); }
 
   ReportPart where() const {
-    const Whereabouts& where = finding_.where;
+    const EffectLocation& where = finding_.where;
     std::string text = "It acts on " + answer_place(finding_.effect);
     if (!where.variable.empty()) {
       text += fmt::format(", at {} from {:.3g} to {}", where.variable, where.from,
@@ -135,7 +135,7 @@ class FindingWriter {
       const double left = std::max(0.0, after * after - floor * floor);
       facts.items.push_back(
           {"share of the gap", percent(std::clamp(1 - left / gap, 0.0, 1.0)),
-           fmt::format("of joint {}'s squares above the noise, closed by all findings",
+           fmt::format("of joint {}'s held-out variance above the noise, closed by all findings",
                        joint_ + 1)});
     }
     facts.items.push_back({"held-out gain", percent(finding_.evidence.heldout_gain),
@@ -144,13 +144,13 @@ class FindingWriter {
     part.blocks.emplace_back(
         ReportTable{{"evidence", "", ""},
                     {{"lambda", finding_.evidence.lambda,
-                      fmt::format("squares of noise that no refit of the model takes up; some "
-                                  "{:.0f} are found nine times in ten",
+                      fmt::format("chi-square reduction beside the refitted model; one of {:.0f} "
+                                  "is found with probability 0.9",
                                   report_.diagnosis.detectable_lambda)},
                      {"change of BIC", finding_.evidence.delta_bic,
-                      "of adding it, with the samples that the noise is worth; negative is better"},
+                      "with the effective number of samples; negative is better"},
                      {"absorbed", fmt::format("{:.1f} %", 100 * finding_.absorbed),
-                      "of its squares were hidden in the model's own parameters"}},
+                      "of its chi-square is absorbed by the model's own parameters"}},
                     0});
     return part;
   }

@@ -17,7 +17,7 @@ std::string names_of(const SeparationReport& report) {
 }
 
 /// Large ones without digits behind the point.
-std::string squares_words(double squares) {
+std::string chi_square_words(double squares) {
   return squares < 100 ? fmt::format("{:.3g}", squares) : fmt::format("{:.0f}", squares);
 }
 
@@ -28,13 +28,13 @@ std::string sentence_of(const SeparationReport& report) {
   const int periods = report.periods;
   const double least = periods * report.designed.separation.least;
   if (least >= kSeparated) {
-    return fmt::format("{} periods of this motion tell {}: {} squares of noise, {:.0f} are needed.",
-                       periods, names_of(report), squares_words(least), kSeparated);
+    return fmt::format("{} periods of this motion separate {}: chi-square {}; {:.0f} is needed.",
+                       periods, names_of(report), chi_square_words(least), kSeparated);
   }
   return fmt::format(
-      "{} periods of this motion do not yet tell {}: {} squares of noise, {:.0f} are needed; "
-      "{:.0f} periods have them.",
-      periods, names_of(report), squares_words(least), kSeparated,
+      "{} periods of this motion do not yet separate {}: chi-square {}; {:.0f} is needed, which "
+      "{:.0f} periods give.",
+      periods, names_of(report), chi_square_words(least), kSeparated,
       std::ceil(kSeparated / report.designed.separation.least));
 }
 
@@ -45,9 +45,8 @@ ReportBars rival_bars(const SeparationReport& report) {
   bars.id = "separation";
   bars.title = "How far rivals are from what was found";
   bars.caption = fmt::format(
-      "In squares of noise after {} periods, each rival at its nearest. Names are apart from "
-      "{:.0f} "
-      "on. Each rival has its own scale.",
+      "Chi-square after {} periods, each rival at its nearest. Names are separable from {:.0f} on. "
+      "Each rival has its own scale.",
       periods, kSeparated);
   const auto random = nearest_rivals(report.designed.random);
   for (const auto& [family, rival] : nearest_rivals(report.designed.separation)) {

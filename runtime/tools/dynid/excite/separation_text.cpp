@@ -42,7 +42,7 @@ std::string head(const SeparationReport& report) {
 }
 
 std::string menu(const SeparationReport& report) {
-  std::string text = fmt::format("\nseparation after {} periods of {:.6g} s, in squares of noise\n",
+  std::string text = fmt::format("\nseparation after {} periods of {:.6g} s, chi-square\n",
                                  report.periods, report.duration);
   const auto row = [&](double least, const std::string& what) {
     text += fmt::format("{:>12.4g}  {}\n", report.periods * least, what);

@@ -45,7 +45,8 @@ class RulesReader {
 
   void read_line(int line, const std::vector<RuleWord>& words) {
     if (words.empty()) return;
-    const auto error = [&](const RuleWord& word, const std::string& message, const std::string& hint) {
+    const auto error = [&](const RuleWord& word, const std::string& message,
+                           const std::string& hint) {
       diagnostics_.error({line, word.column}, static_cast<int>(word.text.size()), message, hint);
     };
     const RuleWord& name = words.front();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/views/sufficiency.h"
+#include "runtime/diagnosis/equation_sets/sufficiency.h"
 
 #include <fmt/format.h>
 

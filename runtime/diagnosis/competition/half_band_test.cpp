@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/competition/witness.h"
+#include "runtime/diagnosis/competition/half_band_test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kWitnessChance = 1e-3;  // that what is there is contradicted
-constexpr double kPart = 0.25;           // of its squares: half of its size
+constexpr double kContradictedChance = 1e-3;  // that what is there is contradicted
+constexpr double kPart = 0.25;                // of its squares: half of its size
 
 bool is_linear(const Hypothesis& hypothesis) {
   return !hypothesis.windowed &&
@@ -23,27 +23,27 @@ bool is_linear(const Hypothesis& hypothesis) {
 /// Whether columns have more to explain than noise, and more than a part of what was said.
 bool wants_other(const Products& products, double said) {
   const Score wanted = score_of(products, false);
-  return std::exp(-surprise_of(wanted.squares, wanted.degrees)) <= kWitnessChance &&
-         wanted.squares > kPart * said;
+  return std::exp(-surprise_of(wanted.delta_chi2, wanted.degrees)) <= kContradictedChance &&
+         wanted.delta_chi2 > kPart * said;
 }
 
 }  // namespace
 
-Witness::Witness(const EffectRecordings& data)
+HalfBandTest::HalfBandTest(const EffectRecordings& data)
     : data_(data), signals_(data), repeats_(repeats_of(data)) {}
 
-EvidenceSystem Witness::system(const std::vector<Hypothesis>& hypotheses,
-                               const CompetitionResult& result, const EffectPoint& point,
-                               EvidenceSystem::Options options) {
+EvidenceSystem HalfBandTest::system(const std::vector<Hypothesis>& hypotheses,
+                                    const CompetitionResult& result, const EffectPoint& point,
+                                    EvidenceSystem::Options options) {
   const TorqueNoiseModel noise = torque_noise_model(data_, residuals_of(data_, point), repeats_,
                                                     options.with_regressor, options.rules.noise);
   options.surrogates = 0;
   return system_beside(data_, signals_, hypotheses, result, point, noise, options);
 }
 
-bool Witness::contradicts(const std::vector<Hypothesis>& hypotheses,
-                          const CompetitionResult& result, const Hypothesis& hypothesis,
-                          const EffectPoint& point, EvidenceSystem::Options options) {
+bool HalfBandTest::contradicts(const std::vector<Hypothesis>& hypotheses,
+                               const CompetitionResult& result, const Hypothesis& hypothesis,
+                               const EffectPoint& point, EvidenceSystem::Options options) {
   if (!is_linear(hypothesis)) return false;
   const EvidenceSystem own = system(hypotheses, result, point, options);
   const EffectInstance& effect = point.effects.back();
@@ -54,9 +54,9 @@ bool Witness::contradicts(const std::vector<Hypothesis>& hypotheses,
       whole.left.trace());
 }
 
-bool Witness::contradicts(const std::vector<Hypothesis>& hypotheses,
-                          const CompetitionResult& result, const Nameless& nameless,
-                          EvidenceSystem::Options options) {
+bool HalfBandTest::contradicts(const std::vector<Hypothesis>& hypotheses,
+                               const CompetitionResult& result, const Nameless& nameless,
+                               EvidenceSystem::Options options) {
   const EvidenceSystem own = system(hypotheses, result, result.fit.point, options);
   Products products =
       own.products(own.whitened(nameless_columns(data_, signals_, nameless)), false);

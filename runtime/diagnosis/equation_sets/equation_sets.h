@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/diagnosis/views/diagnosis_input.h"
-#include "runtime/diagnosis/views/division.h"
-#include "runtime/diagnosis/views/resting_joint.h"
+#include "runtime/diagnosis/equation_sets/diagnosis_input.h"
+#include "runtime/diagnosis/equation_sets/division.h"
+#include "runtime/diagnosis/equation_sets/stiction_joint.h"
 #include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
@@ -19,10 +19,10 @@ namespace dyngen::runtime {
 RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Eigen::Index decimation);
 
 /// What of recordings is looked at.
-struct ViewOptions {
+struct EquationSetOptions {
   RowOptions rows;
   /// Joints that rest for an instant where they turn, and have no equations there.
-  std::vector<RestingJoint> resting{};
+  std::vector<StictionJoint> sticking{};
   /// Whether the joint state passes as quick a filter as can be.
   bool quick = false;
   /// Of the sampling frequency: such a filter's highest cut-off, of all recordings alike.
@@ -36,8 +36,9 @@ struct ViewOptions {
 /// equations one half as quick, up to which the first one damps nothing. Where periods show
 /// the same digits again the state stays slow: no other motion tells such rounding from physics.
 /// @param train  recordings that the model is fitted to
-ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
-                         std::vector<RestingJoint> resting);
+EquationSetOptions beside_stiction(const EquationSetOptions& options,
+                                   const std::vector<MotionSource>& train,
+                                   std::vector<StictionJoint> sticking);
 
 /// (n) the part of each joint's equations that counts.
 Eigen::VectorXd counted_part(const EffectRecordings& data);
@@ -45,7 +46,7 @@ Eigen::VectorXd counted_part(const EffectRecordings& data);
 /// Equations of recordings that are not fitted, without those of joints that stand still, or rest
 /// in any of the fitted ones.
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
-                              const ViewOptions& options);
+                              const EquationSetOptions& options);
 
 /// The recordings of a diagnosis as its competition reads them. Where the motion of fitted ones
 /// repeats, columns are made of the mean motion of the other periods, and held against what the
@@ -54,17 +55,18 @@ EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<Mot
 /// samples, where it looks like physics (instrumental variables; Janot, Vandanjon and Gautier
 /// 2014).
 ///
-/// Where joints rest, `train` has no equations of them near their rests, as far as filters reach.
-/// `beside` has them, and EffectRun::unknown says where friction is not known: most of what is seen
-/// near a rest is not friction's at rest.
-struct Views {
+/// Where joints rest, `train` has no equations of them near their stiction intervals, as far as
+/// filters reach. `beside` has them, and EffectRun::unknown says where friction is not known: most
+/// of what is seen near a rest is not friction's at rest.
+struct EquationSets {
   EffectRecordings train;                  ///< what fits are of, and noise
   std::optional<EffectRecordings> beside;  ///< where joints rest and equations are filtered
   [[nodiscard]] const EffectRecordings& evidence() const { return beside ? *beside : train; }
   EffectRecordings heldout;  ///< EffectRun::recording is -1 less the place of the recording
   EffectRecordings proof;    ///< what is held out, where the fitted recordings have been
-  EffectRecordings slow;     ///< the fitted ones again, in half the band: the witness
+  EffectRecordings slow;     ///< the fitted ones again, in half the band: the half_band
 };
-Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options);
+EquationSets equation_sets_of(const DiagnosisInput& input, const Division& parts,
+                              const EquationSetOptions& options);
 
 }  // namespace dyngen::runtime

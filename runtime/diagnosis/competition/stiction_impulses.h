@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "runtime/diagnosis/equation_sets/stiction_joint.h"
 #include "runtime/diagnosis/scans/screening.h"
-#include "runtime/diagnosis/views/resting_joint.h"
 
 namespace dyngen::runtime {
 
@@ -13,24 +13,24 @@ inline constexpr double kHardlyMoreThanNoise = 2;
 
 /// What dry friction does where a joint turns or stops: it holds the joint for an instant, with any
 /// torque up to its own, and the equations have an impulse there. That is neither a name nor
-/// structure: a joint of which it is seen `rests`, and has its impulses beside the model.
-class Stops {
+/// structure: a joint of which it is seen `sticks`, and has its impulses beside the model.
+class StictionImpulses {
  public:
-  /// All must outlive it. @param resting  as they are found
-  Stops(const EffectRecordings& data, EffectSignals& signals,
-        const std::vector<GenericStructure>& structures, const std::vector<RestingJoint>& resting,
-        double false_alarm)
+  /// All must outlive it. @param sticking  as they are found
+  StictionImpulses(const EffectRecordings& data, EffectSignals& signals,
+                   const std::vector<GenericStructure>& structures,
+                   const std::vector<StictionJoint>& sticking, double false_alarm)
       : data_(data),
         signals_(signals),
         structures_(structures),
-        resting_(resting),
+        sticking_(sticking),
         false_alarm_(false_alarm) {}
 
   /// Whether a joint was found to rest.
-  [[nodiscard]] bool rests(int joint) const;
+  [[nodiscard]] bool sticks(int joint) const;
 
-  /// Squares that are nothing on some joints where one of the robot rests: the rest lasts, an
-  /// impulse has not quite its shape, and what lets go jolts the others. 0 where none rests.
+  /// Squares that are nothing on some joints where one of the robot sticks: the rest lasts, an
+  /// impulse has not quite its shape, and what lets go jolts the others. 0 where none sticks.
   [[nodiscard]] double unseen_on(const std::vector<int>& joints) const;
 
   /// What the stops of its joints have to do with an effect.
@@ -63,24 +63,24 @@ class Stops {
   /// and beside them the structure is not, or is a function of the way since then: a rest that is
   /// longer than an impulse; with it all others where impulses are the strongest structure. None if
   /// it is not so.
-  [[nodiscard]] std::vector<RestingJoint> resting(const EvidenceSystem& system,
-                                                  const Screening& screening,
-                                                  const GenericStructure& structure) const;
+  [[nodiscard]] std::vector<StictionJoint> sticking(const EvidenceSystem& system,
+                                                    const Screening& screening,
+                                                    const GenericStructure& structure) const;
   /// Joints, besides those that rest already, where impulses are the strongest structure.
-  [[nodiscard]] std::vector<RestingJoint> strongest(const EvidenceSystem& system,
-                                                    const Screening& screening) const;
+  [[nodiscard]] std::vector<StictionJoint> strongest(const EvidenceSystem& system,
+                                                     const Screening& screening) const;
 
  private:
   [[nodiscard]] const GenericResult* impulses_at(const Screening& screening, int joint) const;
   [[nodiscard]] double impulses_of(const Screening& screening, int joint) const;
-  [[nodiscard]] RestingJoint found(const EvidenceSystem& system, const Screening& screening,
-                                   int joint) const;
+  [[nodiscard]] StictionJoint found(const EvidenceSystem& system, const Screening& screening,
+                                    int joint) const;
   [[nodiscard]] static bool significant(double surprise);
 
   const EffectRecordings& data_;
   EffectSignals& signals_;
   const std::vector<GenericStructure>& structures_;
-  const std::vector<RestingJoint>& resting_;
+  const std::vector<StictionJoint>& sticking_;
   double false_alarm_;
 };
 

@@ -10,10 +10,10 @@ namespace dyngen::runtime {
 
 /// What is left beside columns, where they are and elsewhere.
 ///
-/// Evidence takes what the model leaves for noise of one variance. Where a joint all but rests it
+/// Evidence takes what the model leaves for noise of one variance. Where a joint all but sticks it
 /// is not: friction there is of any size and the same in every period. Columns that are large just
 /// there explain hundreds of squares of it by chance, and leave thousands.
-struct OwnScatter {
+struct SandwichTest {
   double squares = 0;  ///< that the columns explain: f'f
   /// Sum over stretches of (f'(r - f))^2: as f'f, where r - f is the noise that it is taken for.
   double here = 0;
@@ -26,8 +26,8 @@ struct OwnScatter {
 /// @param whitened      columns, as EvidenceSystem::whitened() gives them
 /// @param coefficients  (columns) at which they explain most
 /// Source: the sandwich of White, Econometrica 48, 1980, over stretches of time.
-OwnScatter own_scatter(const EvidenceSystem& system, const JointColumns& whitened,
-                       const Eigen::VectorXd& coefficients);
+SandwichTest sandwich_test(const EvidenceSystem& system, const JointColumns& whitened,
+                           const Eigen::VectorXd& coefficients);
 
 /// The same of the linear parameters of an effect at its shapes. Never of an event: where it is
 /// large nothing else tells what the noise is.

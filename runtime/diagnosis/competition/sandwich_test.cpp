@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/competition/own_scatter.h"
+#include "runtime/diagnosis/competition/sandwich_test.h"
 
 #include <algorithm>
 
@@ -31,11 +31,11 @@ double squares_of_stretches(const VectorXd& a, const VectorXd& b, Index shift) {
 
 }  // namespace
 
-bool OwnScatter::refutes() const { return here > kFarLarger * elsewhere; }
+bool SandwichTest::refutes() const { return here > kFarLarger * elsewhere; }
 
-OwnScatter own_scatter(const EvidenceSystem& system, const JointColumns& whitened,
-                       const VectorXd& coefficients) {
-  OwnScatter scatter;
+SandwichTest sandwich_test(const EvidenceSystem& system, const JointColumns& whitened,
+                           const VectorXd& coefficients) {
+  SandwichTest scatter;
   for (const int joint : whitened.joints) {
     const VectorXd explained = system.left_of(whitened, joint) * coefficients;
     const VectorXd left = system.rest(joint) - explained;
@@ -55,7 +55,7 @@ bool scatter_refutes(const EffectRecordings& data, EffectSignals& signals,
   if (hypothesis.windowed) return false;
   const JointColumns columns = hypothesis_columns(data, signals, system, hypothesis, trial);
   const Score score = score_of(system.products(columns, false), false);
-  return own_scatter(system, columns, score.coefficients).refutes();
+  return sandwich_test(system, columns, score.coefficients).refutes();
 }
 
 }  // namespace dyngen::runtime

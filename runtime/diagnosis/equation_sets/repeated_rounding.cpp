@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/views/repeated_rounding.h"
+#include "runtime/diagnosis/equation_sets/repeated_rounding.h"
 
 #include <algorithm>
 #include <cmath>

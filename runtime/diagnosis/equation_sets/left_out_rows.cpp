@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/views/left_out_rows.h"
+#include "runtime/diagnosis/equation_sets/left_out_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ Index felt(const Decimator& decimator) {
 }
 
 /// Whether a joint turns or stops at a sample.
-bool rests_at(const Motion& motion, int joint, Index at, double still_speed) {
+bool sticks_at(const Motion& motion, int joint, Index at, double still_speed) {
   const auto speed = motion.dq.col(joint);
   const bool turns = at > 0 && (speed[at] < 0) != (speed[at - 1] < 0);
   return turns || std::abs(speed[at]) < still_speed;
@@ -80,8 +80,8 @@ std::vector<SampleRange> joined_ranges(std::vector<SampleRange> ranges) {
 
 }  // namespace
 
-void leave_out_rests(EffectRun& run, const Eigen::VectorXd& still_speed,
-                     const std::vector<int>& joints) {
+void leave_out_stiction(EffectRun& run, const Eigen::VectorXd& still_speed,
+                        const std::vector<int>& joints) {
   const Motion& motion = run.motion;
   const Index factor = run.decimator.factor, first = first_sample(run.decimator);
   // the joint state's own filter widens a rest by about the time between equations
@@ -89,7 +89,7 @@ void leave_out_rests(EffectRun& run, const Eigen::VectorXd& still_speed,
   const Index size = run.rows.Y.cols() / motion.joints();
   for (const int j : joints) {
     for (Index at = 0; at < motion.samples(); ++at) {
-      if (!rests_at(motion, j, at, still_speed[j])) continue;
+      if (!sticks_at(motion, j, at, still_speed[j])) continue;
       const Index from = std::max<Index>(0, (at - reach - first + factor - 1) / factor);
       const Index to = std::min<Index>(run.rows.Y.rows() - 1, (at + reach - first) / factor);
       for (Index k = from; k <= to; ++k) leave_out(run.rows, k, j, size);
@@ -97,14 +97,14 @@ void leave_out_rests(EffectRun& run, const Eigen::VectorXd& still_speed,
   }
 }
 
-void mark_rests(EffectRun& run, const Motion& motion, const Eigen::VectorXd& still_speed,
-                const std::vector<int>& joints, double around) {
+void mark_stiction(EffectRun& run, const Motion& motion, const Eigen::VectorXd& still_speed,
+                   const std::vector<int>& joints, double around) {
   const auto reach = static_cast<Index>(std::ceil(around / motion.sample_time));
   if (!joints.empty()) run.unknown.resize(static_cast<std::size_t>(motion.joints()));
   for (const int j : joints) {
     std::vector<SampleRange>& ranges = run.unknown[static_cast<std::size_t>(j)];
     for (Index at = 0; at < motion.samples(); ++at) {
-      if (!rests_at(motion, j, at, still_speed[j])) continue;
+      if (!sticks_at(motion, j, at, still_speed[j])) continue;
       ranges.push_back(
           {std::max<Index>(0, at - reach), std::min(motion.samples(), at + reach + 1)});
     }

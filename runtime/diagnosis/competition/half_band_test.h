@@ -10,10 +10,10 @@ namespace dyngen::runtime {
 /// Equations of the same recordings up to a part of the band, where motion stands above the noise
 /// of the positions. What acts in the recordings acts there as well: an effect whose size is
 /// another there has only explained what the positions do not show. The test of Hausman (1978).
-class Witness {
+class HalfBandTest {
  public:
   /// @param data  must outlive it
-  explicit Witness(const EffectRecordings& data);
+  explicit HalfBandTest(const EffectRecordings& data);
 
   /// Whether an effect's size is another here: surely, and by half of it.
   /// @param point   a fit of the model with the winners and, as its last, the effect

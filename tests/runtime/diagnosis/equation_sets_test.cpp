@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/views/views.h"
+#include "runtime/diagnosis/equation_sets/equation_sets.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 
 #include "runtime/diagnosis/competition/within_rounding.h"
-#include "runtime/diagnosis/views/left_out_rows.h"
-#include "runtime/diagnosis/views/repeated_motion.h"
-#include "runtime/diagnosis/views/repeated_rounding.h"
+#include "runtime/diagnosis/equation_sets/left_out_rows.h"
+#include "runtime/diagnosis/equation_sets/repeated_motion.h"
+#include "runtime/diagnosis/equation_sets/repeated_rounding.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {
@@ -81,20 +81,20 @@ TEST(WithinRounding, IsAnErrorOfThePositionBelowAQuarterOfTheStep) {
 TEST(BesideRests, TheJointStateIsQuickUnlessRoundingRepeats) {
   const std::vector<MotionSource> noisy = {rounded(0.5)}, same = {rounded(0)};
   ASSERT_LT(noisy[0].cutoff.hz, 80);
-  const ViewOptions options{diagnosis_rows(noisy, -1), {}};
+  const EquationSetOptions options{diagnosis_rows(noisy, -1), {}};
   EXPECT_FALSE(options.quick);
-  const ViewOptions quick = beside_rests(options, noisy, {{1, 0, {0}}});
+  const EquationSetOptions quick = beside_stiction(options, noisy, {{1, 0, {0}}});
   EXPECT_TRUE(quick.quick);
-  ASSERT_EQ(quick.resting.size(), 1u);
-  EXPECT_EQ(quick.resting[0].joint, 1);
-  EXPECT_FALSE(beside_rests(options, same, {{1, 0, {0}}}).quick);
+  ASSERT_EQ(quick.sticking.size(), 1u);
+  EXPECT_EQ(quick.sticking[0].joint, 1);
+  EXPECT_FALSE(beside_stiction(options, same, {{1, 0, {0}}}).quick);
 }
 
 TEST(BesideRests, EquationsAreSlowerThanTheJointState) {
   const std::vector<MotionSource> noisy = {rounded(0.5)}, same = {rounded(0)};
   const auto band = [](const std::vector<MotionSource>& sources) {
     return 0.5 /
-           beside_rests({diagnosis_rows(sources, -1), {}}, sources, {{0, 0, {0}}}).rows.row_time;
+           beside_stiction({diagnosis_rows(sources, -1), {}}, sources, {{0, 0, {0}}}).rows.row_time;
   };
   EXPECT_NEAR(band(noisy), 0.5 * 80, 1e-9);
   EXPECT_NEAR(band(same), 0.4 * same[0].cutoff.hz, 1e-9);
@@ -117,7 +117,7 @@ TEST(Rests, AreLeftOutOfTheJointsThatAreNamed) {
   EffectRecordings data = test::arm_recordings({test::source_of(test::sines(20, 0.01))});
   EffectRun& run = data.runs.front();
   const double all = run.rows.counted.col(1).sum();
-  leave_out_rests(run, VectorXd::Constant(2, 1e-4), {1});
+  leave_out_stiction(run, VectorXd::Constant(2, 1e-4), {1});
   EXPECT_EQ(run.rows.counted.col(0).sum(), all);
   Index turns = 0;
   const Index first = first_sample(run.decimator), last = run.rows.Y.rows() - 1;
@@ -147,7 +147,7 @@ TEST(Rests, TakeFewerEquationsWithAShorterFilter) {
         {true, true});
     EffectRun& run = data.runs.front();
     const double before = run.rows.counted.col(1).sum();
-    leave_out_rests(run, VectorXd::Constant(2, 1e-3), {1});
+    leave_out_stiction(run, VectorXd::Constant(2, 1e-3), {1});
     return before - run.rows.counted.col(1).sum();
   };
   EXPECT_GT(left_out(4), 0);
@@ -157,27 +157,27 @@ TEST(Rests, TakeFewerEquationsWithAShorterFilter) {
 TEST(Rests, AreLeftOutOfTheRecordingsInWhichTheyAreSeen) {
   const DiagnosisInput input = test::arm_input(test::two_recordings({}, 4), {}, {});
   const Division parts{input.train, input.heldout};
-  ViewOptions options{diagnosis_rows(parts.train, -1), {}};
+  EquationSetOptions options{diagnosis_rows(parts.train, -1), {}};
   const auto counted = [](const EffectRun& run, Index joint) {
     return run.rows.counted.col(joint).mean();
   };
-  const Views whole = views_of(input, parts, options);
-  options.resting = {{1, 0, {1}}};
-  const Views views = views_of(input, parts, options);
-  ASSERT_EQ(views.train.runs.size(), 2U);
-  EXPECT_EQ(counted(views.train.runs[0], 1), counted(whole.train.runs[0], 1));
-  EXPECT_LT(counted(views.train.runs[1], 1), 0.99 * counted(whole.train.runs[1], 1));
-  EXPECT_EQ(counted(views.train.runs[1], 0), counted(whole.train.runs[1], 0));
-  EXPECT_EQ(counted(views.slow.runs[0], 1), counted(whole.slow.runs[0], 1));
+  const EquationSets whole = equation_sets_of(input, parts, options);
+  options.sticking = {{1, 0, {1}}};
+  const EquationSets sets = equation_sets_of(input, parts, options);
+  ASSERT_EQ(sets.train.runs.size(), 2U);
+  EXPECT_EQ(counted(sets.train.runs[0], 1), counted(whole.train.runs[0], 1));
+  EXPECT_LT(counted(sets.train.runs[1], 1), 0.99 * counted(whole.train.runs[1], 1));
+  EXPECT_EQ(counted(sets.train.runs[1], 0), counted(whole.train.runs[1], 0));
+  EXPECT_EQ(counted(sets.slow.runs[0], 1), counted(whole.slow.runs[0], 1));
   // what is held out was not looked at: there it may rest too
-  EXPECT_LT(counted(views.heldout.runs[0], 1), 0.99 * counted(whole.heldout.runs[0], 1));
+  EXPECT_LT(counted(sets.heldout.runs[0], 1), 0.99 * counted(whole.heldout.runs[0], 1));
 }
 
 TEST(Rests, AreUnknownWhereEquationsStay) {
   EffectRecordings data = test::arm_recordings({test::source_of(test::sines(20, 0.01))});
   EffectRun& run = data.runs.front();
   const double all = run.rows.counted.sum();
-  mark_rests(run, run.motion, VectorXd::Constant(2, 1e-4), {1}, 0.015);
+  mark_stiction(run, run.motion, VectorXd::Constant(2, 1e-4), {1}, 0.015);
   EXPECT_EQ(run.rows.counted.sum(), all);
   ASSERT_EQ(run.unknown.size(), 2U);
   EXPECT_TRUE(run.unknown[0].empty());
@@ -194,7 +194,7 @@ TEST(Rests, AreUnknownWhereEquationsStay) {
   // those of another motion of the same samples join them
   Motion later = run.motion;
   later.dq.bottomRows(later.samples() - 2) = run.motion.dq.topRows(later.samples() - 2);
-  mark_rests(run, later, VectorXd::Constant(2, 1e-4), {1}, 0.015);
+  mark_stiction(run, later, VectorXd::Constant(2, 1e-4), {1}, 0.015);
   ASSERT_EQ(run.unknown[1].size(), once.size());
   for (std::size_t i = 0; i < once.size(); ++i) {
     EXPECT_LE(run.unknown[1][i].from, once[i].from);
@@ -205,27 +205,27 @@ TEST(Rests, AreUnknownWhereEquationsStay) {
 TEST(Rests, LeaveEvidenceTheEquationsBesideThem) {
   const DiagnosisInput input = test::arm_input(test::two_recordings({}, 4), {}, {});
   const Division parts{input.train, input.heldout};
-  ViewOptions every_sample{diagnosis_rows(parts.train, 1), {{1, 0, {1}}}};
+  EquationSetOptions every_sample{diagnosis_rows(parts.train, 1), {{1, 0, {1}}}};
   EXPECT_FALSE(
-      views_of(input, parts, every_sample).beside);  // none is both at a rest and beside it
-  ViewOptions options{diagnosis_rows(parts.train, 4), {}};
-  const Views whole = views_of(input, parts, options);
+      equation_sets_of(input, parts, every_sample).beside);  // none is both at a rest and beside it
+  EquationSetOptions options{diagnosis_rows(parts.train, 4), {}};
+  const EquationSets whole = equation_sets_of(input, parts, options);
   EXPECT_FALSE(whole.beside);
   EXPECT_EQ(&whole.evidence(), &whole.train);
-  options.resting = {{1, 0, {1}}};
-  const Views views = views_of(input, parts, options);
-  ASSERT_TRUE(views.beside);
-  const EffectRecordings& evidence = views.evidence();
+  options.sticking = {{1, 0, {1}}};
+  const EquationSets sets = equation_sets_of(input, parts, options);
+  ASSERT_TRUE(sets.beside);
+  const EffectRecordings& evidence = sets.evidence();
   ASSERT_EQ(evidence.runs.size(), 2U);
   for (std::size_t r = 0; r < 2; ++r) {
     EXPECT_EQ(evidence.runs[r].rows.counted.sum(), whole.train.runs[r].rows.counted.sum());
   }
-  EXPECT_LT(views.train.runs[1].rows.counted.sum(), evidence.runs[1].rows.counted.sum());
+  EXPECT_LT(sets.train.runs[1].rows.counted.sum(), evidence.runs[1].rows.counted.sum());
   EXPECT_TRUE(evidence.runs[0].unknown.empty());
   EXPECT_TRUE(evidence.runs[1].unknown[0].empty());
   EXPECT_GT(evidence.runs[1].unknown[1].size(), 4U);
   // where both have equations they are the same
-  const RowBlock& train = views.train.runs[1].rows;
+  const RowBlock& train = sets.train.runs[1].rows;
   const RowBlock& beside = evidence.runs[1].rows;
   for (Index k = 0; k < train.tau.rows(); ++k) {
     EXPECT_NEAR(train.tau(k, 1), train.counted(k, 1) * beside.tau(k, 1), 1e-12);
@@ -233,13 +233,13 @@ TEST(Rests, LeaveEvidenceTheEquationsBesideThem) {
 }
 
 TEST(Rests, OfSeveralLooksAreJoined) {
-  std::vector<RestingJoint> known = {{1, 50, {0}}};
+  std::vector<StictionJoint> known = {{1, 50, {0}}};
   EXPECT_FALSE(join(known, {{1, 20, {0}}}));
   EXPECT_TRUE(join(known, {{1, 20, {2}}, {0, 30, {1}}}));
   ASSERT_EQ(known.size(), 2U);
   EXPECT_EQ(known[0].recordings, (std::vector<int>{0, 2}));
-  EXPECT_TRUE(known[0].rests_in(2));
-  EXPECT_FALSE(known[0].rests_in(1));
+  EXPECT_TRUE(known[0].sticks_in(2));
+  EXPECT_FALSE(known[0].sticks_in(1));
   EXPECT_EQ(known[1].joint, 0);
 }
 
@@ -267,7 +267,7 @@ TEST(RepeatedMotion, LeavesWhatTheModelLeavesAtTheOwnMotion) {
 
 /// Noise of the positions that the torque does not have is both in what the model leaves and in
 /// columns of the same motion, and not in columns of the motion of other periods.
-TEST(Views, NoiseOfPositionsIsNotInWhatColumnsAreHeldAgainst) {
+TEST(EquationSets, NoiseOfPositionsIsNotInWhatColumnsAreHeldAgainst) {
   constexpr double kPositionNoise = 0.2;
   Motion exact = test::sines(40, 0.01);
   for (Index k = 0; k < exact.samples(); ++k) {
@@ -300,9 +300,9 @@ TEST(Views, NoiseOfPositionsIsNotInWhatColumnsAreHeldAgainst) {
     return left.dot(column) / left.norm() / column.norm();
   };
   const EffectRecordings own = equations_of(input, sources, {{1, -1}, {}});
-  const Views views = views_of(input, parts, {{1, -1}, {}});
+  const EquationSets sets = equation_sets_of(input, parts, {{1, -1}, {}});
   EXPECT_GT(lean(own), 0.3);
-  EXPECT_LT(std::abs(lean(views.train)), 0.03);
+  EXPECT_LT(std::abs(lean(sets.train)), 0.03);
 }
 
 /// The planar arm at 500 Hz, its positions with noise that a quick low-pass makes large
@@ -383,13 +383,13 @@ TEST(TwoMotions, LeaveInertiaAsItIs) {
   constexpr Index kInertia = 3;  // ZZ2
   const std::vector<MotionSource> train = {noisy_arm(false)};
   const DiagnosisInput input = test::arm_input(train, {}, {});
-  const ViewOptions options{diagnosis_rows(train, 0), {}, false};
+  const EquationSetOptions options{diagnosis_rows(train, 0), {}, false};
   const double truth = test::planar_arm_values()[kInertia];
   const auto inertia = [&](const EffectRecordings& data) {
     return fit_effects(data, {}).point.beta[kInertia];
   };
   const double plain = inertia(equations_of(input, train, options));
-  const double of_two = inertia(views_of(input, {train, train}, options).train);
+  const double of_two = inertia(equation_sets_of(input, {train, train}, options).train);
   EXPECT_LT(plain, 0.6 * truth);
   EXPECT_NEAR(of_two, truth, 0.07 * truth);  // rounds halve what is missing
 }

@@ -22,17 +22,17 @@ void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed,
 /// @param run          its rows change
 /// @param still_speed  (n) rad/s or m/s
 /// @param joints       from 0
-void leave_out_rests(EffectRun& run, const Eigen::VectorXd& still_speed,
-                     const std::vector<int>& joints);
+void leave_out_stiction(EffectRun& run, const Eigen::VectorXd& still_speed,
+                        const std::vector<int>& joints);
 
 /// Adds to what is unknown of a run where joints turn or stop, and equations stay.
 /// @param run          its `unknown` grows
-/// @param motion       whose rests they are, of the same samples
+/// @param motion       whose sticks they are, of the same samples
 /// @param still_speed  (n) rad/s or m/s
 /// @param joints       from 0
 /// @param around       s, before and after: what the joint state's filter makes of a rest
-void mark_rests(EffectRun& run, const Motion& motion, const Eigen::VectorXd& still_speed,
-                const std::vector<int>& joints, double around);
+void mark_stiction(EffectRun& run, const Motion& motion, const Eigen::VectorXd& still_speed,
+                   const std::vector<int>& joints, double around);
 
 /// Takes out of held-out recordings the equations of joints that are where no fitted recording was:
 /// what a polynomial says there is no proof for or against it. A joint that is nearly always there

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/competition/witness.h"
+#include "runtime/diagnosis/competition/half_band_test.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "runtime/diagnosis/equation_sets/repeated_motion.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
-#include "runtime/diagnosis/views/repeated_motion.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {
@@ -101,7 +101,7 @@ Nameless said_of(const EffectRecordings& data, const GenericStructure& structure
   return nameless;
 }
 
-TEST(Witness, ContradictsWhatIsNotInItsEquations) {
+TEST(HalfBandTest, ContradictsWhatIsNotInItsEquations) {
   EffectInstance spring = test::known(test::spring_law(), 1, {0.4});
   spring.law.family = "spring";
   const EffectRecordings with = test::arm_recordings(test::two_recordings({spring}, 1));
@@ -111,9 +111,9 @@ TEST(Witness, ContradictsWhatIsNotInItsEquations) {
   result.fit.point.beta = test::planar_arm_values();
 
   const Nameless nameless = said_of(with, {1, {{StructureVariable::Kind::kPosition, 1}}});
-  ASSERT_GT(nameless.score.squares, 60);
-  EXPECT_FALSE(Witness(again).contradicts({}, result, nameless, {}));
-  EXPECT_TRUE(Witness(without).contradicts({}, result, nameless, {}));
+  ASSERT_GT(nameless.score.delta_chi2, 60);
+  EXPECT_FALSE(HalfBandTest(again).contradicts({}, result, nameless, {}));
+  EXPECT_TRUE(HalfBandTest(without).contradicts({}, result, nameless, {}));
 
   EffectInstance asked = test::unknown(test::spring_law(), 1);
   const Hypothesis hypothesis =
@@ -121,8 +121,8 @@ TEST(Witness, ContradictsWhatIsNotInItsEquations) {
   EffectPoint point = result.fit.point;
   point.effects = {spring};
   point.effects[0].parameters[0] = 0.4;
-  EXPECT_FALSE(Witness(again).contradicts({hypothesis}, result, hypothesis, point, {}));
-  EXPECT_TRUE(Witness(without).contradicts({hypothesis}, result, hypothesis, point, {}));
+  EXPECT_FALSE(HalfBandTest(again).contradicts({hypothesis}, result, hypothesis, point, {}));
+  EXPECT_TRUE(HalfBandTest(without).contradicts({hypothesis}, result, hypothesis, point, {}));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/views/raw_residual.h"
+#include "runtime/diagnosis/equation_sets/raw_residual.h"
 
 #include <cmath>
 #include <set>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/views/views.h"
+#include "runtime/diagnosis/equation_sets/equation_sets.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "runtime/diagnosis/views/left_out_rows.h"
-#include "runtime/diagnosis/views/repeated_motion.h"
-#include "runtime/diagnosis/views/repeated_rounding.h"
+#include "runtime/diagnosis/equation_sets/left_out_rows.h"
+#include "runtime/diagnosis/equation_sets/repeated_motion.h"
+#include "runtime/diagnosis/equation_sets/repeated_rounding.h"
 #include "runtime/evidence/joint_columns.h"
 #include "runtime/signals/interpolation.h"
 
@@ -22,12 +22,13 @@ constexpr double kPass =
     0.5;  // of the parallel filter: a short one, that standstill cuts less from
 constexpr double kSlowBand =
     0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
-constexpr double kHighest = 1.0 / 3;  // of the sampling frequency: a cut-off
-constexpr int kSteep = 8;             // order of that low-pass
-constexpr double kBesideJolts = 0.5;  // of its cut-off: what is slower is not damped at all
-constexpr double kBesideRests = 0.4;  // of that of the joint state as it is
-constexpr double kWidened = 0.5;      // over the cut-off: what the low-pass makes of a rest
-constexpr int kAverages = 4;          // of the parallel filter beside rests, which is shorter still
+constexpr double kHighest = 1.0 / 3;     // of the sampling frequency: a cut-off
+constexpr int kSteep = 8;                // order of that low-pass
+constexpr double kBesideJolts = 0.5;     // of its cut-off: what is slower is not damped at all
+constexpr double kBesideStiction = 0.4;  // of that of the joint state as it is
+constexpr double kWidened = 0.5;         // over the cut-off: what the low-pass makes of a rest
+constexpr int kAverages =
+    4;  // of the parallel filter beside stiction intervals, which is shorter still
 constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
 
 RowOptions slower(RowOptions rows) {
@@ -52,7 +53,7 @@ double quick_cutoff(const MotionSource& source, double highest, const EquationRu
 
 /// Recordings with the joint state of a view.
 std::vector<MotionSource> seen(const std::vector<MotionSource>& sources,
-                               const ViewOptions& options) {
+                               const EquationSetOptions& options) {
   std::vector<MotionSource> result;
   for (const MotionSource& source : sources) {
     const double hz = quick_cutoff(source, options.highest, options.rules);
@@ -69,23 +70,23 @@ double median(std::vector<double> values) {
 
 /// Joints that rest in one of the fitted recordings, or in any.
 constexpr int kAny = -1;
-std::vector<int> resting_in(const ViewOptions& options, int recording) {
+std::vector<int> sticking_in(const EquationSetOptions& options, int recording) {
   std::vector<int> joints;
-  for (const RestingJoint& resting : options.resting) {
-    if (recording == kAny || resting.rests_in(recording)) joints.push_back(resting.joint);
+  for (const StictionJoint& sticking : options.sticking) {
+    if (recording == kAny || sticking.sticks_in(recording)) joints.push_back(sticking.joint);
   }
   return joints;
 }
 
 /// @param fitted  whether they are the recordings that the options speak of
 EffectRecordings equations(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
-                           const ViewOptions& options, bool fitted) {
+                           const EquationSetOptions& options, bool fitted) {
   const std::vector<bool> all(static_cast<std::size_t>(input.model.joints()), true);
   EffectRecordings data = effect_recordings(input.model, input.robot, sources, options.rows, all);
   const VectorXd still = still_speed(sources, options.rows, data.joints());
   for (EffectRun& run : data.runs) {
     leave_out_standstill(run, still, options.rules);
-    if (!fitted) leave_out_rests(run, still, resting_in(options, kAny));
+    if (!fitted) leave_out_stiction(run, still, sticking_in(options, kAny));
   }
   return data;
 }
@@ -106,7 +107,7 @@ AllMotions motions_of(const std::vector<MotionSource>& sources, const EquationRu
 
 /// Fitted recordings at the other motion of each, and at their own.
 struct Fitted {
-  Fitted(const DiagnosisInput& input, const AllMotions& train, const ViewOptions& options)
+  Fitted(const DiagnosisInput& input, const AllMotions& train, const EquationSetOptions& options)
       : repeated(thinned(equations(input, train.others, options, true), kLongestSample)),
         own(thinned(equations(input, train.own, options, true), kLongestSample)),
         still(still_speed(train.own, options.rows, own.joints())) {}
@@ -114,11 +115,11 @@ struct Fitted {
   VectorXd still;  // (n) rad/s or m/s
 };
 
-/// Without what is near rests.
-EffectRecordings without_rests(EffectRecordings data, const VectorXd& still,
-                               const ViewOptions& options) {
+/// Without what is near stiction intervals.
+EffectRecordings without_stiction(EffectRecordings data, const VectorXd& still,
+                                  const EquationSetOptions& options) {
   for (EffectRun& run : data.runs) {
-    leave_out_rests(run, still, resting_in(options, run.recording));
+    leave_out_stiction(run, still, sticking_in(options, run.recording));
   }
   return data;
 }
@@ -130,9 +131,10 @@ bool is_filtered(const EffectRecordings& data) {
                      [](const EffectRun& run) { return run.decimator.factor > 1; });
 }
 
-/// With what is near rests, at which friction is not known. @param beta  that the others gave
-EffectRecordings with_rests(Fitted whole, const std::vector<MotionSource>& train,
-                            const VectorXd& beta, const ViewOptions& options) {
+/// With what is near stiction intervals, at which friction is not known. @param beta  that the
+/// others gave
+EffectRecordings with_stiction(Fitted whole, const std::vector<MotionSource>& train,
+                               const VectorXd& beta, const EquationSetOptions& options) {
   leave_as_at(whole.repeated, whole.own, beta);
   double cutoff = std::numeric_limits<double>::infinity();
   for (const MotionSource& source : train) {
@@ -141,9 +143,9 @@ EffectRecordings with_rests(Fitted whole, const std::vector<MotionSource>& train
   }
   for (std::size_t r = 0; r < whole.own.runs.size(); ++r) {
     EffectRun& run = whole.repeated.runs[r];
-    const std::vector<int> joints = resting_in(options, run.recording);
-    mark_rests(run, run.motion, whole.still, joints, kWidened / cutoff);
-    mark_rests(run, whole.own.runs[r].motion, whole.still, joints, kWidened / cutoff);
+    const std::vector<int> joints = sticking_in(options, run.recording);
+    mark_stiction(run, run.motion, whole.still, joints, kWidened / cutoff);
+    mark_stiction(run, whole.own.runs[r].motion, whole.still, joints, kWidened / cutoff);
   }
   return std::move(whole.repeated);
 }
@@ -162,10 +164,11 @@ RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Index decimati
   return rows;
 }
 
-ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSource>& train,
-                         std::vector<RestingJoint> resting) {
-  ViewOptions beside = options;
-  beside.resting = std::move(resting);
+EquationSetOptions beside_stiction(const EquationSetOptions& options,
+                                   const std::vector<MotionSource>& train,
+                                   std::vector<StictionJoint> sticking) {
+  EquationSetOptions beside = options;
+  beside.sticking = std::move(sticking);
   beside.quick = std::all_of(train.begin(), train.end(), [&](const MotionSource& source) {
     return source.others.low_passes && !repeats_rounding(source, options.rules);
   });
@@ -173,7 +176,7 @@ ViewOptions beside_rests(const ViewOptions& options, const std::vector<MotionSou
     return source.others.parities && !repeats(source, options.rules);
   });
   beside.highest = of_halves ? kHighestOfHalf : kHighest;
-  beside.rows.band = beside.quick ? kBesideJolts : kBesideRests;
+  beside.rows.band = beside.quick ? kBesideJolts : kBesideStiction;
   beside.rows.multiple = 1;
   beside.rows.filter.averages = kAverages;
   std::vector<double> times;
@@ -193,29 +196,30 @@ VectorXd counted_part(const EffectRecordings& data) {
 }
 
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
-                              const ViewOptions& options) {
+                              const EquationSetOptions& options) {
   return equations(input, seen(sources, options), options, false);
 }
 
-Views views_of(const DiagnosisInput& input, const Division& parts, const ViewOptions& options) {
+EquationSets equation_sets_of(const DiagnosisInput& input, const Division& parts,
+                              const EquationSetOptions& options) {
   const AllMotions train = motions_of(seen(parts.train, options), options.rules);
-  Views views;
+  EquationSets sets;
   Fitted whole(input, train, options);
-  views.train = without_rests(whole.repeated, whole.still, options);
-  const VectorXd beta = leave_as_at(views.train, without_rests(whole.own, whole.still, options));
-  if (!options.resting.empty() && is_filtered(whole.own)) {
-    views.beside = with_rests(std::move(whole), train.own, beta, options);
+  sets.train = without_stiction(whole.repeated, whole.still, options);
+  const VectorXd beta = leave_as_at(sets.train, without_stiction(whole.own, whole.still, options));
+  if (!options.sticking.empty() && is_filtered(whole.own)) {
+    sets.beside = with_stiction(std::move(whole), train.own, beta, options);
   }
-  ViewOptions half = options;
+  EquationSetOptions half = options;
   half.rows = slower(options.rows);
   Fitted slow(input, train, half);
-  views.slow = without_rests(std::move(slow.repeated), slow.still, half);
-  leave_as_at(views.slow, without_rests(std::move(slow.own), slow.still, half));
-  views.heldout = equations_of(input, parts.heldout, options);
-  for (EffectRun& run : views.heldout.runs) run.recording = -1 - run.recording;
-  views.proof = views.heldout;
-  leave_out_unvisited(views.proof, views.train, options.rules);
-  return views;
+  sets.slow = without_stiction(std::move(slow.repeated), slow.still, half);
+  leave_as_at(sets.slow, without_stiction(std::move(slow.own), slow.still, half));
+  sets.heldout = equations_of(input, parts.heldout, options);
+  for (EffectRun& run : sets.heldout.runs) run.recording = -1 - run.recording;
+  sets.proof = sets.heldout;
+  leave_out_unvisited(sets.proof, sets.train, options.rules);
+  return sets;
 }
 
 }  // namespace dyngen::runtime

@@ -10,7 +10,7 @@ namespace dyngen::runtime {
 
 /// Where an effect shows, and how much of it is on each joint.
 struct LocatedEffect {
-  Whereabouts where;
+  EffectLocation where;
   int joint = 0;            ///< on which most of it is, from 0: that of where
   Eigen::VectorXd squares;  ///< (n) whitened, less what the model absorbs
 };

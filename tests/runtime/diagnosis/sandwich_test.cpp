@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/competition/own_scatter.h"
+#include "runtime/diagnosis/competition/sandwich_test.h"
 
 #include <gtest/gtest.h>
 
@@ -33,13 +33,13 @@ struct Case {
     slow = (speed.array().abs() < 0.1 * fast).select(speed.cwiseSign(), 0.0);
   }
 
-  [[nodiscard]] OwnScatter scatter() const {
+  [[nodiscard]] SandwichTest scatter() const {
     const TorqueNoiseModel noise{quick_noise(white_noise(VectorXd::Constant(2, kNoise)).joints),
                                  VectorXd::Constant(2, 2000), false, VectorXd::Ones(2)};
     const EvidenceSystem system(data, left, noise, {});
     const JointColumns columns = system.whitened({{1}, {slow}});
-    return own_scatter(system, columns,
-                       score_of(system.products(columns, false), false).coefficients);
+    return sandwich_test(system, columns,
+                         score_of(system.products(columns, false), false).coefficients);
   }
 
   EffectRecordings data;
@@ -47,12 +47,12 @@ struct Case {
   VectorXd slow;
 };
 
-TEST(OwnScatter, IsWhatEvidenceSaysWhereTheRestIsNoise) {
+TEST(SandwichTest, IsWhatEvidenceSaysWhereTheRestIsNoise) {
   std::vector<double> ratios;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Case own(seed);
     own.left.front().col(1) += 0.1 * own.slow;
-    const OwnScatter scatter = own.scatter();
+    const SandwichTest scatter = own.scatter();
     EXPECT_FALSE(scatter.refutes()) << seed;
     ratios.push_back(scatter.here / scatter.squares);
     EXPECT_NEAR(scatter.elsewhere / scatter.squares, 1, 0.4);
@@ -61,7 +61,7 @@ TEST(OwnScatter, IsWhatEvidenceSaysWhereTheRestIsNoise) {
   EXPECT_NEAR(ratios[10], 1, 0.2);
 }
 
-TEST(OwnScatter, RefutesWhatIsLargeWhereTheRestIs) {
+TEST(SandwichTest, RefutesWhatIsLargeWhereTheRestIs) {
   // friction of any size, stretch by stretch, where the joint is slow in one posture
   std::mt19937_64 random(20261121);
   std::normal_distribution<double> normal;
@@ -73,17 +73,17 @@ TEST(OwnScatter, RefutesWhatIsLargeWhereTheRestIs) {
       if (k % 25 == 0) size = 0.3 + normal(random);
       own.left.front()(k, 1) += size * own.slow[k];
     }
-    const OwnScatter scatter = own.scatter();
+    const SandwichTest scatter = own.scatter();
     EXPECT_GT(scatter.squares, 20);  // far more than noise by the evidence
     EXPECT_TRUE(scatter.refutes()) << scatter.here << " and " << scatter.elsewhere;
   }
 }
 
-TEST(OwnScatter, OfAnEffectBesideALargerOneStandsByItself) {
+TEST(SandwichTest, OfAnEffectBesideALargerOneStandsByItself) {
   const EffectInstance spring = test::known(test::spring_law(), 1, {2.0});  // not in the model
   Case own(3, {spring});
   own.left.front().col(1) += 0.5 * own.slow;
-  const OwnScatter scatter = own.scatter();
+  const SandwichTest scatter = own.scatter();
   EXPECT_FALSE(scatter.refutes()) << scatter.here << " and " << scatter.elsewhere;
   EXPECT_GT(scatter.elsewhere, 100 * scatter.squares);
 }

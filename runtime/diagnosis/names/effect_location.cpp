@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/names/whereabouts.h"
+#include "runtime/diagnosis/names/effect_location.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +68,7 @@ LocatedEffect located(const EffectRecordings& data, EffectSignals& signals,
                                               {Kind::kDistance, joint},
                                               {Kind::kTime, -1}};
   if (effect.other >= 0) variables.push_back({Kind::kVelocity, effect.other});
-  Whereabouts where;
+  EffectLocation where;
   double least = std::numeric_limits<double>::infinity();
   for (const StructureVariable& variable : variables) {
     const Range range = closest_range(values_at_equations(data, signals, variable), energy);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/diagnosis/competition/stops.h"
+#include "runtime/diagnosis/competition/stiction_impulses.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLevel = 0.01;  // at which impulses are seen: a joint that rests is no accusation
+constexpr double kLevel = 0.01;  // at which impulses are seen: a joint that sticks is no accusation
 constexpr double kGoodPart = 1.0 / 3;  // of the squares of impulses: what explains it makes them
 constexpr double kImperfect = 0.02;    // of the squares of impulses: what their shape leaves
 constexpr double kThrough = 0.002;     // of those of another joint: it jolts the whole arm
@@ -48,24 +48,24 @@ std::vector<std::vector<Index>> columns_of_recordings(const EffectRecordings& da
 
 }  // namespace
 
-bool Stops::rests(int joint) const {
-  return std::any_of(resting_.begin(), resting_.end(),
-                     [&](const RestingJoint& resting) { return resting.joint == joint; });
+bool StictionImpulses::sticks(int joint) const {
+  return std::any_of(sticking_.begin(), sticking_.end(),
+                     [&](const StictionJoint& sticking) { return sticking.joint == joint; });
 }
 
-double Stops::unseen_on(const std::vector<int>& joints) const {
+double StictionImpulses::unseen_on(const std::vector<int>& joints) const {
   double most = 0;
-  for (const RestingJoint& resting : resting_) {
-    const bool own = std::find(joints.begin(), joints.end(), resting.joint) != joints.end();
-    most = std::max(most, (own ? kImperfect : kThrough) * resting.squares);
+  for (const StictionJoint& sticking : sticking_) {
+    const bool own = std::find(joints.begin(), joints.end(), sticking.joint) != joints.end();
+    most = std::max(most, (own ? kImperfect : kThrough) * sticking.squares);
   }
   return most;
 }
 
 /// Whether a single test by itself would say so.
-bool Stops::significant(double surprise) { return std::exp(-surprise) < kLevel; }
+bool StictionImpulses::significant(double surprise) { return std::exp(-surprise) < kLevel; }
 
-const GenericResult* Stops::impulses_at(const Screening& screening, int joint) const {
+const GenericResult* StictionImpulses::impulses_at(const Screening& screening, int joint) const {
   for (const GenericResult& generic : screening.generic) {
     const GenericStructure& structure = structures_[generic.structure];
     if (structure.form == GenericStructure::Form::kImpulses && structure.joint == joint)
@@ -75,13 +75,15 @@ const GenericResult* Stops::impulses_at(const Screening& screening, int joint) c
 }
 
 /// Surprise of the impulses at the reversals of a joint.
-double Stops::impulses_of(const Screening& screening, int joint) const {
+double StictionImpulses::impulses_of(const Screening& screening, int joint) const {
   const GenericResult* impulses = impulses_at(screening, joint);
   return impulses ? impulses->surprise : 0;
 }
 
-Stops::Part Stops::part_in(const EvidenceSystem& system, const Screening& screening,
-                           const Hypothesis& hypothesis, const NamedResult& named) const {
+StictionImpulses::Part StictionImpulses::part_in(const EvidenceSystem& system,
+                                                 const Screening& screening,
+                                                 const Hypothesis& hypothesis,
+                                                 const NamedResult& named) const {
   // what is late is late everywhere, not only where a joint that sticks lets go late
   const bool everywhere = hypothesis.effect.law.kind == EffectKind::kAlignment;
   if (everywhere && hide(system, screening, hypothesis, named)) return Part::kAll;
@@ -92,17 +94,17 @@ Stops::Part Stops::part_in(const EvidenceSystem& system, const Screening& screen
     return hypothesis_columns(data_, signals_, model, hypothesis, named.best.effect);
   };
   for (const int joint : joints_of(hypothesis.effect, data_.joints())) {
-    if (rests(joint) || !significant(impulses_of(screening, joint))) continue;
+    if (sticks(joint) || !significant(impulses_of(screening, joint))) continue;
     const JointColumns impulses =
         system.whitened(generic_columns(data_, signals_, impulses_at_reversals(joint)));
     if (!any) beside_effect.add(white_beside(system));
     any = true;
     const Score& alone = impulses_at(screening, joint)->score;
-    squares += alone.squares;
+    squares += alone.delta_chi2;
     degrees += alone.degrees;
     const Score left = score_of(beside_effect.products(impulses, false), false);
-    beside_it += left.squares;
-    much_left = much_left || significant(surprise_of(left.squares, left.degrees));
+    beside_it += left.delta_chi2;
+    much_left = much_left || significant(surprise_of(left.delta_chi2, left.degrees));
     beside.leave_out(impulses);
   }
   if (!any || !much_left) return Part::kNone;
@@ -112,71 +114,74 @@ Stops::Part Stops::part_in(const EvidenceSystem& system, const Screening& screen
   const double expected = size.dot(products.left * size);
   if (expected > kKnown && size.dot(products.rest) < 0.5 * expected) return Part::kAll;
   const Score left = score_of(products, false);
-  if (screening.family_wise(surprise_of(left.squares, left.degrees)) <= false_alarm_) {
+  if (screening.family_wise(surprise_of(left.delta_chi2, left.degrees)) <= false_alarm_) {
     return Part::kNone;
   }
-  const bool makes_them = !everywhere &&
-                          named.best.score.squares > kGoodPart * std::max(0.0, squares - degrees) &&
-                          beside_it < kHardlyMoreThanNoise * degrees;
+  const bool makes_them =
+      !everywhere && named.best.score.delta_chi2 > kGoodPart * std::max(0.0, squares - degrees) &&
+      beside_it < kHardlyMoreThanNoise * degrees;
   return makes_them ? Part::kBecause : Part::kAll;
 }
 
-EvidenceSystem Stops::beside_reversals(const EvidenceSystem& system,
-                                       const std::vector<int>& joints) const {
+EvidenceSystem StictionImpulses::beside_reversals(const EvidenceSystem& system,
+                                                  const std::vector<int>& joints) const {
   EvidenceSystem beside = system;
   for (const int joint : joints) {
-    if (rests(joint)) continue;
+    if (sticks(joint)) continue;
     beside.leave_out(
         system.whitened(generic_columns(data_, signals_, impulses_at_reversals(joint))));
   }
   return beside;
 }
 
-bool Stops::nothing_left_in(const EvidenceSystem& beside, const Screening& screening,
-                            const Hypothesis& hypothesis, const NamedResult& named) const {
+bool StictionImpulses::nothing_left_in(const EvidenceSystem& beside, const Screening& screening,
+                                       const Hypothesis& hypothesis,
+                                       const NamedResult& named) const {
   const Score left = score_of(
       beside.products(hypothesis_columns(data_, signals_, beside, hypothesis, named.best.effect),
                       false),
       false);
-  return screening.family_wise(surprise_of(left.squares, left.degrees)) > false_alarm_;
+  return screening.family_wise(surprise_of(left.delta_chi2, left.degrees)) > false_alarm_;
 }
 
-bool Stops::hide(const EvidenceSystem& system, const Screening& screening,
-                 const Hypothesis& hypothesis, const NamedResult& named) const {
+bool StictionImpulses::hide(const EvidenceSystem& system, const Screening& screening,
+                            const Hypothesis& hypothesis, const NamedResult& named) const {
   const EvidenceSystem beside =
       beside_reversals(system, joints_of(hypothesis.effect, data_.joints()));
   return nothing_left_in(beside, screening, hypothesis, named);
 }
 
-std::vector<RestingJoint> Stops::resting(const EvidenceSystem& system, const Screening& screening,
-                                         const GenericStructure& structure) const {
+std::vector<StictionJoint> StictionImpulses::sticking(const EvidenceSystem& system,
+                                                      const Screening& screening,
+                                                      const GenericStructure& structure) const {
   const double impulses = impulses_of(screening, structure.joint);
-  if (rests(structure.joint) || !significant(impulses)) return {};
+  if (sticks(structure.joint) || !significant(impulses)) return {};
   // a rest that is longer than an impulse looks like friction that goes with the way since then
-  const bool long_rests = is_since_reversal(structure) && screening.family_wise(impulses) <= kLevel;
-  if (structure.form != GenericStructure::Form::kImpulses && !long_rests) {
+  const bool long_stiction =
+      is_since_reversal(structure) && screening.family_wise(impulses) <= kLevel;
+  if (structure.form != GenericStructure::Form::kImpulses && !long_stiction) {
     EvidenceSystem beside = system;
     const auto white = [&](const GenericStructure& own) {
       return beside.whitened(generic_columns(data_, signals_, own));
     };
     beside.leave_out(white(impulses_at_reversals(structure.joint)));
     const Score left = score_of(beside.products(white(structure), false), false);
-    const double surprise = surprise_of(left.squares, left.degrees);
+    const double surprise = surprise_of(left.delta_chi2, left.degrees);
     if (screening.family_wise(surprise) <= false_alarm_) return {};
   }
-  std::vector<RestingJoint> joints = {found(system, screening, structure.joint)};
-  for (const RestingJoint& other : strongest(system, screening)) {
+  std::vector<StictionJoint> joints = {found(system, screening, structure.joint)};
+  for (const StictionJoint& other : strongest(system, screening)) {
     if (other.joint != structure.joint) joints.push_back(other);
   }
   return joints;
 }
 
-std::vector<RestingJoint> Stops::strongest(const EvidenceSystem& system,
-                                           const Screening& screening) const {
-  std::vector<RestingJoint> joints;
+std::vector<StictionJoint> StictionImpulses::strongest(const EvidenceSystem& system,
+                                                       const Screening& screening) const {
+  std::vector<StictionJoint> joints;
   for (int j = 0; j < data_.joints(); ++j) {
     const double impulses = impulses_of(screening, j);
-    if (rests(j) || screening.family_wise(impulses) > kLevel) continue;
+    if (sticks(j) || screening.family_wise(impulses) > kLevel) continue;
     const bool strongest = std::all_of(
         screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
           const GenericStructure& structure = structures_[generic.structure];
@@ -187,9 +192,9 @@ std::vector<RestingJoint> Stops::strongest(const EvidenceSystem& system,
   return joints;
 }
 
-RestingJoint Stops::found(const EvidenceSystem& system, const Screening& screening,
-                          int joint) const {
-  RestingJoint resting{joint, impulses_at(screening, joint)->score.squares, {}};
+StictionJoint StictionImpulses::found(const EvidenceSystem& system, const Screening& screening,
+                                      int joint) const {
+  StictionJoint sticking{joint, impulses_at(screening, joint)->score.delta_chi2, {}};
   const JointColumns impulses = generic_columns(data_, signals_, impulses_at_reversals(joint));
   const Products products = system.products(system.whitened(impulses), false);
   const std::vector<std::vector<Index>> own = columns_of_recordings(data_, impulses.parts[0]);
@@ -199,16 +204,16 @@ RestingJoint Stops::found(const EvidenceSystem& system, const Screening& screeni
                         products.rest(own[recording]),
                         {}};
     const Score score = score_of(part, false);
-    if (significant(surprise_of(score.squares, score.degrees))) {
-      resting.recordings.push_back(static_cast<int>(recording));
+    if (significant(surprise_of(score.delta_chi2, score.degrees))) {
+      sticking.recordings.push_back(static_cast<int>(recording));
     }
   }
-  const bool in_some = !resting.recordings.empty() && 2 * resting.recordings.size() <= own.size();
-  if (in_some) return resting;
-  // none by itself shows it, or most do, and in the others it rests too briefly to be seen
-  resting.recordings.resize(own.size());
-  std::iota(resting.recordings.begin(), resting.recordings.end(), 0);
-  return resting;
+  const bool in_some = !sticking.recordings.empty() && 2 * sticking.recordings.size() <= own.size();
+  if (in_some) return sticking;
+  // none by itself shows it, or most do, and in the others it sticks too briefly to be seen
+  sticking.recordings.resize(own.size());
+  std::iota(sticking.recordings.begin(), sticking.recordings.end(), 0);
+  return sticking;
 }
 
 }  // namespace dyngen::runtime
