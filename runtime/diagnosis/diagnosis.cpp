@@ -170,7 +170,6 @@ class Diagnostician {
                        with = raw_residuals(heldout, after);
     answer_.heldout.before = raw_rms(heldout, without);
     answer_.heldout.after = raw_rms(heldout, with);
-    worse_ = worsening(heldout, without, with);
     describe_gains();
     answer_.noise.deviation = without_nameless(
         raw_floor(train, raw_residuals(train, after), repeats_of(train)), result());
@@ -179,6 +178,22 @@ class Diagnostician {
     const Eigen::ArrayXd all = counted_part(search_.sets().heldout).array();
     answer_.heldout.visited = (all > 0).select(judged / all.max(1e-300), 0.0).matrix();
     answer_.heldout.remarks = heldout_remarks(answer_.heldout, options_.rules.answer);
+    judge_heldout(before, after);
+  }
+
+  /// The same away from stiction intervals, where friction can take any value.
+  void judge_heldout(const EffectPoint& before, const EffectPoint& after) {
+    const EffectRecordings &train = search_.judged_train(), &heldout = search_.judged_heldout();
+    const RunResiduals without = raw_residuals(heldout, before),
+                       with = raw_residuals(heldout, after);
+    judged_ = answer_.heldout;
+    if (search_.has_stiction()) {
+      judged_.before = raw_rms(heldout, without);
+      judged_.after = raw_rms(heldout, with);
+      judged_.floor = without_nameless(
+          raw_floor(train, raw_residuals(train, after), repeats_of(train)), result());
+    }
+    worse_ = worsening(heldout, without, with);
   }
 
   /// What each finding lowers of the held-out torque of its joints, beside all others.
@@ -219,7 +234,8 @@ class Diagnostician {
     known.heldout_worth =
         known.fitted_worth.cwiseProduct(heldout).cwiseQuotient(fitted.cwiseMax(1.0));
     known.worse = worse_;
-    return contradicted(answer_.heldout, known, answer_.findings.empty(), input_.model.revolute,
+    known.away_from_stiction = search_.has_stiction();
+    return contradicted(judged_, known, answer_.findings.empty(), input_.model.revolute,
                         options_.rules.answer);
   }
 
@@ -253,7 +269,8 @@ class Diagnostician {
   const DiagnosisObserver& observer_;
   Search search_;
   Diagnosis answer_;
-  VectorXd worse_;  ///< (n) worsening() of held-out torque
+  HeldoutResidual judged_;  ///< away from stiction intervals
+  VectorXd worse_;          ///< (n) worsening() of held-out torque
 };
 
 }  // namespace

@@ -86,7 +86,8 @@ std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const Heldout
     reasons.push_back(std::move(reason));
   }
   if (reasons.empty()) return std::nullopt;
-  const std::string list = fmt::format("{}", fmt::join(reasons, "; "));
+  std::string list = fmt::format("{}", fmt::join(reasons, "; "));
+  if (known.away_from_stiction) list += " (without the samples near stiction)";
   if (found_nothing && beyond) {
     return Conclusion{
         Verdict::kInsufficientData,

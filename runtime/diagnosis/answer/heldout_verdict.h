@@ -21,6 +21,7 @@ struct HeldoutKnowledge {
   /// (n) standard deviations by which blocks of held-out torque are predicted worse with the
   /// findings than without; 0: they are not
   Eigen::VectorXd worse;
+  bool away_from_stiction = false;  ///< samples near reversals of joints that stick are left out
 };
 
 /// (n) The mean over blocks of the logarithm of squares with the findings over those without, in

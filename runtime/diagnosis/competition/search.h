@@ -33,6 +33,10 @@ class Search {
   /// Recordings that an rms is of: all of their equations, sticks or not.
   [[nodiscard]] const EffectRecordings& shown_train() const;
   [[nodiscard]] const EffectRecordings& shown_heldout() const;
+  /// The same without stiction intervals, where friction can take any value: what a verdict is of.
+  [[nodiscard]] const EffectRecordings& judged_train() const;
+  [[nodiscard]] const EffectRecordings& judged_heldout() const;
+  [[nodiscard]] bool has_stiction() const { return away_.has_value(); }
 
  private:
   bool look_beside(const std::vector<StictionJoint>& found);
@@ -49,7 +53,7 @@ class Search {
   struct Whole {
     EffectRecordings train, heldout;
   };
-  std::optional<Whole> whole_;
+  std::optional<Whole> whole_, away_;
   std::vector<Hypothesis> hypotheses_;
   CompetitionResult result_;
 };

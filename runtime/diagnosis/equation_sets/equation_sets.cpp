@@ -189,6 +189,15 @@ EquationSetOptions beside_stiction(const EquationSetOptions& options,
   return beside;
 }
 
+EffectRecordings away_from_stiction(EffectRecordings data, const std::vector<MotionSource>& sources,
+                                    const EquationSetOptions& options) {
+  const VectorXd still = still_speed(sources, options.rows, data.joints());
+  for (EffectRun& run : data.runs) {
+    leave_out_stiction(run, still, sticking_in(options, kAny));
+  }
+  return data;
+}
+
 VectorXd counted_part(const EffectRecordings& data) {
   VectorXd counted = VectorXd::Zero(data.joints());
   for (const EffectRun& run : data.runs) counted += run.rows.counted.colwise().sum().transpose();

@@ -40,6 +40,11 @@ EquationSetOptions beside_stiction(const EquationSetOptions& options,
                                    const std::vector<MotionSource>& train,
                                    std::vector<StictionJoint> sticking);
 
+/// Recordings without the equations of joints near the stiction intervals of any recording.
+/// @param sources  that `data` was made of       @param options  whose rows it has
+EffectRecordings away_from_stiction(EffectRecordings data, const std::vector<MotionSource>& sources,
+                                    const EquationSetOptions& options);
+
 /// (n) the part of each joint's equations that counts.
 Eigen::VectorXd counted_part(const EffectRecordings& data);
 
