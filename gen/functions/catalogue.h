@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gen/algorithms/code_model.h"
+#include "gen/algorithms/code_model/code_model.h"
 #include "gen/trace/trace.h"
 
 namespace dyngen {
