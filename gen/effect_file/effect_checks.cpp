@@ -13,7 +13,7 @@
 #include "gen/effect_file/effect_equations.h"
 #include "gen/effect_file/effect_variables.h"
 #include "gen/effect_file/expression_units.h"
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 namespace {

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "gen/bodies/converted_robot.h"
-#include "gen/robot_file/characters.h"
 #include "gen/robot_file/expression.h"
-#include "gen/robot_file/spelling.h"
 #include "gen/symoro/par_text.h"
+#include "gen/words/characters.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 

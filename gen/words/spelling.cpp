@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "gen/robot_file/characters.h"
+#include "gen/words/characters.h"
 
 namespace dyngen {
 
