@@ -31,6 +31,9 @@ struct ExtraInputs {
   bool load = false;     ///< w[6]: force and moment in the axes of frame 0
 };
 
+/// What functions of torque read.
+inline constexpr ExtraInputs kAllInputs = {.gravity = true, .wrench = true, .payload = true};
+
 /// What a function has to do with the effects of a robot.
 enum class EffectPart {
   kIn,       ///< they are in its result

@@ -126,6 +126,169 @@ void add_weights(CodeModel& code) {
   }
 }
 
+/// Makes the code model part by part. The order of the parts is the order of the symbols: chi comes
+/// first, so that parameters lead each product.
+class CodeModelMaker {
+ public:
+  CodeModelMaker(const Regrouping& grouping, const CodeOptions& options)
+      : grouping_(grouping), robot_(grouping.robot), options_(options) {}
+
+  CodeModel make(const std::vector<GroupedParameter>& base,
+                 const std::vector<BoundEffect>& effects) {
+    code_.name = robot_.name;
+    code_.file_name = robot_.file_name;
+    for (const GroupedParameter& parameter : base) {
+      code_.beta.push_back(parameter.name());
+      code_.beta_columns.push_back(parameter.column);
+    }
+    code_.options = options_;
+    code_.wrench.fill(0);
+    code_.takes_chi = options_.parameters == ParameterMode::kRuntime;
+    add_links();
+    for (const GroupedParameter& parameter : grouping_.parameters) add_parameter(parameter);
+    add_unknown_lengths();
+    add_tips();
+    if (options_.payload) add_payload(code_);
+    add_lengths();
+    add_gravity();
+    add_motion();
+    if (options_.wrench) add_wrench(code_);
+    if (options_.weights) add_weights(code_);
+    add_effects(code_, effects, robot_);
+    add_load();
+    return std::move(code_);
+  }
+
+ private:
+  void add_links() {
+    for (const SymbolicLink& link : robot_.links) {
+      CodeLink own;
+      own.type = link.type;
+      own.parent = link.parent;
+      own.alpha = link.alpha;
+      own.theta = link.theta;
+      own.coordinate = link.coordinate;
+      own.chi.fill(0);
+      code_.links.push_back(std::move(own));
+      if (link.coordinate >= 0) {
+        code_.coordinate_names.push_back(link.name);
+        code_.coordinate_revolute.push_back(link.type == JointType::kRevolute);
+      }
+    }
+  }
+
+  void add_parameter(const GroupedParameter& parameter) {
+    const Column column = parameter.column;
+    const bool revolute = robot_.link(column.link).type != JointType::kPrismatic;
+    const ex value = with_known_values(parameter.value, robot_);
+    code_.chi_columns.push_back(column);
+    ChiEntry entry;
+    entry.name = parameter.name();
+    entry.unit = chi_unit(column.kind, revolute);
+    entry.value = known_number(value);
+    const FileSymbol* plain = find_symbol(robot_.parameters, parameter.value);
+    entry.comment = plain != nullptr ? origin(robot_.file_name, plain->line)
+                                     : "= " + formula_text(parameter.value, robot_);
+    ex& target = code_.links[static_cast<std::size_t>(column.link - 1)].chi[index(column.kind)];
+    if (options_.parameters == ParameterMode::kBaked && entry.value) {
+      target = add_constant(code_.inputs, entry.name, *entry.value, entry.unit, entry.comment);
+      code_.chi.push_back(std::move(entry));
+    } else if (options_.parameters == ParameterMode::kBaked && only_geometry(value, robot_)) {
+      from_geometry_.emplace_back(column, value);
+      code_.chi.push_back(std::move(entry));
+    } else {
+      target = add_chi_entry(code_, std::move(entry));
+    }
+  }
+
+  /// Lengths that the file leaves unknown are entries of chi, and parameters may read them.
+  void add_unknown_lengths() {
+    for (const FileSymbol& length : robot_.geometry) {
+      if (options_.gravity && is_gravity(robot_, length.symbol)) continue;
+      geometry_[length.symbol] = add_chi_entry(
+          code_, {length.name, length.unit, origin(robot_.file_name, length.line), std::nullopt});
+    }
+    for (const auto& [column, value] : from_geometry_) {
+      code_.links[static_cast<std::size_t>(column.link - 1)].chi[index(column.kind)] =
+          value.subs(geometry_);
+    }
+  }
+
+  ex length(const ex& value, const std::string& name, int line) {
+    if (!is_number(value)) return value.subs(geometry_);
+    return add_constant(code_.inputs, name, value, "m", origin(robot_.file_name, line));
+  }
+
+  void add_tips() {
+    for (std::size_t j = 0; j < robot_.links.size(); ++j) {
+      const SymbolicLink& link = robot_.links[j];
+      code_.links[j].tip_alpha = link.tip_alpha;
+      code_.links[j].tip_d = length(link.tip_d, fmt::format("dt{}", j + 1), link.tip_line);
+    }
+  }
+
+  void add_lengths() {
+    for (std::size_t j = 0; j < robot_.links.size(); ++j) {
+      const SymbolicLink& link = robot_.links[j];
+      code_.links[j].d = length(link.d, fmt::format("d{}", j + 1), link.d_line);
+      code_.links[j].r = length(link.r, fmt::format("r{}", j + 1), link.r_line);
+    }
+  }
+
+  void add_gravity() {
+    constexpr std::array<const char*, 3> kGravityNames = {"GX", "GY", "GZ"};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ex& value = robot_.gravity[k];
+      if (options_.gravity) {
+        code_.gravity[k] = add_input(code_.inputs, "gravity", static_cast<int>(k),
+                                     std::string(1, "xyz"[k]), "m/s^2", true);
+        geometry_[value] = code_.gravity[k];
+        continue;
+      }
+      code_.gravity[k] = is_number(value)
+                             ? add_constant(code_.inputs, kGravityNames[k], value, "m/s^2",
+                                            origin(robot_.file_name, robot_.gravity_lines[k]))
+                             : value.subs(geometry_);
+    }
+  }
+
+  void add_motion() {
+    const auto add_inputs = [&](const std::string& array, ex CodeLink::*member,
+                                const std::string& per_time) {
+      for (int j = 1; j <= code_.size(); ++j) {
+        CodeLink& link = code_.links[static_cast<std::size_t>(j - 1)];
+        if (link.coordinate < 0) continue;
+        const std::string unit = (link.type == JointType::kRevolute ? "rad" : "m") + per_time;
+        link.*member = add_input(code_.inputs, array, link.coordinate, std::to_string(j), unit);
+      }
+    };
+    add_inputs("q", &CodeLink::q, "");
+    add_inputs("dq", &CodeLink::dq, "/s");
+    add_inputs("ddq", &CodeLink::ddq, "/s^2");
+    for (int j = 1; j <= code_.size(); ++j) {
+      CodeLink& link = code_.links[static_cast<std::size_t>(j - 1)];
+      if (link.coordinate < 0) continue;
+      link.tau = add_input(code_.inputs, "tau", link.coordinate, std::to_string(j),
+                           link.type == JointType::kRevolute ? "N m" : "N");
+    }
+  }
+
+  /// A force and a moment on a link, of the functions that ask for them.
+  void add_load() {
+    for (std::size_t k = 0; k < code_.load.size(); ++k) {
+      code_.load[k] = add_input(code_.inputs, "w", static_cast<int>(k), std::to_string(k + 1),
+                                k < 3 ? "N" : "N m");
+    }
+  }
+
+  const Regrouping& grouping_;
+  const SymbolicRobot& robot_;
+  const CodeOptions& options_;
+  CodeModel code_;
+  GiNaC::exmap geometry_;                             // unknown lengths: their entries of chi
+  std::vector<std::pair<Column, ex>> from_geometry_;  // baked, but a length in it is unknown
+};
+
 }  // namespace
 
 ex add_chi_entry(CodeModel& code, ChiEntry entry) {
@@ -144,125 +307,7 @@ ex add_chi_entry(CodeModel& code, ChiEntry entry) {
 
 CodeModel make_code_model(const Regrouping& grouping, const std::vector<GroupedParameter>& base,
                           const CodeOptions& options, const std::vector<BoundEffect>& effects) {
-  const ParameterMode mode = options.parameters;
-  const SymbolicRobot& robot = grouping.robot;
-  CodeModel code;
-  code.name = robot.name;
-  code.file_name = robot.file_name;
-  for (const GroupedParameter& parameter : base) {
-    code.beta.push_back(parameter.name());
-    code.beta_columns.push_back(parameter.column);
-  }
-  code.options = options;
-  code.wrench.fill(0);
-  code.takes_chi = mode == ParameterMode::kRuntime;
-
-  for (const SymbolicLink& link : robot.links) {
-    CodeLink own;
-    own.type = link.type;
-    own.parent = link.parent;
-    own.alpha = link.alpha;
-    own.theta = link.theta;
-    own.coordinate = link.coordinate;
-    own.chi.fill(0);
-    code.links.push_back(std::move(own));
-    if (link.coordinate >= 0) {
-      code.coordinate_names.push_back(link.name);
-      code.coordinate_revolute.push_back(link.type == JointType::kRevolute);
-    }
-  }
-
-  // chi first, so that parameters lead each product
-  GiNaC::exmap geometry;
-  std::vector<std::pair<Column, ex>> from_geometry;  // baked, but a length in it is unknown
-  for (const GroupedParameter& parameter : grouping.parameters) {
-    const Column column = parameter.column;
-    const bool revolute = robot.link(column.link).type != JointType::kPrismatic;
-    const ex value = with_known_values(parameter.value, robot);
-    code.chi_columns.push_back(column);
-    ChiEntry entry;
-    entry.name = parameter.name();
-    entry.unit = chi_unit(column.kind, revolute);
-    entry.value = known_number(value);
-    const FileSymbol* plain = find_symbol(robot.parameters, parameter.value);
-    entry.comment = plain != nullptr ? origin(robot.file_name, plain->line)
-                                     : "= " + formula_text(parameter.value, robot);
-    ex& target = code.links[static_cast<std::size_t>(column.link - 1)].chi[index(column.kind)];
-    if (mode == ParameterMode::kBaked && entry.value) {
-      target = add_constant(code.inputs, entry.name, *entry.value, entry.unit, entry.comment);
-      code.chi.push_back(std::move(entry));
-    } else if (mode == ParameterMode::kBaked && only_geometry(value, robot)) {
-      from_geometry.emplace_back(column, value);
-      code.chi.push_back(std::move(entry));
-    } else {
-      target = add_chi_entry(code, std::move(entry));
-    }
-  }
-  for (const FileSymbol& length : robot.geometry) {
-    if (options.gravity && is_gravity(robot, length.symbol)) continue;
-    geometry[length.symbol] = add_chi_entry(
-        code, {length.name, length.unit, origin(robot.file_name, length.line), std::nullopt});
-  }
-  for (const auto& [column, value] : from_geometry) {
-    code.links[static_cast<std::size_t>(column.link - 1)].chi[index(column.kind)] =
-        value.subs(geometry);
-  }
-
-  const auto length = [&](const ex& value, const std::string& name, int line) {
-    if (!is_number(value)) return value.subs(geometry);
-    return add_constant(code.inputs, name, value, "m", origin(robot.file_name, line));
-  };
-  for (std::size_t j = 0; j < robot.links.size(); ++j) {
-    const SymbolicLink& link = robot.links[j];
-    code.links[j].tip_alpha = link.tip_alpha;
-    code.links[j].tip_d = length(link.tip_d, fmt::format("dt{}", j + 1), link.tip_line);
-  }
-  if (options.payload) add_payload(code);
-  for (std::size_t j = 0; j < robot.links.size(); ++j) {
-    const SymbolicLink& link = robot.links[j];
-    code.links[j].d = length(link.d, fmt::format("d{}", j + 1), link.d_line);
-    code.links[j].r = length(link.r, fmt::format("r{}", j + 1), link.r_line);
-  }
-  constexpr std::array<const char*, 3> kGravityNames = {"GX", "GY", "GZ"};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const ex& value = robot.gravity[k];
-    if (options.gravity) {
-      code.gravity[k] = add_input(code.inputs, "gravity", static_cast<int>(k),
-                                  std::string(1, "xyz"[k]), "m/s^2", true);
-      geometry[value] = code.gravity[k];
-      continue;
-    }
-    code.gravity[k] = is_number(value)
-                          ? add_constant(code.inputs, kGravityNames[k], value, "m/s^2",
-                                         origin(robot.file_name, robot.gravity_lines[k]))
-                          : value.subs(geometry);
-  }
-  const auto add_inputs = [&](const std::string& array, ex CodeLink::*member,
-                              const std::string& per_time) {
-    for (int j = 1; j <= code.size(); ++j) {
-      CodeLink& link = code.links[static_cast<std::size_t>(j - 1)];
-      if (link.coordinate < 0) continue;
-      const std::string unit = (link.type == JointType::kRevolute ? "rad" : "m") + per_time;
-      link.*member = add_input(code.inputs, array, link.coordinate, std::to_string(j), unit);
-    }
-  };
-  add_inputs("q", &CodeLink::q, "");
-  add_inputs("dq", &CodeLink::dq, "/s");
-  add_inputs("ddq", &CodeLink::ddq, "/s^2");
-  for (int j = 1; j <= code.size(); ++j) {
-    CodeLink& link = code.links[static_cast<std::size_t>(j - 1)];
-    if (link.coordinate < 0) continue;
-    link.tau = add_input(code.inputs, "tau", link.coordinate, std::to_string(j),
-                         link.type == JointType::kRevolute ? "N m" : "N");
-  }
-  if (options.wrench) add_wrench(code);
-  if (options.weights) add_weights(code);
-  add_effects(code, effects, robot);
-  for (std::size_t k = 0; k < code.load.size(); ++k) {
-    code.load[k] = add_input(code.inputs, "w", static_cast<int>(k), std::to_string(k + 1),
-                             k < 3 ? "N" : "N m");
-  }
-  return code;
+  return CodeModelMaker(grouping, options).make(base, effects);
 }
 
 std::vector<CodeLink> with_named_parameters(Trace& trace, const CodeModel& code) {
