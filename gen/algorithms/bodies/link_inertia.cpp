@@ -10,7 +10,6 @@ namespace {
 
 using GiNaC::ex;
 
-enum : std::size_t { kXX, kXY, kXZ, kYY, kYZ, kZZ };
 constexpr std::array<const char*, 6> kTensorNames = {"XX", "XY", "XZ", "YY", "YZ", "ZZ"};
 
 bool can_shift(const CodeLink& link) { return link.type == JointType::kRevolute; }

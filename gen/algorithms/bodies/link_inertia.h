@@ -15,6 +15,7 @@ namespace dyngen {
 
 /// A symmetric tensor: XX XY XZ YY YZ ZZ.
 using Tensor = std::array<GiNaC::ex, 6>;
+enum TensorEntry : std::size_t { kXX, kXY, kXZ, kYY, kYZ, kZZ };
 
 /// Inertial parameters of a link in one of its views.
 struct LinkInertia {

@@ -10,8 +10,6 @@ namespace {
 
 using GiNaC::ex;
 
-enum : std::size_t { kXX, kXY, kXZ, kYY, kYZ, kZZ };
-
 Matrix3 full(const Tensor& T) {
   return {{{T[kXX], T[kXY], T[kXZ]}, {T[kXY], T[kYY], T[kYZ]}, {T[kXZ], T[kYZ], T[kZZ]}}};
 }

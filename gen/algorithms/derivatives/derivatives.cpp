@@ -15,16 +15,16 @@ namespace {
 using GiNaC::ex;
 
 /// Force and moment about the origin.
-struct Wrench {
+struct CompositeWrench {
   Vector3 f = {0, 0, 0};
   Vector3 n = {0, 0, 0};
 };
 
 /// What a composite body hands on to the joints that carry it.
 struct Efforts {
-  Wrench inertia;    ///< for unit acceleration of its joint
-  Wrench velocity;   ///< per unit of its joint's rate
-  Wrench position;   ///< per unit of its joint's coordinate
+  CompositeWrench inertia;   ///< for unit acceleration of its joint
+  CompositeWrench velocity;  ///< per unit of its joint's rate
+  CompositeWrench position;  ///< per unit of its joint's coordinate
   Vector3 coriolis;  ///< per unit of angular velocity of what carries it: torque of its joint
 };
 
@@ -232,7 +232,7 @@ class Derivatives {
     return result;
   }
 
-  void assign_wrench(int i, int j, const std::string& name, Wrench& wrench) {
+  void assign_wrench(int i, int j, const std::string& name, CompositeWrench& wrench) {
     const auto vector = [&](const char* kind, Vector3& v) {
       for (std::size_t k = 0; k < 3; ++k) {
         v[k] = trace_.assign(fmt::format("{}{}{}_{}_{}", name, kind, k + 1, i, j), v[k]);
@@ -260,8 +260,8 @@ class Derivatives {
     const auto turned_x = [&](const char* name, const Vector3& v) {
       return to_parent(trace_, fmt::format("{}X_{}_{}", name, i, j), fixed, v);
     };
-    const auto carry = [&](const char* name, const Wrench& from) {
-      Wrench to = {turned_x(name, from.f), turned_x(name, from.n)};
+    const auto carry = [&](const char* name, const CompositeWrench& from) {
+      CompositeWrench to = {turned_x(name, from.f), turned_x(name, from.n)};
       const Vector3 lever = cross(step.P, to.f);
       for (std::size_t k = 0; k < 3; ++k) to.n[k] += lever[k];
       return to;
@@ -279,7 +279,7 @@ class Derivatives {
     }
     assign_efforts(i, parent, "L", result);
     const FrameRotation& rotation = frames_[at(parent)].from_anchor;
-    for (Wrench* wrench : {&result.inertia, &result.velocity, &result.position}) {
+    for (CompositeWrench* wrench : {&result.inertia, &result.velocity, &result.position}) {
       wrench->f = turn(rotation, wrench->f);
       wrench->n = turn(rotation, wrench->n);
     }
@@ -293,7 +293,7 @@ class Derivatives {
     const auto& [x2, y2, x, y, a, VPx, VPy] = axis_[at(j)];
     const int own = code_.link(i).coordinate, below = code_.link(j).coordinate;
     const auto& [inertia, velocity, position, b] = efforts;
-    const auto along = [&](const Wrench& wrench) {
+    const auto along = [&](const CompositeWrench& wrench) {
       return revolute(j) ? wrench.n[2] : wrench.f[2];
     };
     element(acceleration_, below, own) = element(acceleration_, own, below) = along(inertia);
@@ -325,7 +325,7 @@ class Derivatives {
   std::vector<ex> position_, velocity_, acceleration_;
 };
 
-RneaForm plain_form(const CodeModel& code) {
+RneaForm euler_form(const CodeModel& code) {
   RneaForm form(code.links.size());
   for (LinkForm& link : form) link.euler_tensor = true;
   form.back().inertia = View::kAxis;
@@ -335,7 +335,7 @@ RneaForm plain_form(const CodeModel& code) {
 }  // namespace
 
 void write_derivatives(Trace& trace, const CodeModel& code, const DerivativeOutputs& outputs) {
-  const RneaForm form = plain_form(code);
+  const RneaForm form = euler_form(code);
   Derivatives derivatives(trace, code, form);
   derivatives.write();
   derivatives.add_drives();
@@ -343,7 +343,7 @@ void write_derivatives(Trace& trace, const CodeModel& code, const DerivativeOutp
 }
 
 void write_half_velocity_derivative(Trace& trace, const CodeModel& code, const std::string& array) {
-  const RneaForm form = plain_form(code);
+  const RneaForm form = euler_form(code);
   Derivatives derivatives(trace, code, form, 1);
   derivatives.write();
   derivatives.output({.velocity = array});

@@ -17,7 +17,7 @@ namespace {
 using GiNaC::ex;
 
 /// Force and moment about the origin.
-struct Wrench {
+struct CarriedWrench {
   Vector3 force = {0, 0, 0};
   Vector3 moment = {0, 0, 0};
 
@@ -55,18 +55,18 @@ class Backward {
   }
 
   /// @return force and moment of link j on its joint along the axis
-  Wrench write_link(int j) {
+  CarriedWrench write_link(int j) {
     trace_.section(
         fmt::format("backward, link {}: F force, N moment of the link about O{}; E, T with the "
                     "links it carries",
                     j, j));
     const std::size_t at = static_cast<std::size_t>(j);
     const bool in_axis = form_[at - 1].inertia == View::kAxis;
-    Wrench& own = in_axis ? axis_[at] : link_[at];
+    CarriedWrench& own = in_axis ? axis_[at] : link_[at];
     write_own(j, own);
 
-    Wrench& link = link_[at];
-    Wrench& axis = axis_[at];
+    CarriedWrench& link = link_[at];
+    CarriedWrench& axis = axis_[at];
     join_along_axis(link, axis);
     const std::string mark = in_axis ? "A" : "";
     link.force = assign_vector(trace_, "E", j, link.force);
@@ -78,7 +78,7 @@ class Backward {
   }
 
  private:
-  void write_own(int j, Wrench& own) {
+  void write_own(int j, CarriedWrench& own) {
     const std::size_t at = static_cast<std::size_t>(j);
     const View view = form_[at - 1].inertia;
     const std::string mark = view == View::kAxis ? "A" : "";
@@ -93,7 +93,7 @@ class Backward {
   }
 
   /// The components along the axis are the same in both views: they stand in the link's.
-  static void join_along_axis(Wrench& link, Wrench& axis) {
+  static void join_along_axis(CarriedWrench& link, CarriedWrench& axis) {
     link.force[2] += axis.force[2];
     link.moment[2] += axis.moment[2];
     axis.force[2] = axis.moment[2] = 0;
@@ -122,8 +122,8 @@ class Backward {
     Vector3 force, moment;
     const bool force_in_axis = frame.parallel && form.force == View::kAxis;
     const bool moment_in_axis = frame.parallel && form.moment == View::kAxis;
-    const Wrench& link = link_[at];
-    const Wrench& axis = axis_[at];
+    const CarriedWrench& link = link_[at];
+    const CarriedWrench& axis = axis_[at];
     if (force_in_axis || !frame.parallel) {
       force = assign_vector(trace_, "EB", j, in_axis(turned_by, link.force, axis.force));
       force = to_parent(trace_, name("EA"), fixed, force);
@@ -151,7 +151,7 @@ class Backward {
   const std::vector<ChainMotion>& motions_;
   const std::vector<LinkInertia>& inertia_;
   const RneaForm& form_;
-  std::vector<Wrench> link_, axis_;  // of the links that hang on each, in each view
+  std::vector<CarriedWrench> link_, axis_;  // of the links that hang on each, in each view
 };
 
 }  // namespace
@@ -175,7 +175,7 @@ void write_rnea(Trace& trace, const CodeModel& code, const RneaTerms& terms, con
   for (int j = code.size(); j >= 1; --j) {
     const CodeLink& link = code.link(j);
     ex& own = torque[static_cast<std::size_t>(j)];
-    const Wrench wrench = backward.write_link(j);
+    const CarriedWrench wrench = backward.write_link(j);
     own = link.type == JointType::kPrismatic ? wrench.force[2] : wrench.moment[2];
     if (link.coordinate >= 0) load[static_cast<std::size_t>(link.coordinate)] = own;
     if (terms.rotor && terms.motion.acceleration) own += chi(link, Chi::kIA) * link.ddq;
@@ -206,7 +206,7 @@ void write_joint_wrenches(Trace& trace, const CodeModel& code) {
   Backward backward(trace, code, frames, motions, inertia, form);
   const int joints = static_cast<int>(code.coordinate_names.size());
   for (int j = code.size(); j >= 1; --j) {
-    const Wrench wrench = backward.write_link(j);
+    const CarriedWrench wrench = backward.write_link(j);
     const int coordinate = code.link(j).coordinate;
     if (coordinate < 0) continue;
     for (int k = 0; k < 3; ++k) {

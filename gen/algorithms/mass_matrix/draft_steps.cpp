@@ -14,9 +14,9 @@ DraftValue as_factor(Draft& draft, const DraftName& name, const DraftValue& sum)
 }
 
 /// Vectors and tensors in the plane of a turn, with the names of their components.
-class Plane {
+class TurnPlane {
  public:
-  Plane(Draft& draft, const DraftOwner& owner, const DraftTurn& turn)
+  TurnPlane(Draft& draft, const DraftOwner& owner, const DraftTurn& turn)
       : draft_(draft), owner_(owner), turn_(turn) {}
 
   /// A vector given in the turned axes.
@@ -59,7 +59,7 @@ class Plane {
 }  // namespace
 
 DraftBody turn_z(Draft& draft, const DraftOwner& owner, const DraftTurn& turn, const DraftBody& b) {
-  const Plane plane(draft, owner, turn);
+  const TurnPlane plane(draft, owner, turn);
   DraftBody result = b;
   const auto tensor = plane.back("XXA", "XYA", "YYA", {b[Chi::kXX], b[Chi::kXY], b[Chi::kYY]});
   result[Chi::kXX] = tensor.xx;
@@ -75,7 +75,7 @@ DraftBody turn_z(Draft& draft, const DraftOwner& owner, const DraftTurn& turn, c
 }
 
 DraftBody turn_x(Draft& draft, const DraftOwner& owner, const DraftTurn& turn, const DraftBody& b) {
-  const Plane plane(draft, owner, turn);
+  const TurnPlane plane(draft, owner, turn);
   DraftBody result = b;
   const auto tensor = plane.back("YYA", "YZA", "ZZA", {b[Chi::kYY], b[Chi::kYZ], b[Chi::kZZ]});
   result[Chi::kYY] = tensor.xx;
@@ -92,7 +92,7 @@ DraftBody turn_x(Draft& draft, const DraftOwner& owner, const DraftTurn& turn, c
 
 DraftWrench turn_z(Draft& draft, const DraftOwner& owner, const DraftTurn& turn,
                    const DraftWrench& w) {
-  const Plane plane(draft, owner, turn);
+  const TurnPlane plane(draft, owner, turn);
   const Pair f = plane.back("FF", 1, "FF", 2, {w.force[0], w.force[1]});
   const Pair n = plane.back("FN", 1, "FN", 2, {w.moment[0], w.moment[1]});
   return {{f.x, f.y, w.force[2]}, {n.x, n.y, w.moment[2]}};
@@ -100,7 +100,7 @@ DraftWrench turn_z(Draft& draft, const DraftOwner& owner, const DraftTurn& turn,
 
 DraftWrench turn_x(Draft& draft, const DraftOwner& owner, const DraftTurn& turn,
                    const DraftWrench& w) {
-  const Plane plane(draft, owner, turn);
+  const TurnPlane plane(draft, owner, turn);
   const Pair f = plane.back("FF", 2, "FF", 3, {w.force[1], w.force[2]});
   const Pair n = plane.back("FN", 2, "FN", 3, {w.moment[1], w.moment[2]});
   return {{w.force[0], f.x, f.y}, {w.moment[0], n.x, n.y}};
@@ -108,7 +108,7 @@ DraftWrench turn_x(Draft& draft, const DraftOwner& owner, const DraftTurn& turn,
 
 DraftScrew turn_z(Draft& draft, const DraftOwner& owner, const DraftTurn& turn,
                   const DraftScrew& s) {
-  const Plane plane(draft, owner, turn);
+  const TurnPlane plane(draft, owner, turn);
   const Pair w = plane.forth("SW", 1, 2, {s.angular[0], s.angular[1]});
   const Pair v = plane.forth("SV", 1, 2, {s.linear[0], s.linear[1]});
   return {{w.x, w.y, s.angular[2]}, {v.x, v.y, s.linear[2]}};
@@ -116,7 +116,7 @@ DraftScrew turn_z(Draft& draft, const DraftOwner& owner, const DraftTurn& turn,
 
 DraftScrew turn_x(Draft& draft, const DraftOwner& owner, const DraftTurn& turn,
                   const DraftScrew& s) {
-  const Plane plane(draft, owner, turn);
+  const TurnPlane plane(draft, owner, turn);
   const Pair w = plane.forth("SW", 2, 3, {s.angular[1], s.angular[2]});
   const Pair v = plane.forth("SV", 2, 3, {s.linear[1], s.linear[2]});
   return {{s.angular[0], w.x, w.y}, {s.linear[0], v.x, v.y}};
