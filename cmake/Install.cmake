@@ -4,13 +4,20 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(DYNGEN_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/dyngen)
+include(${PROJECT_SOURCE_DIR}/runtime/public_headers.cmake)
+
+# dyngen_install_headers(<part>): the headers of a part of the runtime, in the folders in which they stand.
+function(dyngen_install_headers part)
+  foreach(header IN LISTS dyngen_${part}_public dyngen_${part}_detail)
+    cmake_path(GET header PARENT_PATH room)
+    install(FILES runtime/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dyngen/runtime/${room} COMPONENT runtime)
+  endforeach()
+endfunction()
 
 if(TARGET dyngen_runtime)
   install(TARGETS dyngen_runtime EXPORT dyngenRuntimeTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
-  install(DIRECTORY runtime/
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dyngen/runtime COMPONENT runtime
-    FILES_MATCHING PATTERN "*.h" PATTERN tools EXCLUDE PATTERN report EXCLUDE PATTERN logs EXCLUDE PATTERN import EXCLUDE)
+  dyngen_install_headers(runtime)
   install(EXPORT dyngenRuntimeTargets NAMESPACE dyngen::
     DESTINATION ${DYNGEN_PACKAGE_DIR} COMPONENT runtime)
 endif()
@@ -19,6 +26,7 @@ endif()
 if(TARGET dyngen_consistency)
   install(TARGETS dyngen_consistency EXPORT dyngenConsistencyTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
+  dyngen_install_headers(consistency)
   install(EXPORT dyngenConsistencyTargets NAMESPACE dyngen::
     DESTINATION ${DYNGEN_PACKAGE_DIR} COMPONENT runtime)
 endif()
@@ -27,6 +35,7 @@ endif()
 if(TARGET dyngen_excitation)
   install(TARGETS dyngen_excitation EXPORT dyngenExcitationTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
+  dyngen_install_headers(excitation)
   install(EXPORT dyngenExcitationTargets NAMESPACE dyngen::
     DESTINATION ${DYNGEN_PACKAGE_DIR} COMPONENT runtime)
 endif()

@@ -13,7 +13,7 @@
 
 #include "gen/bodies/decimal.h"
 #include "gen/robot_file/keywords.h"
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 

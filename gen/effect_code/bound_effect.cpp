@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "gen/robot_file/spelling.h"
 #include "gen/symbols/exact.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 namespace {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "gen/effect_file/effect_equations.h"
+#include "gen/effect_file/effect_unit_checks.h"
 #include "gen/effect_file/effect_variables.h"
-#include "gen/effect_file/expression_units.h"
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 namespace {
@@ -22,12 +22,6 @@ namespace {
 constexpr std::array kDisplacements = {"d_q", "d_alpha", "d_d", "d_theta", "d_r"};
 
 using GiNaC::ex;
-
-/// Where no start is written, the typical size is it: one mistake is said once.
-bool has_own_start(const EffectParameter& parameter) {
-  return parameter.start.position.line != parameter.typical.position.line ||
-         parameter.start.position.column != parameter.typical.position.column;
-}
 
 class Checks {
  public:
@@ -42,8 +36,10 @@ class Checks {
     collect_variables();
     check_kind();
     check_plot();
-    check_units(JointUnits::kRevolute);
-    if (!effect_.revolute_only && !diagnostics_.has_errors()) check_units(JointUnits::kPrismatic);
+    check_effect_units(effect_, JointUnits::kRevolute, diagnostics_);
+    if (!effect_.revolute_only && !diagnostics_.has_errors()) {
+      check_effect_units(effect_, JointUnits::kPrismatic, diagnostics_);
+    }
     if (!diagnostics_.has_errors()) check_linearity();
   }
 
@@ -162,7 +158,7 @@ class Checks {
       if (entry.start) check(*entry.start, "start", first);
     }
     for (const EffectParameter& entry : effect_.parameters) {
-      if (has_own_start(entry)) check(entry.start, "start", scales);
+      if (entry.has_own_start()) check(entry.start, "start", scales);
       check(entry.typical, "typical", scales);
       if (entry.min) check(*entry.min, "min", scales);
       if (entry.max) check(*entry.max, "max", scales);
@@ -284,78 +280,6 @@ class Checks {
       error({1, 1}, fmt::format("row 'plot' names '{}', which is no variable", effect_.plot),
             "expected a variable, or distance: travelled since the last reversal");
     }
-  }
-
-  void check_units(JointUnits joint) {
-    std::map<std::string, Dimension> dimensions;
-    const auto add_unit = [&](const std::string& name, const std::string& unit,
-                              SourcePosition position) {
-      if (const auto dimension = dimension_of(unit, joint)) {
-        dimensions[name] = *dimension;
-      } else {
-        error(position, fmt::format("'{}' is no unit of '{}'", printable(unit), name),
-              "words N m s kg K rad W J Hz 1, position rate acceleration torque, joined by '.' and "
-              "'/': torque.s/rad");
-      }
-    };
-    for (const EffectScale& entry : effect_scales()) {
-      dimensions[std::string(entry.name)] = *dimension_of(entry.unit, joint);
-    }
-    for (const EffectVariable& entry : effect_variables()) {
-      dimensions[std::string(entry.name)] = *dimension_of(entry.unit, joint);
-    }
-    for (const EffectParameter& entry : effect_.parameters) {
-      add_unit(entry.name, entry.unit, entry.position);
-    }
-    for (const EffectState& entry : effect_.states) {
-      add_unit(entry.name, entry.unit, entry.position);
-    }
-    const DimensionOfName of_name = [&](const std::string& name) -> std::optional<Dimension> {
-      const auto found = dimensions.find(name);
-      if (found == dimensions.end()) return std::nullopt;
-      return found->second;
-    };
-    for (const auto& [name, value] : effect_.lets) {
-      if (const auto dimension = dimension_of(value, of_name, diagnostics_)) {
-        dimensions[name] = *dimension;
-      }
-    }
-    const auto expect = [&](const EffectExpression& value, const Dimension& wanted,
-                            std::string_view what) {
-      const auto found = dimension_of(value, of_name, diagnostics_);
-      if (!found || *found == wanted) return;
-      error(
-          value.position,
-          fmt::format("{} has the unit {}, expected {}", what, dimension_text(*found),
-                      dimension_text(wanted)),
-          joint == JointUnits::kPrismatic ? "of a prismatic joint; or write 'joints revolute'" : "",
-          value.length);
-    };
-    const Dimension torque = *dimension_of("torque", joint);
-    for (const EffectExpression& value : effect_.torque) expect(value, torque, "the torque");
-    for (const EffectState& entry : effect_.states) {
-      const Dimension own = dimensions[entry.name];
-      expect(entry.rate, own - *dimension_of("s", joint), "the rate of '" + entry.name + "'");
-      if (entry.min) expect(*entry.min, own, "min");
-      if (entry.max) expect(*entry.max, own, "max");
-      if (entry.start && !is_plain_number(*entry.start)) expect(*entry.start, own, "start");
-    }
-    for (const EffectParameter& entry : effect_.parameters) {
-      const auto expect_size = [&](const EffectExpression& value, std::string_view what) {
-        if (!is_plain_number(value)) expect(value, dimensions[entry.name], what);
-      };
-      expect_size(entry.typical, "typical");
-      if (has_own_start(entry)) expect_size(entry.start, "start");
-      if (entry.min) expect_size(*entry.min, "min");
-      if (entry.max) expect_size(*entry.max, "max");
-    }
-    const auto compare = [&](const EffectCondition& entry) {
-      const auto left = dimension_of(entry.left, of_name, diagnostics_);
-      if (!left || is_plain_number(entry.left) || is_plain_number(entry.right)) return;
-      expect(entry.right, *left, "the right side");
-    };
-    for (const EffectCondition& entry : effect_.requirements) compare(entry);
-    for (const EffectCondition& entry : effect_.falsifiers) compare(entry);
   }
 
   void check_linearity() {

@@ -13,8 +13,8 @@
 #include "gen/diagnostic/utf8.h"
 #include "gen/robot_file/exact_number.h"
 #include "gen/robot_file/lexer.h"
-#include "gen/robot_file/spelling.h"
 #include "gen/symbols/calls.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 namespace {

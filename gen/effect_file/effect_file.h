@@ -46,6 +46,12 @@ struct EffectParameter {
   bool logarithmic = false;  ///< the scale on which values of it are alike
   std::string meaning;
   SourcePosition position;
+
+  /// Where no start is written, the typical size is it: one mistake is said once.
+  [[nodiscard]] bool has_own_start() const {
+    return start.position.line != typical.position.line ||
+           start.position.column != typical.position.column;
+  }
 };
 
 /// dz/dt = rate, held between min and max where these are given.

@@ -11,7 +11,7 @@
 
 #include "gen/diagnostic/utf8.h"
 #include "gen/effect_file/effect_rows.h"
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <string>
+#include <span>
 #include <string_view>
-#include <vector>
 
 namespace dyngen {
 
@@ -26,7 +25,7 @@ struct EffectVariable {
 };
 
 /// All of them, in the order of the documentation. The one definition.
-const std::vector<EffectVariable>& effect_variables();
+std::span<const EffectVariable> effect_variables();
 /// @return null if there is none of this name
 const EffectVariable* find_effect_variable(std::string_view name);
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "gen/algorithms/centroid.h"
+#include "gen/algorithms/bodies/centroid.h"
 #include "gen/emit_c/body_text.h"
 #include "gen/emit_c/c_spelling.h"
 

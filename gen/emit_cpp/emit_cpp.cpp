@@ -300,14 +300,10 @@ std::string preamble(const CodeModel& code, const EmitOptions& options, bool bat
   return text;
 }
 
-}  // namespace
-
-std::string emit_cpp(const CodeModel& code, const std::vector<RobotFunction>& functions,
-                     const EmitOptions& options) {
-  check_namespace(code, options.prefix);
-  const bool batch = std::any_of(functions.begin(), functions.end(),
-                                 [](const RobotFunction& function) { return function.batch; });
-  std::string text = preamble(code, options, batch);
+/// The types of batches, of large matrices and of folded parameters, where functions have them.
+std::string types_text(const CodeModel& code, const std::vector<RobotFunction>& functions,
+                       const EmitOptions& options, bool batch) {
+  std::string text;
   const auto is_large = [&](const OutputSpec& output) {
     return output_type(output, code, options.scalar).on_heap;
   };
@@ -340,11 +336,22 @@ std::string emit_cpp(const CodeModel& code, const std::vector<RobotFunction>& fu
         "inline constexpr int NFOLDED = {1}_NFOLDED;\nusing Folded = Matrix<NFOLDED>;\n",
         options.prefix, upper_case(options.prefix));
   }
+  return text;
+}
+
+std::string names_text(const CodeModel& code) {
   std::vector<std::string> chi_names;
   for (const ChiEntry& entry : code.chi) chi_names.push_back(entry.name);
-  text += "\n" + view_table("joint_names", code.coordinate_names);
+  std::string text = view_table("joint_names", code.coordinate_names);
   text += view_table("chi_names", chi_names);
   text += view_table("beta_names", code.beta) + "\n";
+  return text;
+}
+
+/// The numbers of the robot file, and a new state.
+std::string values_text(const CodeModel& code, const std::vector<RobotFunction>& functions,
+                        const EmitOptions& options) {
+  std::string text;
   if (code.takes_chi || !code.chi.empty()) {
     text += fmt::format(
         "/// The numbers of the robot file; NaN where the file says '*'.\n"
@@ -361,6 +368,18 @@ std::string emit_cpp(const CodeModel& code, const std::vector<RobotFunction>& fu
         "  State s;\n  ::{0}_reset(&s, dt);\n  return s;\n}}\n\n",
         options.prefix);
   }
+  return text;
+}
+
+}  // namespace
+
+std::string emit_cpp(const CodeModel& code, const std::vector<RobotFunction>& functions,
+                     const EmitOptions& options) {
+  check_namespace(code, options.prefix);
+  const bool batch = std::any_of(functions.begin(), functions.end(),
+                                 [](const RobotFunction& function) { return function.batch; });
+  std::string text = preamble(code, options, batch) + types_text(code, functions, options, batch) +
+                     "\n" + names_text(code) + values_text(code, functions, options);
   for (const RobotFunction& function : functions) {
     if (function.scalar) text += function_text(function, code, options);
     if (function.batch) text += batch_text(function, code, options);

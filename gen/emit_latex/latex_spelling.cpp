@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "gen/robot_file/characters.h"
 #include "gen/symbols/exact.h"
+#include "gen/words/characters.h"
 
 namespace dyngen {
 namespace {

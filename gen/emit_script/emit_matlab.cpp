@@ -11,8 +11,8 @@
 
 #include "gen/emit_c/function_text.h"
 #include "gen/emit_script/script_spelling.h"
-#include "gen/robot_file/spelling.h"
 #include "gen/symbols/exact.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 namespace {

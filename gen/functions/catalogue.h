@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gen/algorithms/code_model.h"
+#include "gen/algorithms/code_model/code_model.h"
 #include "gen/trace/trace.h"
 
 namespace dyngen {
@@ -30,6 +30,9 @@ struct ExtraInputs {
   bool weights = false;  ///< A[n x nbeta], wherever there are any
   bool load = false;     ///< w[6]: force and moment in the axes of frame 0
 };
+
+/// What functions of torque read.
+inline constexpr ExtraInputs kAllInputs = {.gravity = true, .wrench = true, .payload = true};
 
 /// What a function has to do with the effects of a robot.
 enum class EffectPart {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "gen/algorithms/regressor.h"
+#include "gen/algorithms/regressors/regressor.h"
 #include "gen/passes/adjoint.h"
 #include "gen/passes/optimise.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "gen/algorithms/code_model.h"
+#include "gen/algorithms/code_model/code_model.h"
 #include "gen/trace/trace.h"
 
 namespace dyngen {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gen/algorithms/code_model.h"
+#include "gen/algorithms/code_model/code_model.h"
 #include "gen/effect_code/bound_effect.h"
 #include "gen/effects/effect_catalogue.h"
 #include "gen/emit_c/emit_c.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gen/diagnostic/diagnostic.h"
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 #include "gen/xml/known_attributes.h"
 
 namespace dyngen {

@@ -55,9 +55,6 @@ void run(const Instruction& instruction, double* registers, std::size_t count) {
   double* target = registers + static_cast<std::size_t>(instruction.target) * kBlock;
   const double* a = registers + static_cast<std::size_t>(instruction.a) * kBlock;
   const double* b = registers + static_cast<std::size_t>(instruction.b) * kBlock;
-  const auto each = [&](auto function) {
-    for (std::size_t k = 0; k < count; ++k) target[k] = function(a[k], b[k]);
-  };
   // what a processor does to several numbers at once; a target may be an operand of its own
   const auto together = [&](auto operation) {
 #pragma omp simd
@@ -79,45 +76,13 @@ void run(const Instruction& instruction, double* registers, std::size_t count) {
     case Op::kNegate:
       together([](double x, double) { return -x; });
       break;
-    case Op::kSin:
-      each([](double x, double) { return std::sin(x); });
-      break;
-    case Op::kCos:
-      each([](double x, double) { return std::cos(x); });
-      break;
-    case Op::kSign:
-      each([](double x, double) { return scalar::sign(x); });
-      break;
-    case Op::kMin:
-      each([](double x, double y) { return scalar::min(x, y); });
-      break;
-    case Op::kMax:
-      each([](double x, double y) { return scalar::max(x, y); });
-      break;
-    case Op::kPower:
-      each([](double x, double y) { return std::pow(x, y); });
-      break;
-    case Op::kExp:
-      each([](double x, double) { return std::exp(x); });
-      break;
-    case Op::kLog:
-      each([](double x, double) { return std::log(x); });
-      break;
-    case Op::kTanh:
-      each([](double x, double) { return std::tanh(x); });
-      break;
     case Op::kAbs:
       together([](double x, double) { return std::abs(x); });
       break;
-    case Op::kSqrt:
-      each([](double x, double) { return std::sqrt(x); });
-      break;
-    case Op::kDecayMean:
-      each([](double x, double) { return scalar::decay_mean(x); });
-      break;
-    case Op::kDecayMeanSlope:
-      each([](double x, double) { return scalar::decay_mean_slope(x); });
-      break;
+    default:
+      for (std::size_t k = 0; k < count; ++k) {
+        target[k] = scalar::called(instruction.op, a[k], b[k]);
+      }
   }
 }
 

@@ -57,45 +57,11 @@ void ProgramEvaluator::run(std::initializer_list<const double*> inputs,
       case Op::kNegate:
         r[step.target] = -r[step.a];
         break;
-      case Op::kSin:
-        r[step.target] = std::sin(r[step.a]);
-        break;
-      case Op::kCos:
-        r[step.target] = std::cos(r[step.a]);
-        break;
-      case Op::kSign:
-        r[step.target] = scalar::sign(r[step.a]);
-        break;
-      case Op::kMin:
-        r[step.target] = scalar::min(r[step.a], r[step.b]);
-        break;
-      case Op::kMax:
-        r[step.target] = scalar::max(r[step.a], r[step.b]);
-        break;
-      case Op::kPower:
-        r[step.target] = std::pow(r[step.a], r[step.b]);
-        break;
-      case Op::kExp:
-        r[step.target] = std::exp(r[step.a]);
-        break;
-      case Op::kLog:
-        r[step.target] = std::log(r[step.a]);
-        break;
-      case Op::kTanh:
-        r[step.target] = std::tanh(r[step.a]);
-        break;
       case Op::kAbs:
         r[step.target] = std::abs(r[step.a]);
         break;
-      case Op::kSqrt:
-        r[step.target] = std::sqrt(r[step.a]);
-        break;
-      case Op::kDecayMean:
-        r[step.target] = scalar::decay_mean(r[step.a]);
-        break;
-      case Op::kDecayMeanSlope:
-        r[step.target] = scalar::decay_mean_slope(r[step.a]);
-        break;
+      default:
+        r[step.target] = scalar::called(step.op, r[step.a], r[step.b]);
     }
   }
   for (const Element& write : writes_) outputs.begin()[write.array][write.index] = r[write.reg];

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
+
+#include "gen/program/program.h"
 
 /// Calls of a program that <cmath> does not have, as both evaluators compute them.
 namespace dyngen::scalar {
@@ -27,6 +30,38 @@ inline double decay_mean_slope(double x) {
     sum = sum * -x * (k + 1.0) / (k * (k + 2.0)) + 1.0;
   }
   return -0.5 * sum;
+}
+
+/// The value of a call. The second operand is read by those that have two.
+inline double called(Instruction::Op op, double a, double b) {
+  switch (op) {
+    case Instruction::Op::kSin:
+      return std::sin(a);
+    case Instruction::Op::kCos:
+      return std::cos(a);
+    case Instruction::Op::kSign:
+      return sign(a);
+    case Instruction::Op::kMin:
+      return min(a, b);
+    case Instruction::Op::kMax:
+      return max(a, b);
+    case Instruction::Op::kPower:
+      return std::pow(a, b);
+    case Instruction::Op::kExp:
+      return std::exp(a);
+    case Instruction::Op::kLog:
+      return std::log(a);
+    case Instruction::Op::kTanh:
+      return std::tanh(a);
+    case Instruction::Op::kSqrt:
+      return std::sqrt(a);
+    case Instruction::Op::kDecayMean:
+      return decay_mean(a);
+    case Instruction::Op::kDecayMeanSlope:
+      return decay_mean_slope(a);
+    default:  // sums, products and absolute values are no calls
+      return std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
 }  // namespace dyngen::scalar

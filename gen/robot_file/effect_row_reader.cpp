@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "gen/robot_file/name_rows.h"
-#include "gen/robot_file/spelling.h"
 #include "gen/robot_file/value_reader.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 

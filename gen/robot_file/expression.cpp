@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 

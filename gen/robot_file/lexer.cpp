@@ -6,7 +6,7 @@
 #include <array>
 
 #include "gen/diagnostic/utf8.h"
-#include "gen/robot_file/characters.h"
+#include "gen/words/characters.h"
 
 namespace dyngen {
 

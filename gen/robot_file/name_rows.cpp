@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "gen/robot_file/expression.h"
-#include "gen/robot_file/spelling.h"
 #include "gen/robot_file/value_reader.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 

@@ -16,8 +16,8 @@
 #include "gen/robot_file/keywords.h"
 #include "gen/robot_file/name_rows.h"
 #include "gen/robot_file/row_words.h"
-#include "gen/robot_file/spelling.h"
 #include "gen/robot_file/value_reader.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 

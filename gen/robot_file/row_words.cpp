@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "gen/robot_file/keywords.h"
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 

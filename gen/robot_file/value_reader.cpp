@@ -9,7 +9,7 @@
 
 #include "gen/robot_file/expression.h"
 #include "gen/robot_file/keywords.h"
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "gen/bodies/converted_robot.h"
-#include "gen/robot_file/characters.h"
 #include "gen/robot_file/expression.h"
-#include "gen/robot_file/spelling.h"
 #include "gen/symoro/par_text.h"
+#include "gen/words/characters.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 
@@ -288,9 +288,11 @@ class ParReader {
     places_[{key, column}] = {origin.position, origin.length};
   }
 
+  using Lists = std::map<std::string, const std::vector<ParValue>*>;
+
   void make_rows() {
     const auto wanted = static_cast<std::size_t>(links_);
-    std::map<std::string, const std::vector<ParValue>*> lists;
+    Lists lists;
     for (const std::string_view name : kParTable) {
       lists[std::string(name)] = list_of(std::string(name), wanted);
     }
@@ -307,48 +309,52 @@ class ParReader {
       columns_ += mount ? 1 : 0;
       place_of.push_back(columns_++);
     }
+    for (std::size_t link = 0; link < wanted; ++link) {
+      put_link(lists, link, place_of, mounted[link]);
+    }
+    for (const ParRow& row : kParBodyRows) put_body_row(row, place_of);
+    make_gravity();
+  }
+
+  /// The columns of a link in the table of joints: its own, and the step in front of it.
+  void put_link(Lists& lists, std::size_t link, const std::vector<std::size_t>& place_of,
+                bool mounted) {
     const ParValue nowhere{"0", {1, 1}, 1};
-    const auto value_of = [&](const char* name, std::size_t link) -> const ParValue& {
+    const auto value_of = [&](const char* name) -> const ParValue& {
       return lists[name] == nullptr ? nowhere : (*lists[name])[link];
     };
-    for (std::size_t link = 0; link < wanted; ++link) {
-      const std::size_t own = place_of[link];
-      const ParValue& type = value_of("sigma", link);
-      const std::string sigma = number(type, "sigma", false);
-      put(RowKey::kSigma, own, sigma, type);
-      put(RowKey::kAnt, own, parent_of(lists["ant"], link, place_of, mounted[link]),
-          value_of("ant", link));
-      if (mounted[link]) {
-        const std::size_t before = own - 1;
-        put(RowKey::kSigma, before, "2", type);
-        put(RowKey::kAnt, before, parent_of(lists["ant"], link, place_of, false),
-            value_of("ant", link));
-        put(RowKey::kTh, before, number(value_of("gamma", link), "gamma", false),
-            value_of("gamma", link));
-        put(RowKey::kR, before, number(value_of("b", link), "b", true), value_of("b", link));
-      }
-      put(RowKey::kAl, own, number(value_of("alpha", link), "alpha", false),
-          value_of("alpha", link));
-      put(RowKey::kD, own, number(value_of("d", link), "d", true), value_of("d", link));
-      const ParValue& theta = value_of("theta", link);
-      const ParValue& r = value_of("r", link);
-      put(RowKey::kTh, own,
-          sigma == "0" ? offset(theta, "theta", false) : number(theta, "theta", false), theta);
-      put(RowKey::kR, own, sigma == "1" ? offset(r, "r", true) : number(r, "r", true), r);
+    const std::size_t own = place_of[link];
+    const ParValue& type = value_of("sigma");
+    const std::string sigma = number(type, "sigma", false);
+    put(RowKey::kSigma, own, sigma, type);
+    put(RowKey::kAnt, own, parent_of(lists["ant"], link, place_of, mounted), value_of("ant"));
+    if (mounted) {
+      const std::size_t before = own - 1;
+      put(RowKey::kSigma, before, "2", type);
+      put(RowKey::kAnt, before, parent_of(lists["ant"], link, place_of, false), value_of("ant"));
+      put(RowKey::kTh, before, number(value_of("gamma"), "gamma", false), value_of("gamma"));
+      put(RowKey::kR, before, number(value_of("b"), "b", true), value_of("b"));
     }
-    for (const ParRow& row : kParBodyRows) {
-      const std::string name(row.name);
-      const std::vector<ParValue>* list = list_of(name, wanted);
-      if (list == nullptr) continue;
-      for (std::size_t link = 0; link < wanted; ++link) {
-        const bool of_joint = row.key == RowKey::kIA || row.key == RowKey::kFs ||
-                              row.key == RowKey::kFv || row.key == RowKey::kOff;
-        const bool fixed = rows_[RowKey::kSigma][place_of[link]] == "2";
-        const std::string text = number((*list)[link], find(name)->name, true);
-        put(row.key, place_of[link], fixed && of_joint && text == "*" ? "0" : text, (*list)[link]);
-      }
+    put(RowKey::kAl, own, number(value_of("alpha"), "alpha", false), value_of("alpha"));
+    put(RowKey::kD, own, number(value_of("d"), "d", true), value_of("d"));
+    const ParValue& theta = value_of("theta");
+    const ParValue& r = value_of("r");
+    put(RowKey::kTh, own,
+        sigma == "0" ? offset(theta, "theta", false) : number(theta, "theta", false), theta);
+    put(RowKey::kR, own, sigma == "1" ? offset(r, "r", true) : number(r, "r", true), r);
+  }
+
+  void put_body_row(const ParRow& row, const std::vector<std::size_t>& place_of) {
+    const std::string name(row.name);
+    const std::vector<ParValue>* list = list_of(name, place_of.size());
+    if (list == nullptr) return;
+    const bool of_joint = row.key == RowKey::kIA || row.key == RowKey::kFs ||
+                          row.key == RowKey::kFv || row.key == RowKey::kOff;
+    for (std::size_t link = 0; link < place_of.size(); ++link) {
+      const bool fixed = rows_[RowKey::kSigma][place_of[link]] == "2";
+      const std::string text = number((*list)[link], find(name)->name, true);
+      put(row.key, place_of[link], fixed && of_joint && text == "*" ? "0" : text, (*list)[link]);
     }
-    make_gravity();
   }
 
   std::string parent_of(const std::vector<ParValue>* ant, std::size_t link,

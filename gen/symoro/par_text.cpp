@@ -7,7 +7,7 @@
 
 #include "gen/diagnostic/line_table.h"
 #include "gen/diagnostic/utf8.h"
-#include "gen/robot_file/characters.h"
+#include "gen/words/characters.h"
 
 namespace dyngen {
 

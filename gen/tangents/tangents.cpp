@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "gen/algorithms/rnea.h"
+#include "gen/algorithms/inverse_dynamics/rnea.h"
 #include "gen/base_parameters/base_parameters.h"
 #include "gen/diagnostic/assert.h"
 #include "gen/functions/functions.h"

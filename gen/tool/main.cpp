@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "gen/algorithms/code_effects.h"
+#include "gen/algorithms/code_model/code_effects.h"
 #include "gen/diagnostic/assert.h"
 #include "gen/drawing/arm_drawing.h"
 #include "gen/effect_code/checked_robot.h"

@@ -131,22 +131,17 @@ void check(ToolOptions& options) {
   options.generator.validate();
 }
 
-}  // namespace
+/// Words of the command line that stand for something else.
+struct OptionWords {
+  std::string parameters = "baked";
+  std::string scalar = "double";
+  std::string trig;
+  std::string gravity = "file";
+  bool keep_standard = false;
+};
 
-std::string ToolOptions::header() const {
-  return std::filesystem::path(output).replace_extension(".h").string();
-}
-
-std::string ToolOptions::wrapper() const {
-  return std::filesystem::path(output).replace_extension(".hpp").string();
-}
-
-ParsedOptions parse_options(int argc, const char* const* argv) {
-  ParsedOptions parsed;
-  ToolOptions& options = parsed.options;
-  CLI::App app("dyngen: a robot file in, its dynamics as straight-line C out", "dyngen");
-  app.set_version_flag("--version", "dyngen " DYNGEN_VERSION);
-  add_robot(app, options.robot, "Robot")->required(false);  // it may stand among words of --eval
+/// What is written, and how the code looks.
+void add_code_options(CLI::App& app, ToolOptions& options, OptionWords& words) {
   app.add_option("-o,--output", options.output,
                  "C or C++ source to write; the header is written beside it")
       ->type_name("FILE");
@@ -156,31 +151,30 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAME,...");
-  std::string parameters = "baked";
-  app.add_option("--parameters", parameters,
+  app.add_option("--parameters", words.parameters,
                  "baked: the file's numbers stand in the code (default); runtime: they are read "
                  "from an argument chi[]. Unknown ones ('*') are always read from chi[]")
       ->type_name("baked|runtime");
-  std::string scalar = "double";
-  app.add_option("--scalar", scalar, "Arithmetic of the code (default: double)")
+  app.add_option("--scalar", words.scalar, "Arithmetic of the code (default: double)")
       ->type_name("double|float");
-  std::string trig;
-  app.add_option("--trig", trig,
+  app.add_option("--trig", words.trig,
                  "Sines and cosines: inline, all angles at once in the code (default), "
                  "or libm, calls of the C library")
       ->type_name("inline|libm");
   app.add_option("--prefix", options.generator.prefix,
                  "Begins every external name (default: the robot's name)")
       ->type_name("NAME");
-  bool keep_standard = false;
-  app.add_flag("--no-regroup", keep_standard,
+  app.add_flag("--no-regroup", words.keep_standard,
                "Keep the standard parameters; by default they are regrouped to base parameters");
   app.add_flag(
       "--fold", options.generator.fold,
       "Functions read folded[] in place of chi[]: what depends on parameters alone, worked "
       "out by one more function, fold, when chi has changed (with --parameters runtime)");
-  std::string gravity = "file";
-  app.add_option("--gravity", gravity,
+}
+
+/// What the code takes as arguments, and what is written with it.
+void add_argument_options(CLI::App& app, ToolOptions& options, OptionWords& words) {
+  app.add_option("--gravity", words.gravity,
                  "file: the file's (default); runtime: an argument gravity[3], m/s^2: the "
                  "acceleration of the base, -g, in frame 0")
       ->type_name("file|runtime");
@@ -204,6 +198,10 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--depfile", options.depfile,
                  "Write a Make rule that names the robot file and effect files")
       ->type_name("FILE");
+}
+
+/// What is said of the robot, and in which other forms it is written.
+void add_report_options(CLI::App& app, ToolOptions& options) {
   app.add_flag("--count", options.count,
                "Print multiplications and additions beside the bounds 105n-92 and 94n-86");
   app.add_flag("--explain", options.explain,
@@ -227,6 +225,10 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--compare", options.compare,
                  "Print where the robot of another file differs: torque, its parts, joint axes")
       ->type_name("FILE");
+}
+
+/// The functions in other languages.
+void add_language_options(CLI::App& app, ToolOptions& options) {
   app.add_option("--latex", options.latex,
                  "Write table of joints, base parameters and equations as LaTeX (.tex)")
       ->type_name("FILE");
@@ -235,28 +237,55 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--matlab", options.matlab,
                  "Write the functions as a MATLAB or Octave function file (.m)")
       ->type_name("FILE");
+}
+
+void take_words(const OptionWords& words, ToolOptions& options) {
+  options.generator.wrench = !options.wrench.empty();
+  options.generator.parameters = meaning<ParameterMode>(
+      "--parameters", words.parameters,
+      {{"baked", ParameterMode::kBaked}, {"runtime", ParameterMode::kRuntime}});
+  options.generator.scalar = meaning<Scalar>(
+      "--scalar", words.scalar, {{"double", Scalar::kDouble}, {"float", Scalar::kFloat}});
+  options.generator.trig = meaning<Trig>("--trig", words.trig.empty() ? "inline" : words.trig,
+                                         {{"inline", Trig::kInline}, {"libm", Trig::kLibm}});
+  options.generator.gravity =
+      meaning<bool>("--gravity", words.gravity, {{"file", false}, {"runtime", true}});
+  options.generator.regroup = !words.keep_standard;
+}
+
+}  // namespace
+
+std::string ToolOptions::header() const {
+  return std::filesystem::path(output).replace_extension(".h").string();
+}
+
+std::string ToolOptions::wrapper() const {
+  return std::filesystem::path(output).replace_extension(".hpp").string();
+}
+
+ParsedOptions parse_options(int argc, const char* const* argv) {
+  ParsedOptions parsed;
+  ToolOptions& options = parsed.options;
+  OptionWords words;
+  CLI::App app("dyngen: a robot file in, its dynamics as straight-line C out", "dyngen");
+  app.set_version_flag("--version", "dyngen " DYNGEN_VERSION);
+  add_robot(app, options.robot, "Robot")->required(false);  // it may stand among words of --eval
+  add_code_options(app, options, words);
+  add_argument_options(app, options, words);
+  add_report_options(app, options);
+  add_language_options(app, options);
   app.footer(
       "Examples:\n"
       "  dyngen arm.robot -o arm.c\n"
       "  dyngen panda.urdf --tip link8 -o panda.c\n"
       "  dyngen arm.robot --to-urdf arm.urdf");
-  const std::vector<std::string> words = with_joined_wrench(argc, argv);
+  const std::vector<std::string> line = with_joined_wrench(argc, argv);
   try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 reads backwards
-    options.generator.wrench = !options.wrench.empty();
-    options.generator.parameters = meaning<ParameterMode>(
-        "--parameters", parameters,
-        {{"baked", ParameterMode::kBaked}, {"runtime", ParameterMode::kRuntime}});
-    options.generator.scalar = meaning<Scalar>(
-        "--scalar", scalar, {{"double", Scalar::kDouble}, {"float", Scalar::kFloat}});
-    options.generator.trig = meaning<Trig>("--trig", trig.empty() ? "inline" : trig,
-                                           {{"inline", Trig::kInline}, {"libm", Trig::kLibm}});
-    options.generator.gravity =
-        meaning<bool>("--gravity", gravity, {{"file", false}, {"runtime", true}});
+    app.parse(std::vector<std::string>(line.rbegin(), line.rend() - 1));  // CLI11 reads backwards
+    take_words(words, options);
     if (app.count("--prefix") > 0 && options.generator.prefix.empty()) {
       throw std::invalid_argument("--prefix: it is empty; expected a C identifier");
     }
-    options.generator.regroup = !keep_standard;
     check(options);
   } catch (const CLI::Success& success) {
     parsed.exit_code = app.exit(success);

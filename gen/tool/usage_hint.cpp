@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gen/diagnostic/diagnostic.h"
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "gen/diagnostic/diagnostic.h"
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen {
 

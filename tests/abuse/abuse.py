@@ -4,7 +4,7 @@
 
     abuse.py --dynid PATH --dyngen PATH [--count N] [--seed S] [--kinds A,B] [--keep FOLDER]
 
-Every kind of damage of damage.py is done at random strength to recordings of three arms. An outcome is
+Every kind of damage of damage/ is done at random strength to recordings of three arms. An outcome is
   right    every base parameter that the fit calls seen is within 5 deviations or 5 % of the truth
   refused  the exit code is not 0 and no parameter that is called seen is wrong
   warned   what was said names the kind of damage

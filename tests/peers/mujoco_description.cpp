@@ -1,30 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
-#include <array>
-#include <cstring>
-#include <stdexcept>
+#include <memory>
+#include <string>
 
 #include "tests/peers/description_robots.h"
+#include "tests/support/mujoco_text.h"
 
 namespace dyngen::test {
 namespace {
 
 class MujocoRobot : public TorqueRobot {
  public:
-  MujocoRobot(const std::string& text, const std::string& name) {
-    // mjVFS is too large for the stack
-    const auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
-    if (mj_makeEmptyFileVFS(files.get(), name.c_str(), static_cast<int>(text.size())) != 0) {
-      throw std::runtime_error("MuJoCo: no room for the model's text");
-    }
-    std::memcpy(files->filedata[0], text.data(), text.size());
-    std::array<char, 500> message{};
-    model_.reset(mj_loadXML(name.c_str(), files.get(), message.data(), message.size()));
-    mj_deleteVFS(files.get());
-    if (!model_) throw std::runtime_error(fmt::format("MuJoCo: {}\n{}", message.data(), text));
+  MujocoRobot(const std::string& text, const std::string& name)
+      : model_(mujoco_model_of_text(text, name)) {
     if (name.ends_with(".urdf")) model_->opt.gravity[2] = -9.81;
     model_->opt.disableflags |= mjDSBL_CONSTRAINT | mjDSBL_CONTACT;
     data_.reset(mj_makeData(model_.get()));
@@ -47,12 +36,11 @@ class MujocoRobot : public TorqueRobot {
   }
 
  private:
-  struct Delete {
-    void operator()(mjModel* model) const { mj_deleteModel(model); }
+  struct DeleteData {
     void operator()(mjData* data) const { mj_deleteData(data); }
   };
-  std::unique_ptr<mjModel, Delete> model_;
-  std::unique_ptr<mjData, Delete> data_;
+  MujocoModel model_;
+  std::unique_ptr<mjData, DeleteData> data_;
 };
 
 }  // namespace

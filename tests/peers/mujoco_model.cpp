@@ -6,11 +6,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <stdexcept>
 #include <string>
 
 #include "tests/peers/link_frames.h"
+#include "tests/support/mujoco_text.h"
 
 namespace dyngen::test {
 namespace {
@@ -68,25 +67,10 @@ void set_inertia(mjModel& model, int body, const NumericJoint& joint) {
   std::copy_n(quaternion.begin(), 4, model.body_iquat + 4 * body);
 }
 
-mjModel* load(const std::string& text) {
-  const std::string name = "robot.xml";
-  mjVFS files;
-  mj_defaultVFS(&files);
-  if (mj_makeEmptyFileVFS(&files, name.c_str(), static_cast<int>(text.size())) != 0) {
-    throw std::runtime_error("MuJoCo: no room for the model's text");
-  }
-  std::memcpy(files.filedata[0], text.data(), text.size());
-  std::array<char, 500> message{};
-  mjModel* model = mj_loadXML(name.c_str(), &files, message.data(), message.size());
-  mj_deleteVFS(&files);
-  if (model == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + message.data());
-  return model;
-}
-
 }  // namespace
 
 mjModel* make_mujoco_model(const NumericRobot& robot) {
-  mjModel* const model = load(model_text(robot));
+  mjModel* const model = mujoco_model_of_text(model_text(robot), "robot.xml").release();
   for (std::size_t j = 0; j < robot.size(); ++j) {
     const int body = mj_name2id(model, mjOBJ_BODY, fmt::format("link{}", j + 1).c_str());
     set_inertia(*model, body, robot.joints[j]);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gen/algorithms/determinacy.h"
+#include "gen/algorithms/mass_matrix/determinacy.h"
 #include "gen/diagnostic/diagnostic.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/physical_robot.h"

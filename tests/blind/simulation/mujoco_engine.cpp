@@ -3,12 +3,10 @@
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Eigenvalues>
-#include <array>
-#include <cstring>
 #include <memory>
-#include <stdexcept>
 
 #include "tests/blind/simulation/engine.h"
+#include "tests/support/mujoco_text.h"
 
 namespace blind {
 namespace {
@@ -40,18 +38,7 @@ mjModel* load(const Tree& tree) {
     if (tree.links[static_cast<std::size_t>(i)].parent < 0) text += body_text(tree, i);
   }
   text += "</worldbody></mujoco>";
-  const std::string name = "tree.xml";
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  if (mj_makeEmptyFileVFS(files.get(), name.c_str(), static_cast<int>(text.size())) != 0) {
-    throw std::runtime_error("MuJoCo: no room for the model's text");
-  }
-  std::memcpy(files->filedata[0], text.data(), text.size());
-  std::array<char, 500> message{};
-  mjModel* const model = mj_loadXML(name.c_str(), files.get(), message.data(), message.size());
-  mj_deleteVFS(files.get());
-  if (model == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + message.data());
-  return model;
+  return dyngen::test::mujoco_model_of_text(text, "tree.xml").release();
 }
 
 /// MuJoCo's coordinates follow its bodies, depth first: where each link went.

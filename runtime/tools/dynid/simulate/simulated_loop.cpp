@@ -21,7 +21,7 @@ ControlLaw law_of(const std::string& name) {
 }
 
 VectorXd inertia_at(const SimulatedRobot& robot, const VectorXd& q) {
-  const VectorXd inertia = mass_matrix_of(robot, q).diagonal();
+  VectorXd inertia = mass_matrix_of(robot, q).diagonal();
   for (Index j = 0; j < inertia.size(); ++j) {
     if (inertia[j] > 0) continue;
     throw std::invalid_argument(

@@ -1,0 +1,31 @@
+#!/bin/sh
+# coverage.sh [TARGET...]: how many lines of gen/ and runtime/ tests run. Builds test programs with g++ --coverage, runs
+# them, and prints the share of lines by folder and in all. Without a TARGET: the unit tests of both parts.
+# BUILD is the build folder (build/coverage); FILTER: GoogleTest's filter; JOBS: compilations at once.
+set -eu
+cd "$(dirname "$0")/.."
+
+sh cmake/install_packages.sh build-essential cmake ninja-build pkg-config python3 \
+  libginac-dev libcln-dev libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev libexpat1-dev nlohmann-json3-dev \
+  libgtest-dev libgmock-dev librapidcheck-dev libboost-dev
+build=${BUILD:-build/coverage}
+cmake -G Ninja -S . -B "$build" -DDYNGEN_BUILD_TESTS=ON -DDYNGEN_RANDOM_CASES=5 -DDYNGEN_PRECOMPILE=OFF \
+  -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_COMPILER=gcc -DCMAKE_CXX_COMPILER=g++ -DCMAKE_UNITY_BUILD=OFF \
+  -DCMAKE_C_FLAGS="--coverage" -DCMAKE_CXX_FLAGS="--coverage -fprofile-update=atomic" \
+  -DCMAKE_CXX_FLAGS_DEBUG="-O0" -DCMAKE_C_FLAGS_DEBUG="-O0"
+
+all=$(ninja -C "$build" -t targets all | sed -n 's/^\([a-z_0-9]*_tests\): phony$/\1/p')
+if [ $# -eq 0 ]; then
+  # shellcheck disable=SC2046  # targets, in words
+  set -- $(echo "$all" | grep -E '^(gen|robot_input|runtime_[a-z_]*)_tests$')
+fi
+cmake --build "$build" --parallel "${JOBS:-$(nproc)}" --target "$@"
+
+# counts of an earlier run are not counted again
+find "$build" -name '*.gcda' -delete
+for target in "$@"; do
+  program=$(find "$build" -type f -name "$target" -perm -u+x | head -n 1)
+  (cd "$build" && "$OLDPWD/$program" --gtest_brief=1 --gtest_filter="${FILTER:-*}") ||
+    echo "$target: some tests failed; their lines count all the same" >&2
+done
+python3 cmake/coverage.py "$build"
