@@ -15,6 +15,9 @@
 
 namespace dyngen::runtime {
 
+/// Joints of one robot, at most.
+inline constexpr int kMostImportedJoints = 1000;
+
 /// What is wrong with a map, collected.
 class MapFaults {
  public:
