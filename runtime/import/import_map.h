@@ -112,11 +112,17 @@ struct ImportMap {
   TimeMap time;
   std::optional<SignalMap> position, velocity, acceleration, torque, simulated_torque,
       link_position, temperature;
-  PerJoint gears;            ///< motor turns per joint turn, signed; empty: none
+  std::optional<SignalMap> commanded;  ///< position that was asked for
+  bool motion_only = false;            ///< of map_of_motion(): velocities that are absent are none
+  PerJoint gears;                      ///< motor turns per joint turn, signed; empty: none
   Eigen::MatrixXd coupling;  ///< K (motors x joints): motor = K joint; 0 x 0: diagonal of gears
   MapPlace gears_place;
   RunsMap runs;
 };
+
+/// What the map says of a motion that is asked for: 'commanded', or else positions with the
+/// velocities and accelerations that the log has. Files of other signals are not needed.
+ImportMap map_of_motion(ImportMap map);
 
 /// "MAP:3:12: error: message", for ImportError.
 std::string map_error(const ImportMap& map, const MapPlace& place, const std::string& message);

@@ -97,6 +97,7 @@ class ImportedRows : public SampleSource {
  private:
   void find_signals(const ColumnLookup& lookup);
   void choose_joints(const ColumnLookup& lookup);
+  void drop_absent_slopes(const ColumnLookup& lookup);
   void check_list(const ColumnLookup& lookup) const;
   void add_signal(const ColumnLookup& lookup, const std::optional<SignalMap>& signal,
                   ColumnQuantity quantity, std::size_t& target);
@@ -139,6 +140,20 @@ void ImportedRows::choose_joints(const ColumnLookup& lookup) {
             .size();
   }
   layout_.joints = static_cast<int>(joints_);
+}
+
+/// Velocities and accelerations of a motion follow from its positions where the log has none.
+void ImportedRows::drop_absent_slopes(const ColumnLookup& lookup) {
+  for (auto* signal : {&map_.velocity, &map_.acceleration}) {
+    if (!*signal) continue;
+    const auto quantity =
+        signal == &map_.velocity ? ColumnQuantity::kVelocity : ColumnQuantity::kAcceleration;
+    try {
+      lookup.find_all((*signal)->columns, (*signal)->file, (*signal)->table, joints_, quantity);
+    } catch (const ImportError&) {
+      signal->reset();
+    }
+  }
 }
 
 /// Without a robot, a list that is too short would drop joints.
@@ -272,6 +287,7 @@ ImportedRows::ImportedRows(const ImportMap& map, std::vector<OpenedLog> logs,
   const ColumnLookup lookup(map_, logs_, names_);
   choose_joints(lookup);
   if (robot.joints == 0) check_list(lookup);
+  if (map_.motion_only) drop_absent_slopes(lookup);
   find_signals(lookup);
   const RunsMap& runs = map_.runs;
   const std::size_t split = columns_.size();

@@ -23,7 +23,9 @@ namespace {
 
 class MapFileReader {
  public:
-  explicit MapFileReader(const std::string& name) : faults_(name) { map_.name = name; }
+  MapFileReader(const std::string& name, MapUse use) : use_(use), faults_(name) {
+    map_.name = name;
+  }
 
   ImportMap read(const YAML::Node& root);
 
@@ -34,6 +36,7 @@ class MapFileReader {
   void read_runs(const YAML::Node& node);
   void check_together();
 
+  MapUse use_;
   ImportMap map_;
   MapFaults faults_;
   MapLengths lengths_;
@@ -184,10 +187,12 @@ void MapFileReader::check_together() {
   each("torque", map_.torque);
   each("simulated_torque", map_.simulated_torque);
   each("link_position", map_.link_position);
-  if (!map_.position) {
+  each("commanded", map_.commanded);
+  const bool motion = use_ == MapUse::kMotion;
+  if (!map_.position && !(motion && map_.commanded)) {
     faults_.add({1, 1}, "found no 'position', expected the columns of the joints' positions");
   }
-  if (!map_.torque) {
+  if (!map_.torque && !motion) {
     faults_.add({1, 1}, "found no 'torque', expected the columns of the joints' torques");
   }
   if (map_.torque && map_.torque->duty && !map_.velocity) {
@@ -202,11 +207,11 @@ ImportMap MapFileReader::read(const YAML::Node& root) {
                                 "found no map, expected keys such as 'time:', 'position:' and "
                                 "'torque:'"));
   }
-  const MapEntries top(
-      root, "the map",
-      {"joints", "format", "files", "table", "time", "position", "velocity", "acceleration",
-       "torque", "simulated_torque", "link_position", "temperature", "gears", "coupling", "runs"},
-      faults_);
+  const MapEntries top(root, "the map",
+                       {"joints", "format", "files", "table", "time", "position", "velocity",
+                        "acceleration", "torque", "simulated_torque", "link_position", "commanded",
+                        "temperature", "gears", "coupling", "runs"},
+                       faults_);
   read_joints(top);
   if (const YAML::Node* node = top.find("format")) {
     map_.text = read_text_settings(MapEntries(*node, "format", kTextFormatKeys, faults_), faults_);
@@ -227,6 +232,7 @@ ImportMap MapFileReader::read(const YAML::Node& root) {
   map_.torque = signals.read(top, "torque", ColumnQuantity::kTorque);
   map_.simulated_torque = signals.read(top, "simulated_torque", ColumnQuantity::kTorque);
   map_.link_position = signals.read(top, "link_position", ColumnQuantity::kPosition);
+  map_.commanded = signals.read(top, "commanded", ColumnQuantity::kPosition);
   map_.temperature = signals.read(top, "temperature", ColumnQuantity::kTemperature);
   read_gears(top, map_, lengths_, faults_);
   if (const YAML::Node* node = top.find("runs")) read_runs(*node);
@@ -240,7 +246,7 @@ ImportMap MapFileReader::read(const YAML::Node& root) {
 
 bool import_maps_available() { return true; }
 
-ImportMap parse_import_map(const std::string& text, const std::string& name) {
+ImportMap parse_import_map(const std::string& text, const std::string& name, MapUse use) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.empty() || documents.front().IsNull()) {
@@ -252,7 +258,7 @@ ImportMap parse_import_map(const std::string& text, const std::string& name) {
       throw ImportError(map_error(named, place_of(documents[1]),
                                   "found a second document in the file, expected one map"));
     }
-    return MapFileReader(name).read(documents.front());
+    return MapFileReader(name, use).read(documents.front());
   } catch (const YAML::Exception& error) {
     ImportMap named;
     named.name = name;
@@ -264,7 +270,7 @@ ImportMap parse_import_map(const std::string& text, const std::string& name) {
   }
 }
 
-ImportMap read_import_map(const std::string& path) {
+ImportMap read_import_map(const std::string& path, MapUse use) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
@@ -272,7 +278,7 @@ ImportMap read_import_map(const std::string& path) {
     throw ImportError(fmt::format("{}: error: cannot read the map: {}", path,
                                   errno != 0 ? std::strerror(errno) : "it is no file"));
   }
-  return parse_import_map(text, path);
+  return parse_import_map(text, path, use);
 }
 
 }  // namespace dyngen::runtime

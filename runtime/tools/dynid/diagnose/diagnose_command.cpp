@@ -127,8 +127,7 @@ ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& r
                    std::move(heldout),
                    {}};
   for (const std::string& path : options.diagnose.commanded) {
-    ToldRepairs repairs;
-    task.commanded.push_back(read_trajectory(path, &repairs.notices));
+    task.commanded.push_back(load_motion(path, options.map, options.robot));
   }
   return compare_forward(report, robot, catalogue, task, [&](double done) {
     progress.show("simulation", static_cast<std::size_t>(1000 * done), 1000);

@@ -143,9 +143,9 @@ void make_instruments(const ToolOptions& options, const LoadedRecordings& train,
   if (train.sources.size() != 1) {
     throw std::invalid_argument("--tracked goes with one recording, of the same samples");
   }
-  ToldRepairs repairs;
-  const MotionSource commanded = commanded_motion(
-      read_trajectory(options.tracked, &repairs.notices), options.tracked, train.sources.front());
+  const MotionSource commanded =
+      commanded_motion(load_motion(options.tracked, options.map, options.robot), options.tracked,
+                       train.sources.front());
   const Estimate start = weighted_least_squares(report.data.summary.equations);
   try {
     report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
