@@ -59,12 +59,14 @@ struct SignalMap {
   std::string table;  ///< topic or variable; empty: that of the map
   ColumnNames columns;
   std::vector<std::string> units;  ///< one, one for each joint, or none: the log's own
-  MapPlace unit_place;
+  std::vector<MapPlace> unit_places;
   PerJoint counts_per_turn;  ///< of unit "counts"
   int bits = 0;  ///< 8, 16, 32: the log holds signed numbers of so many bits as unsigned; 0: not
   std::vector<GearSide> sides;  ///< one, one for each joint, or none: joint
   PerJoint sign, gain;
-  PerJoint offset;    ///< rad or m, N m or N, at the joint
+  PerJoint offset;                        ///< rad or m, N m or N, at the joint
+  std::vector<std::string> offset_units;  ///< as written; empty: none stands there
+  std::vector<MapPlace> offset_places;
   double delay = 0;   ///< s: a value stands so much later than it was true
   PerJoint constant;  ///< torque of currents: N m/A (N/A)
   PerJoint efficiency;

@@ -9,8 +9,10 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <tuple>
 
 #include "runtime/import/joint_transform.h"
+#include "runtime/import/joint_units.h"
 #include "runtime/import/log_join.h"
 #include "runtime/recordings/row_parser.h"
 
@@ -113,6 +115,7 @@ class ImportedRows : public SampleSource {
   ImportMap map_;
   std::vector<OpenedLog> logs_;
   std::vector<std::string> names_;
+  std::vector<MotionKind> kinds_;
   NoticeLog* log_;
   std::size_t joints_ = 0;
   SampleLayout layout_;
@@ -149,7 +152,8 @@ void ImportedRows::drop_absent_slopes(const ColumnLookup& lookup) {
     const auto quantity =
         signal == &map_.velocity ? ColumnQuantity::kVelocity : ColumnQuantity::kAcceleration;
     try {
-      lookup.find_all((*signal)->columns, (*signal)->file, (*signal)->table, joints_, quantity);
+      std::ignore =
+          lookup.find_all((*signal)->columns, (*signal)->file, (*signal)->table, joints_, quantity);
     } catch (const ImportError&) {
       signal->reset();
     }
@@ -210,6 +214,7 @@ void ImportedRows::add_signal(const ColumnLookup& lookup, const std::optional<Si
   if (!signal) return;
   const bool temperature = quantity == ColumnQuantity::kTemperature;
   if (signal->duty) {
+    check_joint_units(map_, *signal, quantity, kinds_, {});
     target += joints_;
     return;
   }
@@ -224,6 +229,7 @@ void ImportedRows::add_signal(const ColumnLookup& lookup, const std::optional<Si
   placed.first = columns_.size();
   placed.count = found.size();
   placed.target = target;
+  if (!temperature) check_joint_units(map_, *signal, quantity, kinds_, found);
   placed.transform.emplace(map_, *signal, quantity, found, lookup);
   tell_unit_conflicts(*signal, found);
   add_columns(found, signal->delay,
@@ -274,7 +280,7 @@ void ImportedRows::find_signals(const ColumnLookup& lookup) {
 
 ImportedRows::ImportedRows(const ImportMap& map, std::vector<OpenedLog> logs,
                            const ImportedRobot& robot, NoticeLog& log)
-    : map_(map), logs_(std::move(logs)), names_(robot.names), log_(&log) {
+    : map_(map), logs_(std::move(logs)), names_(robot.names), kinds_(robot.kinds), log_(&log) {
   if (!map_.joint_names.empty()) names_ = map_.joint_names;
   if (robot.joints > 0 && map_.joints > 0 && robot.joints != map_.joints) {
     throw ImportError(map_error(

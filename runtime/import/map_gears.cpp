@@ -16,9 +16,10 @@ void read_gears(const MapEntries& top, ImportMap& map, MapLengths& lengths, MapF
     map.gears_place = top.place_of_value("gears");
     map.gears = top.numbers("gears", MapNumber::kRatio);
     lengths.note(top, "gears", "gears", map.gears.size());
-    for (const double ratio : map.gears) {
-      if (ratio == 0) {
-        faults.add(map.gears_place,
+    const std::vector<MapPlace> places = top.places_of_values("gears");
+    for (std::size_t i = 0; i < map.gears.size(); ++i) {
+      if (map.gears[i] == 0) {
+        faults.add(places[i],
                    "found a gear of 0, expected turns of the motor for one of the joint");
       }
     }

@@ -14,6 +14,23 @@
 
 namespace dyngen::runtime {
 
+namespace {
+
+bool is_not_zero(double value) { return value != 0; }
+bool is_positive(double value) { return value > 0; }
+
+/// Values of a key that mean nothing are faults, each at its place.
+void check_values(const MapEntries& entries, const char* key, const PerJoint& values,
+                  bool (*is_right)(double), const char* expected, MapFaults& faults) {
+  const std::vector<MapPlace> places = entries.places_of_values(key);
+  for (std::size_t i = 0; i < values.size() && i < places.size(); ++i) {
+    if (is_right(values[i])) continue;
+    faults.add(places[i], fmt::format("found {} {}, expected {}", key, values[i], expected));
+  }
+}
+
+}  // namespace
+
 void check_file(const MapEntries& entries, const std::vector<FileMap>& files, MapFaults& faults) {
   const std::string key = entries.text("file");
   std::vector<std::string> keys;
@@ -28,13 +45,14 @@ void check_file(const MapEntries& entries, const std::vector<FileMap>& files, Ma
 
 void SignalReader::units(const MapEntries& entries, ColumnQuantity quantity, SignalMap& signal) {
   signal.units = entries.texts("unit");
-  signal.unit_place = entries.place_of_value("unit");
+  signal.unit_places = entries.places_of_values("unit");
   lengths_->note(entries, "unit", "units", signal.units.size());
-  for (const std::string& unit : signal.units) {
+  for (std::size_t i = 0; i < signal.units.size(); ++i) {
+    const std::string& unit = signal.units[i];
     if (unit.empty()) continue;  // told
     const auto known = signal_unit(unit, quantity);
     if (!known) {
-      faults_->add(signal.unit_place,
+      faults_->add(signal.unit_places[i],
                    fmt::format("found unit {}, expected {}", runtime::quoted(unit),
                                known_signal_units(quantity)));
     }
@@ -59,12 +77,17 @@ void SignalReader::duty(const MapEntries& entries, SignalMap& signal) {
   law.full_scale = entries.numbers("full", MapNumber::kRatio);
   law.resistance = entries.numbers("resistance", MapNumber::kResistance);
   law.back_emf = entries.numbers("back_emf", MapNumber::kBackEmf);
+  check_values(entries, "full", law.full_scale, is_not_zero, "the column's value at full voltage",
+               *faults_);
+  check_values(entries, "resistance", law.resistance, is_positive, "more than 0 ohm", *faults_);
   if (entries.has("voltage")) {
     const std::vector<std::string> words = entries.texts("voltage");
     const bool number =
         !words.empty() && read_map_number(words.front(), MapNumber::kVoltage).value.has_value();
     if (number) {
       law.supply = entries.numbers("voltage", MapNumber::kVoltage);
+      check_values(entries, "voltage", law.supply, is_not_zero, "the volts of the supply",
+                   *faults_);
     } else {
       law.voltage = entries.columns("voltage");
     }
@@ -119,30 +142,37 @@ std::optional<SignalMap> SignalReader::read(const MapEntries& top, const char* k
     return values;
   };
   signal.sign = numbers("sign", MapNumber::kRatio);
-  for (const double value : signal.sign) {
-    if (std::abs(value) != 1) {
-      faults_->add(entries.place_of_value("sign"),
-                   fmt::format("found sign {}, expected 1 or -1", value));
-    }
-  }
+  const auto check = [&](const char* own, const PerJoint& values, bool (*is_right)(double),
+                         const char* expected) {
+    check_values(entries, own, values, is_right, expected, *faults_);
+  };
+  check(
+      "sign", signal.sign, [](double value) { return std::abs(value) == 1; }, "1 or -1");
   signal.bits = static_cast<int>(entries.number("bits", MapNumber::kRatio).value_or(0));
   if (entries.has("bits") && signal.bits != 8 && signal.bits != 16 && signal.bits != 32) {
     faults_->add(entries.place_of_value("bits"),
                  fmt::format("found {} bits, expected 8, 16 or 32", signal.bits));
   }
   signal.gain = numbers("gain", MapNumber::kRatio);
-  signal.offset = numbers("offset", torque ? MapNumber::kTorque : MapNumber::kPosition);
+  check("gain", signal.gain, is_not_zero,
+        "another number than 0, which makes every value 0; leave 'gain' out if values are right "
+        "as they are");
+  const MapNumber offset = torque ? MapNumber::kTorque : MapNumber::kPosition;
+  signal.offset = numbers("offset", offset);
+  signal.offset_units = entries.units_of_numbers("offset", offset);
+  signal.offset_places = entries.places_of_values("offset");
   signal.delay = entries.number("delay", MapNumber::kDuration).value_or(0);
   signal.counts_per_turn = numbers("counts_per_rev", MapNumber::kRatio);
+  check("counts_per_rev", signal.counts_per_turn, is_not_zero,
+        "the counts of one turn of the encoder");
   signal.constant = numbers("constant", MapNumber::kConstant);
+  check("constant", signal.constant, is_not_zero, "the torque of one ampere");
   signal.efficiency = numbers("efficiency", MapNumber::kRatio);
-  for (const double value : signal.efficiency) {
-    if (!(value > 0 && value <= 1)) {
-      faults_->add(entries.place_of_value("efficiency"),
-                   fmt::format("found efficiency {}, expected more than 0, at most 1", value));
-    }
-  }
+  check(
+      "efficiency", signal.efficiency, [](double value) { return value > 0 && value <= 1; },
+      "more than 0, at most 1");
   signal.rated = numbers("rated", MapNumber::kTorque);
+  check("rated", signal.rated, is_not_zero, "the torque at 100 %");
   if (entries.has("duty")) {
     duty(entries, signal);
   } else {

@@ -22,6 +22,8 @@ ImportedRobot imported_robot(const RobotSource& source) {
   for (const JointModel& joint : model.joints) {
     if (joint.type == JointType::kFixed) continue;
     ++robot.joints;
+    robot.kinds.push_back(joint.type == JointType::kPrismatic ? MotionKind::kLength
+                                                              : MotionKind::kAngle);
     if (!joint.name.empty()) robot.names.push_back(joint.name);
   }
   if (robot.names.size() != static_cast<std::size_t>(robot.joints)) robot.names.clear();
