@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -229,11 +230,24 @@ int usage(const std::string& message) {
 
 /// Whether a file is called like a recording or a log, and like no robot.
 bool is_log_name(const std::string& path) {
-  constexpr std::array<std::string_view, 11> kLogs = {".csv", ".csv.gz", ".txt.gz", ".mat",
-                                                      ".db3", ".mcap",   ".bag",    ".npz",
-                                                      ".npy", ".h5",     ".jsonl"};
+  constexpr std::array<std::string_view, 14> kLogs = {".csv",  ".csv.gz", ".txt.gz", ".mat", ".db3",
+                                                      ".mcap", ".bag",    ".npz",    ".npy", ".h5",
+                                                      ".hdf5", ".json",   ".jsonl",  ".qr"};
   return std::any_of(kLogs.begin(), kLogs.end(),
                      [&](std::string_view ending) { return path.ends_with(ending); });
+}
+
+/// A recording or a log in the robot's place, in the words of the command; empty: there is none.
+std::string log_in_robots_place(const ToolOptions& options) {
+  const bool simulates = options.command == Command::kSimulate;
+  const std::string& path = simulates ? options.simulate.robot.path : options.robot.path;
+  if (!is_log_name(path)) return {};
+  std::string order = "recordings after it";
+  if (simulates) order = "the trajectory behind --trajectory";
+  if (options.command == Command::kExcite) order = "earlier recordings behind --prior";
+  if (options.command == Command::kImport) order = "logs without an option";
+  return fmt::format("found '{}' where the robot stands: expected the robot {}, {}", path,
+                     options.command == Command::kImport ? "behind --robot" : "first", order);
 }
 
 /// @return a message about wrong usage, or nothing
@@ -262,12 +276,6 @@ std::string understand(const Words& words, ToolOptions& options) {
     }
     options.fit.methods.push_back(*method);
   }
-  if (is_log_name(options.robot.path)) {
-    return fmt::format(
-        "found '{}' where the robot stands: expected the robot first, recordings "
-        "after it",
-        options.robot.path);
-  }
   if (options.command == Command::kAtlas) {
     if (options.recordings.empty() == options.atlas.trajectory.empty()) {
       return "expected recordings, or --trajectory FILE";
@@ -278,6 +286,22 @@ std::string understand(const Words& words, ToolOptions& options) {
     return "there is no recording: expected at least one";
   }
   return "";
+}
+
+/// The subcommand that was called; nothing: none.
+std::optional<Command> command_of(const CLI::App& tool) {
+  static const std::map<std::string, Command> commands = {{"fit", Command::kFit},
+                                                          {"check", Command::kCheck},
+                                                          {"accumulate", Command::kAccumulate},
+                                                          {"merge", Command::kMerge},
+                                                          {"simulate", Command::kSimulate},
+                                                          {"excite", Command::kExcite},
+                                                          {"atlas", Command::kAtlas},
+                                                          {"effects", Command::kEffects},
+                                                          {"diagnose", Command::kDiagnose},
+                                                          {"import", Command::kImport}};
+  if (tool.get_subcommands().empty()) return std::nullopt;
+  return commands.at(tool.get_subcommands().front()->get_name());
 }
 
 }  // namespace
@@ -309,21 +333,18 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     parsed.exit_code = tool.exit(version);
     return parsed;
   } catch (const CLI::ParseError& error) {
-    parsed.exit_code = usage(usage_message(tool, argc, argv, error.what()));
+    // files in another order are one too many, or one too few
+    parsed.options.command = command_of(tool).value_or(Command::kFit);
+    const std::string order = log_in_robots_place(parsed.options);
+    parsed.exit_code = usage(order.empty() ? usage_message(tool, argc, argv, error.what()) : order);
     return parsed;
   }
-  const std::string name = tool.get_subcommands().front()->get_name();
-  const std::map<std::string, Command> commands = {{"fit", Command::kFit},
-                                                   {"check", Command::kCheck},
-                                                   {"accumulate", Command::kAccumulate},
-                                                   {"merge", Command::kMerge},
-                                                   {"simulate", Command::kSimulate},
-                                                   {"excite", Command::kExcite},
-                                                   {"atlas", Command::kAtlas},
-                                                   {"effects", Command::kEffects},
-                                                   {"diagnose", Command::kDiagnose},
-                                                   {"import", Command::kImport}};
-  parsed.options.command = commands.at(name);
+  parsed.options.command = command_of(tool).value();
+  const std::string order = log_in_robots_place(parsed.options);
+  if (!order.empty()) {
+    parsed.exit_code = usage(order);
+    return parsed;
+  }
   SimulateOptions& simulate = parsed.options.simulate;
   simulate.plant = simulate.robot.beside(simulate.plant.path);
   if (parsed.options.command == Command::kSimulate || parsed.options.command == Command::kEffects) {
