@@ -79,7 +79,7 @@ struct TimeMap {
   MapPlace place;
   std::string column;  ///< empty: there is none, rows come at `rate`
   std::string unit;    ///< empty: the log's own
-  double rate = 0;     ///< Hz
+  double rate = 0;     ///< Hz; with a column: at which it counts
 };
 
 /// Which rows are used, and where runs begin.

@@ -103,8 +103,13 @@ void MapFileReader::read_time(const YAML::Node& node) {
                   fmt::format("found rate: {} Hz, expected more than 0", time.rate));
     }
   }
-  if (entries.has("column") == entries.has("rate")) {
-    faults_.add(time.place, "expected in 'time' either a column or a rate");
+  if (!entries.has("column") && !entries.has("rate")) {
+    faults_.add(time.place, "found neither 'column' nor 'rate' in 'time', expected one of them");
+  }
+  if (entries.has("unit") && entries.has("rate")) {
+    faults_.add(entries.place_of_value("unit"),
+                "found 'unit' and 'rate' in 'time', expected one of them: a column with a rate "
+                "counts, and has no unit");
   }
   if (!time.unit.empty() && !unit_conversion(time.unit, ColumnQuantity::kTime)) {
     faults_.add(entries.place_of_value("unit"),

@@ -46,6 +46,7 @@ class TextLog final : public RawLog {
   [[nodiscard]] std::vector<std::string> notices() const override;
   [[nodiscard]] std::optional<ColumnOrigin> origin(std::size_t table,
                                                    std::size_t column) const override;
+  [[nodiscard]] std::string constant_word(std::size_t table, std::size_t column) const override;
   [[nodiscard]] double fraction_read() const override;
 
  private:
@@ -380,6 +381,13 @@ std::optional<ColumnOrigin> TextLog::origin(std::size_t table, std::size_t colum
                         field.kind == FieldKind::kWhole ? 1 : kNanosecondsPerSecond};
   }
   return std::nullopt;
+}
+
+std::string TextLog::constant_word(std::size_t table, std::size_t column) const {
+  const auto found = std::find_if(
+      layout_.fields.begin(), layout_.fields.end(),
+      [&](const TextField& field) { return field.table == table && field.column == column; });
+  return found == layout_.fields.end() ? std::string() : found->word;
 }
 
 double TextLog::fraction_read() const { return at_end_ ? 1 : lines_.fraction_read(); }

@@ -292,6 +292,18 @@ TEST(ImportedRows, RefusesUnitsThatTheJointCannotHave) {
             "no fault");
 }
 
+TEST(ImportedRows, ACounterWithItsRateIsATime) {
+  MatrixXd values = plain_motion(100);
+  for (Eigen::Index k = 0; k < 100; ++k) values(k, 0) = static_cast<double>(5000 + 2 * k);
+  const Imported found = imported(
+      "time: {column: t, rate: 2 kHz}\n"
+      "position: {columns: \"q{n}\", unit: rad}\n"
+      "torque: {columns: \"m{n}\", unit: N m}\n",
+      {table_of("", kNames, values)});
+  ASSERT_EQ(found.recording.samples(), 100);
+  EXPECT_NEAR(found.recording.time[99] - found.recording.time[0], 0.099, 1e-12);
+}
+
 TEST(ImportedRows, LeavesValuesOutThatAreMissing) {
   MatrixXd values = plain_motion(100);
   values(40, 2) = std::nan("");
