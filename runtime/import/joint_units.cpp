@@ -44,8 +44,8 @@ void check_unit(const ImportMap& map, const MapPlace& place, const std::string& 
   if (!own || *own == kind) return;
   throw ImportError(map_error(
       map, place,
-      fmt::format("found unit {} of {}, and joint {} of the robot is {}: expected {}; of a sensor "
-                  "that measures something else 'gain' has the factor to that unit",
+      fmt::format("found unit {} of {}, and joint {} of the robot is {}: expected {}. If the "
+                  "sensor measures something else, write the joint's unit and the factor in 'gain'",
                   quoted(unit), of, joint + 1,
                   kind == MotionKind::kAngle ? "revolute" : "prismatic",
                   expected_units(kind, quantity))));

@@ -278,15 +278,15 @@ TEST(ImportedRows, RefusesUnitsThatTheJointCannotHave) {
   };
   EXPECT_EQ(fault("[rad, mm]", "[N m, N]"), "no fault");
   EXPECT_THAT(fault("[mm, mm]", "[N m, N]"),
-              HasSubstr("map.yaml:2:37: error: found unit 'mm' of 'q1', and joint 1 of the robot "
+              HasSubstr("map.yaml:2:36: error: found unit 'mm' of 'q1', and joint 1 of the robot "
                         "is revolute: expected an angle, such as rad or deg"));
   EXPECT_THAT(fault("deg", "[N m, N]"),
-              HasSubstr("map.yaml:2:36: error: found unit 'deg' of 'q2', and joint 2 of the robot "
+              HasSubstr("map.yaml:2:35: error: found unit 'deg' of 'q2', and joint 2 of the robot "
                         "is prismatic: expected a length"));
   EXPECT_THAT(fault("[rad, mm]", "[N m, N m]"),
-              HasSubstr("map.yaml:3:41: error: found unit 'N m' of 'm2'"));
+              HasSubstr("map.yaml:3:39: error: found unit 'N m' of 'm2'"));
   EXPECT_THAT(fault("[rad, mm], offset: [12 mm, 0]", "[N m, N]"),
-              HasSubstr("map.yaml:2:56: error: found unit 'mm' of the offset"));
+              HasSubstr("map.yaml:2:55: error: found unit 'mm' of the offset"));
   // a spindle turns where its joint slides
   EXPECT_EQ(fault("deg, side: [joint, motor]", "N m, side: [joint, motor]", "gears: [1, 400]\n"),
             "no fault");

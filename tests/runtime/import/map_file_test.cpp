@@ -103,8 +103,8 @@ TEST(MapFile, RefusesNumbersThatMeanNothing) {
            "}\ntorque: {columns: \"tau{n}\"" + (torque.empty() ? ", unit: N m" : torque) + "}\n";
   };
   EXPECT_THAT(fault_of(with(", gain: 0")),
-              HasSubstr("map.yaml:2:50: error: found gain 0, expected another number than 0"));
-  EXPECT_THAT(fault_of(with(", gain: [1, 0, 2]")), HasSubstr("map.yaml:2:54: error: found gain 0"));
+              HasSubstr("map.yaml:2:46: error: found gain 0, expected another number than 0"));
+  EXPECT_THAT(fault_of(with(", gain: [1, 0, 2]")), HasSubstr("map.yaml:2:50: error: found gain 0"));
   EXPECT_THAT(fault_of(with(", gain: nan")), HasSubstr("found 'nan' in 'position', expected a"));
   EXPECT_THAT(fault_of(with(", gain: .inf")), HasSubstr("found '.inf' in 'position', expected a"));
   EXPECT_THAT(fault_of(with(", gain: 1e300 * 1e300")), HasSubstr("expected a finite number"));

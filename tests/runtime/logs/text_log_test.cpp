@@ -463,7 +463,7 @@ TEST(TextLog, ALastNumberThatIsCutOffIsLeftOut) {
   for (const std::size_t off : {1U, 4U, 6U, 7U}) {
     const WholeLog log = read_text(cut_text(40, off));
     EXPECT_EQ(log.tables[0].rows.size(), 39U) << off;
-    EXPECT_THAT(log.notices, HasSubstr("run.log:41:")) << off;
+    EXPECT_THAT(log.notices, HasSubstr("run.csv:41:")) << off;
     EXPECT_THAT(log.notices, HasSubstr("the last row is cut off")) << off;
   }
   // a file may end without an end of line
