@@ -59,12 +59,14 @@ struct SignalMap {
   std::string table;  ///< topic or variable; empty: that of the map
   ColumnNames columns;
   std::vector<std::string> units;  ///< one, one for each joint, or none: the log's own
-  MapPlace unit_place;
+  std::vector<MapPlace> unit_places;
   PerJoint counts_per_turn;  ///< of unit "counts"
   int bits = 0;  ///< 8, 16, 32: the log holds signed numbers of so many bits as unsigned; 0: not
   std::vector<GearSide> sides;  ///< one, one for each joint, or none: joint
   PerJoint sign, gain;
-  PerJoint offset;    ///< rad or m, N m or N, at the joint
+  PerJoint offset;                        ///< rad or m, N m or N, at the joint
+  std::vector<std::string> offset_units;  ///< as written; empty: none stands there
+  std::vector<MapPlace> offset_places;
   double delay = 0;   ///< s: a value stands so much later than it was true
   PerJoint constant;  ///< torque of currents: N m/A (N/A)
   PerJoint efficiency;
@@ -77,7 +79,7 @@ struct TimeMap {
   MapPlace place;
   std::string column;  ///< empty: there is none, rows come at `rate`
   std::string unit;    ///< empty: the log's own
-  double rate = 0;     ///< Hz
+  double rate = 0;     ///< Hz; with a column: at which it counts
 };
 
 /// Which rows are used, and where runs begin.
@@ -112,11 +114,17 @@ struct ImportMap {
   TimeMap time;
   std::optional<SignalMap> position, velocity, acceleration, torque, simulated_torque,
       link_position, temperature;
-  PerJoint gears;            ///< motor turns per joint turn, signed; empty: none
+  std::optional<SignalMap> commanded;  ///< position that was asked for
+  bool motion_only = false;            ///< of map_of_motion(): velocities that are absent are none
+  PerJoint gears;                      ///< motor turns per joint turn, signed; empty: none
   Eigen::MatrixXd coupling;  ///< K (motors x joints): motor = K joint; 0 x 0: diagonal of gears
   MapPlace gears_place;
   RunsMap runs;
 };
+
+/// What the map says of a motion that is asked for: 'commanded', or else positions with the
+/// velocities and accelerations that the log has. Files of other signals are not needed.
+ImportMap map_of_motion(ImportMap map);
 
 /// "MAP:3:12: error: message", for ImportError.
 std::string map_error(const ImportMap& map, const MapPlace& place, const std::string& message);

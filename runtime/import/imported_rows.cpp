@@ -9,8 +9,10 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <tuple>
 
 #include "runtime/import/joint_transform.h"
+#include "runtime/import/joint_units.h"
 #include "runtime/import/log_join.h"
 #include "runtime/recordings/row_parser.h"
 
@@ -97,6 +99,7 @@ class ImportedRows : public SampleSource {
  private:
   void find_signals(const ColumnLookup& lookup);
   void choose_joints(const ColumnLookup& lookup);
+  void drop_absent_slopes(const ColumnLookup& lookup);
   void check_list(const ColumnLookup& lookup) const;
   void add_signal(const ColumnLookup& lookup, const std::optional<SignalMap>& signal,
                   ColumnQuantity quantity, std::size_t& target);
@@ -112,6 +115,7 @@ class ImportedRows : public SampleSource {
   ImportMap map_;
   std::vector<OpenedLog> logs_;
   std::vector<std::string> names_;
+  std::vector<MotionKind> kinds_;
   NoticeLog* log_;
   std::size_t joints_ = 0;
   SampleLayout layout_;
@@ -139,6 +143,21 @@ void ImportedRows::choose_joints(const ColumnLookup& lookup) {
             .size();
   }
   layout_.joints = static_cast<int>(joints_);
+}
+
+/// Velocities and accelerations of a motion follow from its positions where the log has none.
+void ImportedRows::drop_absent_slopes(const ColumnLookup& lookup) {
+  for (auto* signal : {&map_.velocity, &map_.acceleration}) {
+    if (!*signal) continue;
+    const auto quantity =
+        signal == &map_.velocity ? ColumnQuantity::kVelocity : ColumnQuantity::kAcceleration;
+    try {
+      std::ignore =
+          lookup.find_all((*signal)->columns, (*signal)->file, (*signal)->table, joints_, quantity);
+    } catch (const ImportError&) {
+      signal->reset();
+    }
+  }
 }
 
 /// Without a robot, a list that is too short would drop joints.
@@ -195,6 +214,7 @@ void ImportedRows::add_signal(const ColumnLookup& lookup, const std::optional<Si
   if (!signal) return;
   const bool temperature = quantity == ColumnQuantity::kTemperature;
   if (signal->duty) {
+    check_joint_units(map_, *signal, quantity, kinds_, {});
     target += joints_;
     return;
   }
@@ -209,6 +229,7 @@ void ImportedRows::add_signal(const ColumnLookup& lookup, const std::optional<Si
   placed.first = columns_.size();
   placed.count = found.size();
   placed.target = target;
+  if (!temperature) check_joint_units(map_, *signal, quantity, kinds_, found);
   placed.transform.emplace(map_, *signal, quantity, found, lookup);
   tell_unit_conflicts(*signal, found);
   add_columns(found, signal->delay,
@@ -259,7 +280,7 @@ void ImportedRows::find_signals(const ColumnLookup& lookup) {
 
 ImportedRows::ImportedRows(const ImportMap& map, std::vector<OpenedLog> logs,
                            const ImportedRobot& robot, NoticeLog& log)
-    : map_(map), logs_(std::move(logs)), names_(robot.names), log_(&log) {
+    : map_(map), logs_(std::move(logs)), names_(robot.names), kinds_(robot.kinds), log_(&log) {
   if (!map_.joint_names.empty()) names_ = map_.joint_names;
   if (robot.joints > 0 && map_.joints > 0 && robot.joints != map_.joints) {
     throw ImportError(map_error(
@@ -272,6 +293,7 @@ ImportedRows::ImportedRows(const ImportMap& map, std::vector<OpenedLog> logs,
   const ColumnLookup lookup(map_, logs_, names_);
   choose_joints(lookup);
   if (robot.joints == 0) check_list(lookup);
+  if (map_.motion_only) drop_absent_slopes(lookup);
   find_signals(lookup);
   const RunsMap& runs = map_.runs;
   const std::size_t split = columns_.size();

@@ -9,19 +9,21 @@
 #include "runtime/import/import_map.h"
 #include "runtime/recordings/reader.h"
 #include "runtime/recordings/sample_rows.h"
+#include "runtime/recordings/units.h"
 
 namespace dyngen::runtime {
 
 /// What is known of the robot before its log is read.
 struct ImportedRobot {
   int joints = 0;                   ///< 0: not known
-  std::vector<std::string> names;  ///< of its joints; may be empty
+  std::vector<std::string> names;   ///< of its joints; may be empty
+  std::vector<MotionKind> kinds{};  ///< of its joints: angles or lengths; empty: not known
 };
 
 /// Samples at the joints, made of logs by a map, in constant memory.
 /// @throws ImportError  what the map asks for is not in the logs; RecordingError
 std::unique_ptr<SampleSource> imported_rows(const ImportMap& map, std::vector<OpenedLog> logs,
-                                          const ImportedRobot& robot, NoticeLog& log);
+                                            const ImportedRobot& robot, NoticeLog& log);
 
 /// Files that make one recording: one for each of ImportMap::files, in their order, or one.
 struct LogGroup {

@@ -49,6 +49,7 @@ std::string LogJoin::name_of(const Table& table) const {
 
 UnitConversion LogJoin::seconds_of(const ImportMap& map, const ColumnLookup& lookup,
                                    const ColumnPlace& place) const {
+  if (map.time.rate > 0) return {1, map.time.rate, 0};
   const std::string& unit = map.time.unit.empty() ? place.unit : map.time.unit;
   if (unit.empty()) {
     lookup.fail(map.time.place,
@@ -68,7 +69,7 @@ UnitConversion LogJoin::seconds_of(const ImportMap& map, const ColumnLookup& loo
 
 void LogJoin::set_clock(const ImportMap& map, const ColumnLookup& lookup,
                         const std::vector<JoinedColumn>& columns) {
-  rate_ = map.time.rate;
+  if (map.time.column.empty()) rate_ = map.time.rate;
   if (rate_ > 0) return;
   const ColumnPlace& lead = columns.front().place;
   std::optional<ColumnPlace> clock = lookup.clock_of(lead);

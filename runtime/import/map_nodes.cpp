@@ -82,6 +82,27 @@ MapPlace MapEntries::place_of_value(std::string_view key) const {
   return node == nullptr ? place_ : place_of(*node);
 }
 
+std::vector<MapPlace> MapEntries::places_of_values(std::string_view key) const {
+  const YAML::Node* node = find(key);
+  if (node == nullptr) return {};
+  if (!node->IsSequence()) return {place_of(*node)};
+  std::vector<MapPlace> places;
+  for (const auto& item : *node) places.push_back(place_of(item));
+  return places;
+}
+
+std::vector<std::string> MapEntries::units_of_numbers(std::string_view key, MapNumber kind) const {
+  const YAML::Node* node = find(key);
+  if (node == nullptr) return {};
+  const auto unit = [&](const YAML::Node& item) {
+    return item.IsScalar() ? read_map_number(item.Scalar(), kind).unit : std::string();
+  };
+  if (!node->IsSequence()) return {unit(*node)};
+  std::vector<std::string> units;
+  for (const auto& item : *node) units.push_back(unit(item));
+  return units;
+}
+
 std::optional<std::string> MapEntries::scalar(const YAML::Node& node,
                                               const std::string& what) const {
   if (node.IsScalar() && node.Scalar() == "?") {

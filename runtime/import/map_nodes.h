@@ -15,6 +15,9 @@
 
 namespace dyngen::runtime {
 
+/// Joints of one robot, at most.
+inline constexpr int kMostImportedJoints = 1000;
+
 /// What is wrong with a map, collected.
 class MapFaults {
  public:
@@ -44,6 +47,8 @@ class MapEntries {
   [[nodiscard]] const MapPlace& place() const { return place_; }
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
   [[nodiscard]] MapPlace place_of_value(std::string_view key) const;
+  /// Of each value of a list; of the value alone where it is no list.
+  [[nodiscard]] std::vector<MapPlace> places_of_values(std::string_view key) const;
   /// Nothing if the key is absent.
   [[nodiscard]] const YAML::Node* find(std::string_view key) const;
 
@@ -53,6 +58,9 @@ class MapEntries {
   [[nodiscard]] ColumnNames columns(std::string_view key) const;
   [[nodiscard]] std::optional<double> number(std::string_view key, MapNumber kind) const;
   [[nodiscard]] PerJoint numbers(std::string_view key, MapNumber kind) const;
+  /// Units as they stand behind the numbers of a key, empty where there are none.
+  [[nodiscard]] std::vector<std::string> units_of_numbers(std::string_view key,
+                                                          MapNumber kind) const;
   [[nodiscard]] std::optional<double> number_of(const YAML::Node& node, MapNumber kind) const;
 
  private:

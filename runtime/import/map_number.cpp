@@ -143,15 +143,15 @@ std::string expectation(MapNumber kind) {
 ReadNumber read_map_number(std::string_view text, MapNumber kind) {
   ProductReader reader(text);
   const std::optional<double> value = reader.product();
-  if (!value) return {std::nullopt, expectation(kind)};
+  if (!value) return {std::nullopt, expectation(kind), {}};
   const std::string_view unit = trimmed(reader.rest());
   const bool wants_unit = kind == MapNumber::kDuration || kind == MapNumber::kPosition;
-  if (unit.empty()) {
-    if (wants_unit && *value != 0) return {std::nullopt, expectation(kind)};
-    return {value, {}};
-  }
-  const std::optional<double> result = with_unit(*value, unit, kind);
-  return result ? ReadNumber{result, {}} : ReadNumber{std::nullopt, expectation(kind)};
+  if (unit.empty() && wants_unit && *value != 0) return {std::nullopt, expectation(kind), {}};
+  const std::optional<double> result = unit.empty() ? value : with_unit(*value, unit, kind);
+  if (!result) return {std::nullopt, expectation(kind), {}};
+  // a product of large factors
+  if (!std::isfinite(*result)) return {std::nullopt, "a finite number", {}};
+  return {result, {}, std::string(unit)};
 }
 
 }  // namespace dyngen::runtime

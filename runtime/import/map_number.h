@@ -24,6 +24,7 @@ enum class MapNumber {
 struct ReadNumber {
   std::optional<double> value;
   std::string expected;  ///< where there is no value
+  std::string unit;      ///< as written; may be empty
 };
 
 /// Reads "0.463", "1798/7", "-pi/2 rad", "3 ms": numbers and pi with * and / between them, then a

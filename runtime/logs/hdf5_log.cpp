@@ -59,9 +59,29 @@ bool is_hdf5_number(hid_t type) {
 
 /// What is read of a dataset, one member or all.
 struct Hdf5Part {
-  std::string member;  ///< of a compound type; empty: the elements are numbers
-  bool whole = false;  ///< whole numbers of 64 bits
+  std::string member;            ///< of a compound type; empty: the elements are numbers
+  bool whole = false;            ///< whole numbers of 64 bits
+  std::vector<hsize_t> sides{};  ///< of a member that is an array; empty: it is one number
 };
+
+/// The sides of a type that is an array; empty: it is none.
+std::vector<hsize_t> sides_of(hid_t type) {
+  if (H5Tget_class(type) != H5T_ARRAY) return {};
+  const int rank = H5Tget_array_ndims(type);
+  std::vector<hsize_t> sides(rank > 0 ? static_cast<std::size_t>(rank) : 0);
+  if (rank <= 0 || H5Tget_array_dims2(type, sides.data()) < 0) return {};
+  return sides;
+}
+
+/// How many numbers an array has; more than kMostHdf5Columns where there are too many.
+hsize_t product_of(const std::vector<hsize_t>& sides) {
+  hsize_t product = 1;
+  for (const hsize_t side : sides) {
+    if (side > kMostHdf5Columns) return kMostHdf5Columns + 1;
+    product = std::min<hsize_t>(product * side, kMostHdf5Columns + 1);
+  }
+  return product;
+}
 
 /// A dataset that stays open.
 struct Hdf5Dataset {
@@ -76,8 +96,13 @@ struct Hdf5Dataset {
 Hdf5Id memory_type(const Hdf5Part& part) {
   const hid_t number = part.whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE;
   if (part.member.empty()) return {H5Tcopy(number), H5Tclose};
-  const hid_t compound = H5Tcreate(H5T_COMPOUND, 8);
-  H5Tinsert(compound, part.member.c_str(), 0, number);
+  const Hdf5Id member(
+      part.sides.empty()
+          ? H5Tcopy(number)
+          : H5Tarray_create2(number, static_cast<unsigned>(part.sides.size()), part.sides.data()),
+      H5Tclose);
+  const hid_t compound = H5Tcreate(H5T_COMPOUND, H5Tget_size(member.get()));
+  H5Tinsert(compound, part.member.c_str(), 0, member.get());
   return {compound, H5Tclose};
 }
 
@@ -235,7 +260,18 @@ void Hdf5Collector::add_compound(const std::shared_ptr<Hdf5Dataset>& data, hid_t
     if (raw == nullptr) continue;
     const std::string member = raw;
     H5free_memory(raw);
-    const Hdf5Id member_type(H5Tget_member_type(type, i), H5Tclose);
+    const Hdf5Id own(H5Tget_member_type(type, i), H5Tclose);
+    const std::vector<hsize_t> sides = own.good() ? sides_of(own.get()) : std::vector<hsize_t>();
+    // of an array the type of its elements
+    const Hdf5Id member_type(!own.good()     ? -1
+                             : sides.empty() ? H5Tcopy(own.get())
+                                             : H5Tget_super(own.get()),
+                             H5Tclose);
+    const hsize_t columns = product_of(sides);
+    if (columns == 0 || columns > kMostHdf5Columns) {
+      leave_out("too many columns", data->path + "." + member);
+      continue;
+    }
     if (!member_type.good() || !is_hdf5_number(member_type.get()) ||
         H5Tget_class(member_type.get()) == H5T_ENUM) {
       leave_out("no numbers", data->path + "." + member);
@@ -243,7 +279,7 @@ void Hdf5Collector::add_compound(const std::shared_ptr<Hdf5Dataset>& data, hid_t
     }
     const bool whole =
         H5Tget_class(member_type.get()) == H5T_INTEGER && H5Tget_size(member_type.get()) == 8;
-    add_part(data, {member, whole}, rows, 1);
+    add_part(data, {member, whole, sides}, rows, columns);
   }
 }
 
@@ -285,7 +321,7 @@ void Hdf5Collector::add(const std::string& path) {
   if (sides[1] > kMostHdf5Columns) return leave_out("too many columns", path);
   if (data->turned && sides[1] > 1) turned_.push_back(path);
   const bool whole = H5Tget_class(type.get()) == H5T_INTEGER && H5Tget_size(type.get()) == 8;
-  add_part(data, {{}, whole}, sides[0], sides[1]);
+  add_part(data, {{}, whole, {}}, sides[0], sides[1]);
 }
 
 std::unique_ptr<RawLog> Hdf5Collector::take() {

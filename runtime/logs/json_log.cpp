@@ -7,15 +7,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "runtime/logs/array_log.h"
+#include "runtime/logs/json_sides.h"
+#include "runtime/logs/json_table.h"
 #include "runtime/logs/json_walk.h"
 #include "runtime/logs/log_error.h"
 #include "runtime/logs/message_log.h"
-#include "runtime/logs/time_words.h"
 #include "runtime/recordings/columns.h"
 #include "runtime/recordings/line_reader.h"
 
@@ -24,7 +23,6 @@ namespace {
 
 /// Documents are read into memory; longer ones are JSON lines, or should be.
 constexpr std::size_t kMostDocumentBytes = std::size_t{1} << 29;
-constexpr std::size_t kMostJsonColumns = 5000;
 
 /// Lines of JSON as messages.
 class JsonLines final : public MessageSource {
@@ -86,84 +84,13 @@ bool are_lines(const std::function<ByteSource()>& open, const std::string& name)
   }
 }
 
-/// A value of a column.
-struct Sample {
-  std::size_t row = 0;
-  double value = 0;
-};
-
-struct JsonColumn {
-  std::string name;
-  std::vector<Sample> samples;
-  std::optional<ColumnOrigin> origin;
-  bool instant = false;
-};
-
-/// Columns of one array of a document.
-class JsonTable final : public FieldSink {
- public:
-  void begin_row(std::size_t row) {
-    row_ = row;
-    rows_ = std::max(rows_, row + 1);
-  }
-  [[nodiscard]] std::size_t rows() const { return rows_; }
-  [[nodiscard]] std::vector<JsonColumn>& columns() { return columns_; }
-  [[nodiscard]] const std::vector<std::string>& texts() const { return texts_; }
-
-  void number(std::string_view path, double value) override {
-    if (JsonColumn* found = column(path)) found->samples.push_back({row_, value});
-  }
-  void whole(std::string_view path, std::int64_t value) override {
-    counted(path, value, 1, std::abs(static_cast<double>(value)) > std::ldexp(1.0, 53));
-  }
-  void instant(std::string_view path, std::int64_t nanoseconds) override {
-    counted(path, nanoseconds, kNanosecondsPerSecond, true);
-  }
-  void left_out(std::string_view path, std::string_view) override {
-    const std::string name(path);
-    if (texts_.size() < kMostJsonColumns &&
-        std::find(texts_.begin(), texts_.end(), name) == texts_.end()) {
-      texts_.push_back(name);
-    }
-  }
-
- private:
-  void counted(std::string_view path, std::int64_t value, std::int64_t per_unit, bool from_first) {
-    JsonColumn* found = column(path);
-    if (found == nullptr) return;
-    if (from_first && !found->origin) found->origin = ColumnOrigin{value, per_unit};
-    found->instant = found->instant || per_unit != 1;
-    std::int64_t difference = value;
-    if (found->origin && __builtin_sub_overflow(value, found->origin->count, &difference)) return;
-    found->samples.push_back(
-        {row_, static_cast<double>(difference) / static_cast<double>(per_unit)});
-  }
-  JsonColumn* column(std::string_view path) {
-    const std::string name(path);
-    const auto [known, is_new] = places_.try_emplace(name, columns_.size());
-    if (is_new) {
-      if (columns_.size() >= kMostJsonColumns) {
-        places_.erase(known);
-        return nullptr;
-      }
-      columns_.push_back({name, {}, {}, false});
-    }
-    return &columns_[known->second];
-  }
-
-  std::unordered_map<std::string, std::size_t> places_;
-  std::vector<JsonColumn> columns_;
-  std::vector<std::string> texts_;
-  std::size_t row_ = 0, rows_ = 0;
-};
-
 /// A whole document: arrays become tables and columns, other numbers are told.
 class JsonDocument final : public JsonWalk {
  public:
   /// Arrays of objects by their path; arrays of numbers and of arrays by the path of what they are
   /// part of, and their name.
   std::map<std::string, JsonTable> objects;
-  std::map<std::pair<std::string, std::string>, JsonTable> arrays;
+  JsonArrays arrays;
   std::vector<std::string> constants;
 
  private:
@@ -177,8 +104,10 @@ class JsonDocument final : public JsonWalk {
   JsonTable& array_table(std::size_t path_size) {
     const std::string path = path_.substr(0, path_size);
     const std::size_t point = path.rfind('.');
-    return point == path.npos ? arrays[{std::string(), path}]
-                              : arrays[{path.substr(0, point), path.substr(point + 1)}];
+    const JsonArrayName name = point == path.npos
+                                   ? JsonArrayName{std::string(), path}
+                                   : JsonArrayName{path.substr(0, point), path.substr(point + 1)};
+    return arrays.try_emplace(name, kMostJsonSamples).first->second;
   }
   [[nodiscard]] std::string array_name(std::size_t path_size) const {
     const std::string path = path_.substr(0, path_size);
@@ -232,10 +161,12 @@ void add_variables(JsonTable& table, const std::string& name,
     variable.rows = table.rows();
     variable.unit = column.instant ? "s" : "";
     variable.origin = column.origin;
-    auto samples = std::make_shared<std::vector<Sample>>(std::move(column.samples));
+    auto samples = std::make_shared<std::vector<JsonSample>>(std::move(column.samples));
     variable.read = [samples](std::size_t begin, Eigen::Ref<Eigen::MatrixXd> block) {
       block.setConstant(std::numeric_limits<double>::quiet_NaN());
-      const auto before = [](const Sample& sample, std::size_t row) { return sample.row < row; };
+      const auto before = [](const JsonSample& sample, std::size_t row) {
+        return sample.row < row;
+      };
       auto next = std::lower_bound(samples->begin(), samples->end(), begin, before);
       const std::size_t end = begin + static_cast<std::size_t>(block.rows());
       for (; next != samples->end() && next->row < end; ++next) {
@@ -275,6 +206,12 @@ std::unique_ptr<RawLog> open_document(const std::function<ByteSource()>& open,
       notices.push_back(log_notice(
           name, fmt::format("{} of {} is left out (text)", few_names(table.texts()), path)));
     }
+  }
+  const std::vector<std::string> turned =
+      turn_channels(document.arrays, !document.objects.empty(), name);
+  if (!turned.empty()) {
+    notices.push_back(
+        log_notice(name, fmt::format("lists of {} are channels, not samples", few_names(turned))));
   }
   for (auto& [path, table] : document.arrays) add_variables(table, path.first, variables);
   if (!document.constants.empty()) {

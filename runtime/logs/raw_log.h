@@ -80,6 +80,12 @@ class RawLog {
     return std::nullopt;
   }
 
+  /// The word of a column of words if the first rows all have the same; else empty.
+  [[nodiscard]] virtual std::string constant_word(std::size_t /*table*/,
+                                                  std::size_t /*column*/) const {
+    return {};
+  }
+
   /// 0 .. 1: for progress.
   [[nodiscard]] virtual double fraction_read() const = 0;
 };

@@ -12,6 +12,7 @@
 #include "runtime/logs/text_rows.h"
 #include "runtime/logs/time_words.h"
 #include "runtime/recordings/columns.h"
+#include "runtime/recordings/text_encoding.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -47,6 +48,7 @@ class LayoutFinder {
   void find_decimal();
   void find_kinds();
   [[nodiscard]] FieldKind kind_of_field(std::size_t field) const;
+  [[nodiscard]] std::string word_of(std::size_t field) const;
   TextHeader given_columns() const;
   void place_fields(const TextHeader& header);
   void tell(const TextHeader& header) const;
@@ -170,8 +172,24 @@ FieldKind LayoutFinder::kind_of_field(std::size_t field) const {
   return fractions ? FieldKind::kNanoCount : FieldKind::kWhole;
 }
 
+/// The word that all rows have in a field.
+std::string LayoutFinder::word_of(std::size_t field) const {
+  std::string_view word;
+  for (const auto& words : words_) {
+    if (field >= words.size() || (!word.empty() && words[field] != word)) return {};
+    word = words[field];
+  }
+  if (word.size() >= 2 && word.front() == '"' && word.back() == '"') {
+    word = word.substr(1, word.size() - 2);
+  }
+  return as_utf8(trimmed(word));
+}
+
 void LayoutFinder::find_kinds() {
-  for (std::size_t i = 0; i < rows_.fields; ++i) layout_.fields.push_back({0, i, kind_of_field(i)});
+  for (std::size_t i = 0; i < rows_.fields; ++i) {
+    layout_.fields.push_back({0, i, kind_of_field(i)});
+    if (layout_.fields.back().kind == FieldKind::kText) layout_.fields.back().word = word_of(i);
+  }
 }
 
 TextHeader LayoutFinder::given_columns() const {

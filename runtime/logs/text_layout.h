@@ -30,6 +30,7 @@ enum class FieldKind {
 struct TextField {
   std::size_t table = 0, column = 0;
   FieldKind kind = FieldKind::kNumber;
+  std::string word{};  ///< of kText: that of all rows of the sample; empty: they differ
 };
 
 /// What stands where in a text of rows.

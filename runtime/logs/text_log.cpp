@@ -12,11 +12,12 @@
 
 #include "runtime/logs/log_error.h"
 #include "runtime/logs/log_words.h"
+#include "runtime/logs/quoted_lines.h"
 #include "runtime/logs/row_rounds.h"
 #include "runtime/logs/text_layout.h"
 #include "runtime/logs/time_words.h"
 #include "runtime/recordings/columns.h"
-#include "runtime/recordings/line_reader.h"
+#include "runtime/recordings/cut_number.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -45,6 +46,7 @@ class TextLog final : public RawLog {
   [[nodiscard]] std::vector<std::string> notices() const override;
   [[nodiscard]] std::optional<ColumnOrigin> origin(std::size_t table,
                                                    std::size_t column) const override;
+  [[nodiscard]] std::string constant_word(std::size_t table, std::size_t column) const override;
   [[nodiscard]] double fraction_read() const override;
 
  private:
@@ -52,6 +54,7 @@ class TextLog final : public RawLog {
   bool next_line();
   bool next_row();
   bool read_fields();
+  bool is_cut_within();
   double read_field(std::size_t field, std::string_view text, std::size_t column);
   double read_counted(std::size_t field, std::string_view text, bool& understood);
   double no_value(std::size_t field, std::string_view text, std::size_t column);
@@ -60,7 +63,7 @@ class TextLog final : public RawLog {
   bool read_plain(const char* at, const char* end, double& value, const char*& after) const;
 
   NoticeLog log_;
-  LineReader lines_;
+  QuotedLines lines_;
   std::vector<SampleLine> sample_;
   std::size_t replayed_ = 0;  ///< lines of the sample that were handed out
   bool whole_ = false;        ///< the sample is the whole file
@@ -72,6 +75,10 @@ class TextLog final : public RawLog {
   std::string scratch_;
   std::optional<RecordingError> short_row_;  ///< an error, unless the file ends there
   std::size_t short_line_ = 0;
+  CutNumber last_numbers_;      ///< at the ends of the rows before
+  std::string_view last_word_;  ///< of the row that is read, if it ends there; no text
+  bool ends_file_ = false;      ///< the word that is read
+  bool cut_word_ = false;       ///< that word is no number
   bool at_end_ = false;
 };
 
@@ -123,6 +130,10 @@ bool TextLog::next_line() {
 
 /// A word that is no number.
 double TextLog::no_value(std::size_t field, std::string_view text, std::size_t column) {
+  if (ends_file_) {
+    cut_word_ = true;
+    return kNothing;
+  }
   const TextField& place = layout_.fields[field];
   const std::string& name = layout_.tables[place.table].columns[place.column];
   if (kind_of_word(text) == WordKind::kNumber) {
@@ -247,6 +258,8 @@ bool TextLog::read_fields() {
   const std::size_t expected = layout_.fields.size();
   std::size_t field = 0;
   bool ended = false;
+  last_word_ = {};
+  ends_file_ = cut_word_ = false;
   for (; field < expected && !ended; ++field) {
     while (at != end && is_blank(*at) && (blanks || *at != separator)) ++at;
     if (blanks && at == end) break;
@@ -254,6 +267,7 @@ bool TextLog::read_fields() {
     if (layout_.fields[field].kind == FieldKind::kNumber &&
         read_plain(at, end, values_[field], after)) {
       ended = after == end;
+      if (ended) last_word_ = {at, static_cast<std::size_t>(after - at)};
       at = ended ? after : after + 1;
       continue;
     }
@@ -268,8 +282,10 @@ bool TextLog::read_fields() {
     if (in_quotes && text.size() >= 2 && text.back() == text.front()) {
       text = trimmed(text.substr(1, text.size() - 2));
     }
-    values_[field] = read_field(field, text, static_cast<std::size_t>(at - begin) + 1);
     ended = stop == end;
+    ends_file_ = ended && !line_.terminated;
+    values_[field] = read_field(field, text, static_cast<std::size_t>(at - begin) + 1);
+    if (ended && layout_.fields[field].kind != FieldKind::kText) last_word_ = text;
     at = ended ? stop : stop + 1;
   }
   if (field < expected) {
@@ -291,6 +307,19 @@ bool TextLog::read_fields() {
   return true;
 }
 
+/// Whether the file ends within the last number of the row; else the number is remembered.
+bool TextLog::is_cut_within() {
+  if (last_word_.empty()) return false;
+  if (line_.terminated || (!cut_word_ && !last_numbers_.is_cut(last_word_))) {
+    last_numbers_.add(last_word_);
+    return false;
+  }
+  log_.add_once(
+      "cut off", line_.number, line_.text.size(),
+      fmt::format("the last row is cut off within a number ({}); left out", in_quotes(last_word_)));
+  return true;
+}
+
 /// Reads one line into rows; false at the end of the file.
 bool TextLog::next_row() {
   while (next_line()) {
@@ -304,6 +333,7 @@ bool TextLog::next_row() {
     }
     if (short_row_) throw *short_row_;
     if (!read_fields()) continue;
+    if (is_cut_within()) continue;
     const bool one_table = layout_.tables.size() == 1;
     for (std::size_t begin = 0; begin < values_.size();) {
       const std::size_t table = layout_.fields[begin].table;
@@ -351,6 +381,13 @@ std::optional<ColumnOrigin> TextLog::origin(std::size_t table, std::size_t colum
                         field.kind == FieldKind::kWhole ? 1 : kNanosecondsPerSecond};
   }
   return std::nullopt;
+}
+
+std::string TextLog::constant_word(std::size_t table, std::size_t column) const {
+  const auto found = std::find_if(
+      layout_.fields.begin(), layout_.fields.end(),
+      [&](const TextField& field) { return field.table == table && field.column == column; });
+  return found == layout_.fields.end() ? std::string() : found->word;
 }
 
 double TextLog::fraction_read() const { return at_end_ ? 1 : lines_.fraction_read(); }

@@ -204,6 +204,16 @@ RowParser::Outcome RowParser::parse(const Line& line, RowQueue& rows) {
       }
     }
     ended = stop == cursor.end;
+    if (ended && target >= 0 && field + 1 == expected) {
+      const std::string_view word(cursor.at, static_cast<std::size_t>(stop - cursor.at));
+      if (!line.terminated && last_numbers_.is_cut(word)) {
+        return short_row(line, static_cast<std::size_t>(cursor.at - begin) + 1,
+                         fmt::format("found {} at the end of the file, expected as many digits as "
+                                     "in the rows before",
+                                     quoted(word)));
+      }
+      last_numbers_.add(word);
+    }
     cursor.at = ended ? stop : stop + 1;
   }
   info.segment = segment_;

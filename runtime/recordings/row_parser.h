@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "runtime/recordings/columns.h"
+#include "runtime/recordings/cut_number.h"
 #include "runtime/recordings/line_reader.h"
 #include "runtime/recordings/notice_log.h"
 #include "runtime/recordings/row_queue.h"
@@ -69,7 +70,8 @@ class RowParser {
   std::map<std::string, std::int64_t, std::less<>> segments_;
   std::string scratch_;
   RecordingError too_short_{""};
-  bool cut_word_ = false;  ///< the last value is no number, and the file ends within it
+  CutNumber last_numbers_;  ///< of rows before
+  bool cut_word_ = false;   ///< the last value is no number, and the file ends within it
 };
 
 }  // namespace dyngen::runtime

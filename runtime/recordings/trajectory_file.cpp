@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "runtime/recordings/notice_log.h"
-#include "runtime/recordings/reader.h"
 #include "runtime/recordings/spline.h"
 #include "runtime/recordings/writer.h"
 
@@ -84,13 +83,17 @@ void Trajectory::validate() const {
 }
 
 Trajectory read_trajectory(const std::string& path, std::vector<Notice>* repairs) {
+  return read_trajectory(recording_file(path), repairs);
+}
+
+Trajectory read_trajectory(const RecordingInput& input, std::vector<Notice>* repairs) {
   ReadOptions options;
   options.torque_required = false;
-  Recording recording = read_recording(path, options, repairs);
+  Recording recording = read_recording(input, options, repairs);
   if (recording.run_starts.size() > 1) {
     const Index next = recording.run_starts[1];
     throw recording_error(
-        path, 0, 0,
+        input.name, 0, 0,
         fmt::format("found {} runs (time starts again, leaves a gap or changes its segment after "
                     "{} s), expected one trajectory without a gap",
                     recording.run_starts.size(), recording.time(next - 1)));

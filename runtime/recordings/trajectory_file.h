@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/recordings/notice.h"
+#include "runtime/recordings/reader.h"
 
 namespace dyngen::runtime {
 
@@ -33,6 +34,8 @@ struct Trajectory {
 /// @param repairs  what was repaired is appended, if not null
 /// @throws RecordingError  positioned; also if time leaves a gap: a robot cannot follow that
 Trajectory read_trajectory(const std::string& path, std::vector<Notice>* repairs = nullptr);
+/// The same of what else makes samples: a log and its map.
+Trajectory read_trajectory(const RecordingInput& input, std::vector<Notice>* repairs = nullptr);
 
 /// Writes time, q, qd, qdd. The file appears at once when it is complete; a name that ends in
 /// ".gz" is packed. Reading gives the identical trajectory.

@@ -12,6 +12,7 @@ namespace {
 struct NamedUnit {
   std::string_view name;
   UnitConversion conversion;
+  MotionKind kind = MotionKind::kAngle;  ///< of positions and torques
 };
 
 constexpr double kRadPerTurn = 2 * std::numbers::pi;
@@ -40,13 +41,13 @@ constexpr std::array<NamedUnit, 17> kLengths = {{{"rad", {}},
                                                  {"rev", {kRadPerTurn, 1}},
                                                  {"arcmin", {std::numbers::pi, 10800}},
                                                  {"arcsec", {std::numbers::pi, 648000}},
-                                                 {"m", {}},
-                                                 {"dm", {1, 10}},
-                                                 {"cm", {1, 100}},
-                                                 {"mm", {1, 1e3}},
-                                                 {"um", {1, 1e6}},
-                                                 {"meter", {}},
-                                                 {"metre", {}}}};
+                                                 {"m", {}, MotionKind::kLength},
+                                                 {"dm", {1, 10}, MotionKind::kLength},
+                                                 {"cm", {1, 100}, MotionKind::kLength},
+                                                 {"mm", {1, 1e3}, MotionKind::kLength},
+                                                 {"um", {1, 1e6}, MotionKind::kLength},
+                                                 {"meter", {}, MotionKind::kLength},
+                                                 {"metre", {}, MotionKind::kLength}}};
 
 constexpr std::array<NamedUnit, 13> kTorques = {{{"nm", {}},
                                                  {"mnm", {1, 1e3}},
@@ -54,10 +55,10 @@ constexpr std::array<NamedUnit, 13> kTorques = {{{"nm", {}},
                                                  {"knm", {1e3, 1}},
                                                  {"ncm", {1, 100}},
                                                  {"nmm", {1, 1e3}},
-                                                 {"n", {}},
-                                                 {"mn", {1, 1e3}},
-                                                 {"kn", {1e3, 1}},
-                                                 {"newton", {}},
+                                                 {"n", {}, MotionKind::kLength},
+                                                 {"mn", {1, 1e3}, MotionKind::kLength},
+                                                 {"kn", {1e3, 1}, MotionKind::kLength},
+                                                 {"newton", {}, MotionKind::kLength},
                                                  {"newtonmeter", {}},
                                                  {"newtonmetre", {}},
                                                  {"j/rad", {}}}};
@@ -66,10 +67,10 @@ constexpr std::array<NamedUnit, 4> kTemperatures = {
     {{"c", {}}, {"degc", {}}, {"celsius", {}}, {"k", {1, 1, -273.15}}}};
 
 template <std::size_t kSize>
-std::optional<UnitConversion> find_unit(const std::array<NamedUnit, kSize>& units,
-                                        std::string_view word) {
+std::optional<NamedUnit> find_unit(const std::array<NamedUnit, kSize>& units,
+                                   std::string_view word) {
   for (const NamedUnit& unit : units) {
-    if (unit.name == word) return unit.conversion;
+    if (unit.name == word) return unit;
   }
   if (word.size() > 3 && word.back() == 's')
     return find_unit(units, word.substr(0, word.size() - 1));
@@ -83,16 +84,38 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 }
 
 /// A rate of a length: "deg/s" of power 1, "deg/s2" of power 2.
-std::optional<UnitConversion> rate_unit(std::string_view word, int power) {
-  if (power == 1 && (word == "rpm" || word == "1/min")) return UnitConversion{kRadPerTurn, 60, 0};
+std::optional<NamedUnit> rate_unit(std::string_view word, int power) {
+  if (power == 1 && (word == "rpm" || word == "1/min")) return NamedUnit{word, {kRadPerTurn, 60}};
   const std::array<std::string_view, 4> first = {"/s", "ps", "s-1", "/min"};
   const std::array<std::string_view, 4> second = {"/s2", "/s/s", "s-2", "/(s2)"};
   for (const std::string_view end : power == 1 ? first : second) {
     if (word.size() <= end.size() || !word.ends_with(end)) continue;
-    std::optional<UnitConversion> length =
-        find_unit(kLengths, word.substr(0, word.size() - end.size()));
-    if (length && end == "/min") length->divisor *= 60;
+    std::optional<NamedUnit> length = find_unit(kLengths, word.substr(0, word.size() - end.size()));
+    if (length && end == "/min") length->conversion.divisor *= 60;
     if (length) return length;
+  }
+  return std::nullopt;
+}
+
+std::optional<NamedUnit> named_unit(std::string_view word, ColumnQuantity quantity) {
+  word = without_brackets(word);
+  // "MNm" would be a million N m; nobody means that, and nobody should get a thousandth of it.
+  if (word.empty() || (quantity == ColumnQuantity::kTorque && word.front() == 'M'))
+    return std::nullopt;
+  const std::string normal = plain_unit(word);
+  switch (quantity) {
+    case ColumnQuantity::kTime:
+      return find_unit(kTimes, normal);
+    case ColumnQuantity::kPosition:
+      return find_unit(kLengths, normal);
+    case ColumnQuantity::kVelocity:
+      return rate_unit(normal, 1);
+    case ColumnQuantity::kAcceleration:
+      return rate_unit(normal, 2);
+    case ColumnQuantity::kTorque:
+      return find_unit(kTorques, normal);
+    case ColumnQuantity::kTemperature:
+      return find_unit(kTemperatures, normal);
   }
   return std::nullopt;
 }
@@ -137,26 +160,15 @@ std::string plain_unit(std::string_view word) {
 }
 
 std::optional<UnitConversion> unit_conversion(std::string_view word, ColumnQuantity quantity) {
-  word = without_brackets(word);
-  // "MNm" would be a million N m; nobody means that, and nobody should get a thousandth of it.
-  if (word.empty() || (quantity == ColumnQuantity::kTorque && word.front() == 'M'))
+  const std::optional<NamedUnit> unit = named_unit(word, quantity);
+  return unit ? std::optional(unit->conversion) : std::nullopt;
+}
+
+std::optional<MotionKind> motion_kind(std::string_view word, ColumnQuantity quantity) {
+  if (quantity == ColumnQuantity::kTime || quantity == ColumnQuantity::kTemperature)
     return std::nullopt;
-  const std::string normal = plain_unit(word);
-  switch (quantity) {
-    case ColumnQuantity::kTime:
-      return find_unit(kTimes, normal);
-    case ColumnQuantity::kPosition:
-      return find_unit(kLengths, normal);
-    case ColumnQuantity::kVelocity:
-      return rate_unit(normal, 1);
-    case ColumnQuantity::kAcceleration:
-      return rate_unit(normal, 2);
-    case ColumnQuantity::kTorque:
-      return find_unit(kTorques, normal);
-    case ColumnQuantity::kTemperature:
-      return find_unit(kTemperatures, normal);
-  }
-  return std::nullopt;
+  const std::optional<NamedUnit> unit = named_unit(word, quantity);
+  return unit ? std::optional(unit->kind) : std::nullopt;
 }
 
 std::string_view known_units(ColumnQuantity quantity) {

@@ -25,6 +25,12 @@ struct UnitConversion {
 /// this quantity.
 std::optional<UnitConversion> unit_conversion(std::string_view word, ColumnQuantity quantity);
 
+/// Of what a joint's unit is: an angle (deg, rad/s, N m) or a length (mm, m/s, N).
+enum class MotionKind { kAngle, kLength };
+
+/// Nothing of times and temperatures, and of words that are no unit of the quantity.
+std::optional<MotionKind> motion_kind(std::string_view word, ColumnQuantity quantity);
+
 /// Units of a quantity that are known, for messages: "s, ms, us, ns or min".
 std::string_view known_units(ColumnQuantity quantity);
 

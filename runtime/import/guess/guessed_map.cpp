@@ -13,6 +13,7 @@
 
 #include "runtime/import/guess/column_words.h"
 #include "runtime/import/guess/map_guess.h"
+#include "runtime/import/guess/name_endings.h"
 #include "runtime/import/signal_units.h"
 #include "runtime/import/signed_numbers.h"
 #include "runtime/import/spelling.h"
@@ -132,6 +133,7 @@ void MapGuess::choose_names() {
         return of_log.empty() || std::find(of_log.begin(), of_log.end(), name) != of_log.end();
       });
   names_ = robot_has_them ? of_robot : of_log;
+  find_name_columns();
 }
 
 void MapGuess::find_candidates() {
@@ -149,6 +151,7 @@ void MapGuess::find_candidates() {
           candidate.unit.clear();
         }
       }
+      order_by_names(t, family);
       std::vector<std::string> words = family.words;
       // a variable of its own is called like its table
       if (table.columns.size() == family.columns.size() && !table.name.empty()) {
@@ -156,6 +159,12 @@ void MapGuess::find_candidates() {
         words.insert(words.end(), more.begin(), more.end());
       }
       std::optional<ColumnRole> role = role_of_words(words);
+      if (candidate.unit.empty()) {
+        if (const auto ending = unit_ending(family.pattern, role)) {
+          candidate.unit = ending->unit;
+          candidate.unit_ending = ending->ending;
+        }
+      }
       const std::optional<ColumnRole> by_unit = role_of_unit(candidate.unit);
       if (by_unit && (!role || *role == ColumnRole::kTime || family.words.size() < 2))
         role = by_unit;
@@ -189,12 +198,11 @@ void MapGuess::name_headerless() {
   }
   std::size_t next = 0;
   if (time >= 0) {
-    candidates_.push_back(
-        {0,
-         {names[static_cast<std::size_t>(time)], {static_cast<std::size_t>(time)}, {}},
-         ColumnRole::kTime,
-         "",
-         ""});
+    Candidate clock;
+    clock.role = ColumnRole::kTime;
+    clock.family.pattern = names[static_cast<std::size_t>(time)];
+    clock.family.columns = {static_cast<std::size_t>(time)};
+    candidates_.push_back(std::move(clock));
     next = time == 0 ? 1 : 0;
   }
   const std::size_t left = names.size() - (time >= 0 ? 1 : 0);
@@ -273,76 +281,6 @@ const Candidate* MapGuess::choose(ColumnRole role, const char* key) {
   return nullptr;
 }
 
-/// From the log, the name's end, or the size of a step.
-std::string MapGuess::time_unit(const std::string& name, double step, std::string& reason) {
-  const std::vector<std::string> words = words_of(name);
-  for (const char* unit : {"ns", "us", "ms", "nsec", "usec", "msec"}) {
-    if (std::find(words.begin(), words.end(), unit) == words.end()) continue;
-    reason = fmt::format("'{}' is in its name", unit);
-    return unit;
-  }
-  // samples of a controller are 0.2 ms to 0.2 s apart
-  constexpr double kQuickest = 2e-4, kSlowest = 0.2;
-  constexpr std::array<std::pair<const char*, double>, 4> kUnits = {
-      {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
-  for (const auto& [unit, factor] : kUnits) {
-    if (step * factor < kQuickest || step * factor > kSlowest) continue;
-    reason = fmt::format("a step of {:.6g} is {:.4g} ms then", step, 1e3 * step * factor);
-    return unit;
-  }
-  return {};
-}
-
-void MapGuess::guess_time() {
-  const Candidate* best = nullptr;
-  for (const Candidate& candidate : candidates_) {
-    if (candidate.role != ColumnRole::kTime) continue;
-    const VectorXd times = values_of(candidate).col(0);
-    if (times.size() < 3) continue;
-    const VectorXd steps = times.tail(times.size() - 1) - times.head(times.size() - 1);
-    const auto rising = static_cast<double>((steps.array() > 0).count());
-    constexpr double kMostRising = 0.9;
-    if (rising < kMostRising * static_cast<double>(steps.size())) continue;
-    const auto is_stamp = [](const Candidate& one) {
-      return std::find(one.family.words.begin(), one.family.words.end(), "stamp") !=
-             one.family.words.end();
-    };
-    if (best == nullptr || (is_stamp(candidate) && !is_stamp(*best))) best = &candidate;
-  }
-  if (best == nullptr) {
-    question("no column is a time: at which rate were the rows taken (such as 1000 Hz)?");
-    line("time: {rate: \"?\"}");
-    return;
-  }
-  used_.push_back(best);
-  VectorXd times = values_of(*best).col(0);
-  std::vector<double> steps(static_cast<std::size_t>(times.size() - 1));
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    steps[k] = times[static_cast<Index>(k) + 1] - times[static_cast<Index>(k)];
-  }
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                   steps.end());
-  const double step = steps[steps.size() / 2];
-  std::string why = "the log says so", unit = best->unit;
-  if (unit.empty() || !unit_conversion(unit, ColumnQuantity::kTime)) {
-    unit = time_unit(best->family.pattern, step, why);
-  }
-  const std::string column = yaml_text(best->family.pattern);
-  if (unit.empty()) {
-    question(fmt::format("in which unit is the time, of which a step is {:.6g}?", step));
-    line(fmt::format("time: {{column: {}, unit: \"?\"}}", column));
-    return;
-  }
-  const UnitConversion seconds = *unit_conversion(unit, ColumnQuantity::kTime);
-  step_ = seconds(step);
-  reason(why == "the log says so" ? 99 : kSure,
-         fmt::format("{} rises from row to row; unit {}: {}; {:.6g} Hz", best->family.pattern, unit,
-                     why, 1 / step_));
-  line(fmt::format("time: {{column: {}, unit: {}}}", column, unit));
-  recording_.time.resize(times.size());
-  for (Index k = 0; k < times.size(); ++k) recording_.time[k] = seconds(times[k] - times[0]);
-}
-
 GuessedMap MapGuess::make() {
   if (logs_.tables.empty()) {
     throw ImportError(fmt::format("{}: error: found no rows, expected a log", logs_.paths.front()));
@@ -377,6 +315,7 @@ GuessedMap MapGuess::make() {
       line("joints: [" + names + "]");
     }
   }
+  note_name_columns();
   guess_time();
   guess_position();
   guess_velocity();

@@ -41,8 +41,8 @@ void MapGuess::guess_position() {
   used_.push_back(chosen);
   const MatrixXd values = values_of(*chosen);
   const double most = values.cwiseAbs().maxCoeff();
-  std::string unit = chosen->unit, why = "the log says so";
-  int sure = 99;
+  std::string unit = chosen->unit, why = why_unit(*chosen);
+  int sure = sure_of_unit(*chosen);
   bool asks = false;
   const bool limits = robot_.lowest.size() == values.cols();
   const auto within = [&](double factor) {
@@ -118,14 +118,15 @@ void MapGuess::guess_velocity() {
     slopes.push_back(fit.slope);
     if (std::abs(fit.lag) > std::abs(lag)) lag = fit.lag;
   }
-  std::string unit = chosen->unit, why = "the log says so";
+  std::string unit = chosen->unit, why = why_unit(*chosen);
   std::vector<double> signs;
   if (slopes.empty()) {
     if (unit.empty()) {
       question("in which unit are the velocities (they do not go with the positions)?");
       unit = "\"?\"";
     } else {
-      reason(99, fmt::format("{} by name; unit {}: {}", chosen->family.pattern, unit, why));
+      reason(sure_of_unit(*chosen),
+             fmt::format("{} by name; unit {}: {}", chosen->family.pattern, unit, why));
     }
     line(fmt::format("velocity: {{{}, unit: {}}}", columns_of(*chosen), unit));
     return;
@@ -139,7 +140,7 @@ void MapGuess::guess_velocity() {
       return std::abs(std::abs(slope) / factor - 1) < kAlike;
     });
   };
-  int sure = 99;
+  int sure = sure_of_unit(*chosen);
   if (unit.empty()) {
     for (const auto& [word, factor] : kUnits) {
       if (!all_are(factor)) continue;
@@ -225,7 +226,7 @@ void MapGuess::guess_torque() {
     if (const Candidate* current = choose(ColumnRole::kCurrent, "torque")) {
       used_.push_back(current);
       const std::string unit = current->unit.empty() ? "A" : current->unit;
-      reason(current->unit.empty() ? kPlausible : 99,
+      reason(current->unit.empty() ? kPlausible : sure_of_unit(*current),
              fmt::format("no torque is recorded; {} are currents", current->family.pattern));
       question("which torque at the joint does one ampere make (N m/A, gear included)?");
       line(fmt::format("torque: {{{}, unit: {}, constant: \"?\"}}", columns_of(*current), unit));
@@ -252,8 +253,8 @@ void MapGuess::guess_torque() {
   }
   used_.push_back(chosen);
   const MatrixXd values = values_of(*chosen);
-  std::string unit = chosen->unit, why = "the log says so";
-  int sure = 99;
+  std::string unit = chosen->unit, why = why_unit(*chosen);
+  int sure = sure_of_unit(*chosen);
   const auto& words = chosen->family.words;
   const bool ros = std::find(words.begin(), words.end(), "effort") != words.end();
   bool asks = false;

@@ -17,15 +17,26 @@
 namespace dyngen::runtime {
 
 /// How sure a guess is, per cent: for people, who check them.
-inline constexpr int kSure = 95, kLikely = 80, kPlausible = 70;
+inline constexpr int kTold = 99, kSure = 95, kLikely = 80, kPlausible = 70;
 
 /// Columns that may be one signal.
 struct Candidate {
   std::size_t table = 0;
   ColumnFamily family;
   ColumnRole role = ColumnRole::kPosition;
-  std::string unit;       ///< that the log says
-  std::string commanded;  ///< the word by which it is no measurement
+  std::string unit;         ///< that the log says
+  std::string unit_ending;  ///< of the name, if that says the unit: "_deg"; empty: the log does
+  std::string commanded;    ///< the word by which it is no measurement
+};
+
+/// Columns with the names of the joints to which other columns of the message belong.
+struct NameColumns {
+  std::size_t table = 0;
+  std::string pattern;             ///< "field.name{i}"
+  std::string message;             ///< "field.": how names of its columns begin
+  std::vector<std::string> names;  ///< as they stand
+  std::vector<std::size_t> order;  ///< of the robot's joints: places in names
+  bool of_robot = false;           ///< the robot file has these names
 };
 
 /// A text fit for YAML's double quotes, in them.
@@ -42,10 +53,15 @@ class MapGuess {
 
  private:
   void choose_names();
+  void find_name_columns();
+  void order_by_names(std::size_t table, ColumnFamily& family) const;
+  void note_name_columns();
   void find_candidates();
   void name_headerless();
   void count_joints();
   void guess_time();
+  [[nodiscard]] bool counts_rows(const Candidate& candidate) const;
+  bool guess_counter();
   std::string time_unit(const std::string& name, double step, std::string& reason);
   const Candidate* choose(ColumnRole role, const char* key);
   void guess_position();
@@ -60,6 +76,15 @@ class MapGuess {
   [[nodiscard]] std::string columns_of(const Candidate& candidate) const;
   [[nodiscard]] std::vector<DerivativeFit> fits(const Eigen::MatrixXd& upper) const;
 
+  /// Why a candidate has its unit, and how sure that is.
+  static std::string why_unit(const Candidate& candidate) {
+    return candidate.unit_ending.empty()
+               ? "the log says so"
+               : fmt::format("'{}' is the end of its name", candidate.unit_ending);
+  }
+  static int sure_of_unit(const Candidate& candidate) {
+    return candidate.unit_ending.empty() ? kTold : kSure;
+  }
   void reason(int sure, const std::string& text) {
     lines_.push_back(fmt::format("# {} (confidence {} %)", text, sure));
   }
@@ -73,6 +98,7 @@ class MapGuess {
   const SampledLog& logs_;
   const GuessRobot& robot_;
   std::vector<std::string> names_;  ///< of joints, as the log has them
+  std::vector<NameColumns> name_columns_;
   std::vector<Candidate> candidates_;
   std::vector<const Candidate*> used_;
   std::vector<std::string> lines_;

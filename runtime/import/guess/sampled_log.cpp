@@ -31,7 +31,10 @@ SampledLog sample_logs(const std::vector<std::string>& paths, std::size_t most) 
       }
       for (std::size_t t = 0; t < tables; ++t) {
         if (counts[t] == 0) continue;
-        sampled.tables.push_back({i, log->tables()[t], values[t].topRows(counts[t])});
+        sampled.tables.push_back({i, log->tables()[t], values[t].topRows(counts[t]), {}});
+        for (std::size_t c = 0; c < log->tables()[t].columns.size(); ++c) {
+          sampled.tables.back().words.push_back(log->constant_word(t, c));
+        }
       }
     } catch (const LogError& error) {
       throw RecordingError(error.what());

@@ -14,7 +14,8 @@ namespace dyngen::runtime {
 struct SampledTable {
   std::size_t log = 0;  ///< which file
   LogTable table;
-  Eigen::MatrixXd values;  ///< (rows x columns)
+  Eigen::MatrixXd values;            ///< (rows x columns)
+  std::vector<std::string> words{};  ///< of columns with one word in all rows; else empty
 };
 
 /// The first rows of all tables.

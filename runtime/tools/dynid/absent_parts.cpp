@@ -17,7 +17,7 @@
 namespace dyngen::runtime {
 
 #if !DYNGEN_WITH_BOOST
-int run_simulate(const SimulateOptions&) { call_absent(Part::kBoost); }
+int run_simulate(const ToolOptions&) { call_absent(Part::kBoost); }
 ForwardComparison compare_forward(const DiagnosisReport&, const DescribedRobot&,
                                   const EffectCatalogue&, const ForwardTask&,
                                   const std::function<void(double)>&) {

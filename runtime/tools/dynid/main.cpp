@@ -38,7 +38,7 @@ int run(const ToolOptions& options, ProcessGroup& group) {
     case Command::kMerge:
       return run_merge(options);
     case Command::kSimulate:
-      return run_simulate(options.simulate);
+      return run_simulate(options);
     case Command::kExcite:
       return run_excite(options);
     case Command::kAtlas:

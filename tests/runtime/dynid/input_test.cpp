@@ -76,12 +76,16 @@ std::vector<std::string> calls(const std::string& robot, const std::string& out)
 
 TEST_F(Input, ARecordingInTheRobotsPlaceIsNamed) {
   const std::string robot = kCases + "gap/arm2.robot", run = kCases + "gap/run.csv.gz";
-  for (const char* command : {"fit ", "check ", "diagnose ", "accumulate "}) {
-    const std::string written =
-        command == std::string("check ") ? "" : " -o " + path("out");
-    const Outcome outcome = dynid(command + run + " " + robot + written);
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
-    EXPECT_EQ(count_of(outcome.out, "where the robot stands"), 1U) << outcome.out;
+  const std::string turned = run + " " + robot, written = " -o " + path("out");
+  for (const std::string& call :
+       {"fit " + turned + written, "check " + turned, "diagnose " + turned + written,
+        "accumulate " + turned + written, "atlas " + turned, "excite " + turned + written,
+        "excite " + run + " --prior " + robot + written, "simulate " + turned + written,
+        "simulate " + run + " --trajectory " + robot + written,
+        "import --guess --robot " + turned}) {
+    const Outcome outcome = dynid(call);
+    EXPECT_EQ(outcome.exit_code, 2) << call << "\n" << outcome.out;
+    EXPECT_EQ(count_of(outcome.out, "where the robot stands"), 1U) << call << "\n" << outcome.out;
   }
 }
 

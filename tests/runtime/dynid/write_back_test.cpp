@@ -17,6 +17,7 @@
 #include "runtime/tools/dynid/robot/description_bodies.h"
 #include "runtime/tools/dynid/robot/identified_description.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
+#include "runtime/tools/dynid/robot/left_out_json.h"
 #include "tests/gen/robot_input/description_text.h"
 #include "tests/runtime/dynid/identified_robot.h"
 #include "tests/support/model_bridge.h"
@@ -216,6 +217,14 @@ TEST(WriteBack, WhatHasNoFieldIsNamed) {
   ASSERT_EQ(result.left_out.size(), 1U);
   EXPECT_EQ(result.left_out[0].what, "stribeck of swing");
   EXPECT_NE(result.text.find("stribeck of swing"), std::string::npos);
+  const Json json = written_back_json({"out.xml", path, result});
+  EXPECT_EQ(json["form"], "MJCF");
+  EXPECT_EQ(json["file"], "out.xml");
+  EXPECT_EQ(json["of"], path);
+  ASSERT_EQ(json["left_out"].size(), 1U);
+  EXPECT_EQ(json["left_out"][0]["what"], "stribeck of swing");
+  EXPECT_EQ(json["left_out"][0]["reason"], "MuJoCo has no field for it");
+  EXPECT_TRUE(json["left_out"][0]["rms"].is_null());
 }
 
 }  // namespace

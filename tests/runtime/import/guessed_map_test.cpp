@@ -9,6 +9,7 @@
 #include <random>
 
 #include "runtime/import/guess/column_words.h"
+#include "runtime/import/guess/name_endings.h"
 #include "runtime/import/map_file.h"
 #include "tests/runtime/import/fake_log.h"
 
@@ -136,6 +137,89 @@ TEST(GuessedMap, TakesNamesOfJointsFromBrackets) {
   EXPECT_THAT(guess.yaml, HasSubstr("joints: [\"elbow_joint\", \"wrist_1_joint\"]"));
   EXPECT_THAT(guess.yaml, HasSubstr("position: {columns: \"position[{joint}]\""));
   EXPECT_EQ(guess.questions, 0) << guess.yaml;
+}
+
+TEST(NameEndings, SayUnitsOfTheirRole) {
+  using runtime::ColumnRole;
+  const auto unit = [](const char* name, std::optional<ColumnRole> role) {
+    const auto ending = runtime::unit_ending(name, role);
+    return ending ? ending->unit : std::string("none");
+  };
+  EXPECT_EQ(unit("q{n}_deg", ColumnRole::kPosition), "deg");
+  EXPECT_EQ(unit("act_pos_rad[{n}]", ColumnRole::kPosition), "rad");
+  EXPECT_EQ(unit("PosDeg{n}", ColumnRole::kPosition), "deg");
+  EXPECT_EQ(unit("lift_mm", ColumnRole::kPosition), "mm");
+  EXPECT_EQ(unit("qd{n}_degps", ColumnRole::kVelocity), "deg/s");
+  EXPECT_EQ(unit("vel_rad_s_{n}", ColumnRole::kVelocity), "rad/s");
+  EXPECT_EQ(unit("qd_rpm{n}", ColumnRole::kVelocity), "rpm");
+  EXPECT_EQ(unit("acc{n}_rad_s2", ColumnRole::kAcceleration), "rad/s^2");
+  EXPECT_EQ(unit("tau{n}_Nm", ColumnRole::kTorque), "N m");
+  EXPECT_EQ(unit("tau{n}_nm", ColumnRole::kTorque), "N m");
+  EXPECT_EQ(unit("TauNm{n}", ColumnRole::kTorque), "N m");
+  EXPECT_EQ(unit("tau{n}_mNm", ColumnRole::kTorque), "mN m");
+  EXPECT_EQ(unit("tau{n}_MNm", ColumnRole::kTorque), "none");
+  EXPECT_EQ(unit("time_us", ColumnRole::kTime), "us");
+  EXPECT_EQ(unit("t_ms", ColumnRole::kTime), "ms");
+  EXPECT_EQ(unit("cur{n}_A", ColumnRole::kCurrent), "A");
+  EXPECT_EQ(unit("cur{n}_a", ColumnRole::kCurrent), "none");
+  EXPECT_EQ(unit("axis_deg_{n}", std::nullopt), "deg");
+  EXPECT_EQ(unit("load_percent", std::nullopt), "none");
+  EXPECT_EQ(unit("qd_ms", ColumnRole::kVelocity), "none");
+  EXPECT_EQ(unit("deg", ColumnRole::kPosition), "none");
+}
+
+TEST(GuessedMap, TakesUnitsFromTheEndsOfNames) {
+  const GuessedMap guess = runtime::guess_map(
+      moving_log({"time_us", "q1_deg", "q2_deg", "qd1_degps", "qd2_degps", "tau1_Nm", "tau2_Nm"},
+                 {1e6, 1, 1, 1}),
+      {});
+  EXPECT_EQ(guess.questions, 0) << guess.yaml;
+  EXPECT_THAT(guess.yaml, HasSubstr("time: {column: \"time_us\", unit: us}"));
+  // 1 rad of amplitude would be taken for radians
+  EXPECT_THAT(guess.yaml, HasSubstr("position: {columns: \"q{n}_deg\", unit: deg}"));
+  EXPECT_THAT(guess.yaml, HasSubstr("'_deg' is the end of its name"));
+  EXPECT_THAT(guess.yaml, HasSubstr("velocity: {columns: \"qd{n}_degps\", unit: deg/s}"));
+  EXPECT_THAT(guess.yaml, HasSubstr("torque: {columns: \"tau{n}_Nm\", unit: N m}"));
+  EXPECT_NO_THROW(runtime::parse_import_map(guess.yaml, "map.yaml"));
+}
+
+TEST(GuessedMap, TakesACounterForTheTimeWhereThereIsNoOther) {
+  SampledLog log = moving_log({"tick", "q1", "q2", "qd1", "qd2", "tau1", "tau2"}, {1, 1, 1, 1});
+  for (Index k = 0; k < log.tables[0].values.rows(); ++k) {
+    log.tables[0].values(k, 0) = static_cast<double>(700 + 2 * k);
+  }
+  const GuessedMap guess = runtime::guess_map(log, {});
+  EXPECT_THAT(guess.yaml, HasSubstr("# no column is a time. tick is a counter: whole numbers that "
+                                    "rise by 2 from row to row"));
+  EXPECT_THAT(guess.yaml, HasSubstr("time: {column: \"tick\", rate: \"?\"}"));
+  EXPECT_THAT(guess.yaml, HasSubstr("at which rate does tick count"));
+  // another time comes first
+  log.tables[0].table.columns = {"seq", "q1", "q2", "time", "qd2", "tau1", "tau2"};
+  log.tables[0].values.col(3) = 0.001 * log.tables[0].values.col(0);
+  EXPECT_THAT(runtime::guess_map(log, {}).yaml, HasSubstr("time: {column: \"time\", unit: s}"));
+}
+
+TEST(GuessedMap, OrdersJointsByTheNamesOfAMessage) {
+  SampledLog log = moving_log({"time", "field.position0", "field.position1", "field.velocity0",
+                               "field.velocity1", "field.effort0", "field.effort1"},
+                              {1, 1, 1, 1});
+  runtime::SampledTable& table = log.tables[0];
+  table.table.columns.insert(table.table.columns.end(), {"field.name0", "field.name1"});
+  table.values.conservativeResize(Eigen::NoChange, 9);
+  table.values.rightCols(2).setConstant(std::nan(""));
+  table.words = std::vector<std::string>(7);
+  table.words.insert(table.words.end(), {"joint_2", "joint_1"});
+  GuessRobot robot;
+  robot.joints = {2, {"joint_1", "joint_2"}, {}};
+  const GuessedMap guess = runtime::guess_map(log, robot);
+  EXPECT_THAT(guess.yaml, HasSubstr("joints are ordered as in the robot file by the names in "
+                                    "field.name{i}: joint_1, joint_2"));
+  EXPECT_THAT(guess.yaml, HasSubstr("position: {columns: [\"field.position1\", "
+                                    "\"field.position0\"], unit: rad}"));
+  EXPECT_THAT(guess.yaml, HasSubstr("[\"field.effort1\", \"field.effort0\"]"));
+  const GuessedMap without = runtime::guess_map(log, {});
+  EXPECT_THAT(without.yaml, HasSubstr("joints stand as in field.name{i}: joint_2, joint_1"));
+  EXPECT_THAT(without.yaml, HasSubstr("position: {columns: \"field.position{i}\""));
 }
 
 TEST(GuessedMap, RefusesALogWithoutPositions) {

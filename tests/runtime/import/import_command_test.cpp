@@ -329,5 +329,117 @@ TEST_F(ImportCommand, TellsWhatVelocitiesSay) {
   EXPECT_THAT(outcome.out, HasSubstr("qd1 is 2 times what q1 and time say"));
 }
 
+/// A motion of arm2 in degrees, as a controller's own file has it.
+std::string commanded_log() {
+  std::string text = "t_ms,cmd_1,cmd_2,act_1,act_2\n";
+  for (int k = 0; k < 400; ++k) {
+    const double t = 0.01 * k;
+    const double a = 30 * std::sin(2 * t), b = 20 * std::cos(1.5 * t);
+    text += std::to_string(10 * k) + "," + std::to_string(a) + "," + std::to_string(b) + "," +
+            std::to_string(a + 1) + "," + std::to_string(b - 1) + "\n";
+  }
+  return text;
+}
+
+const std::string kCommandedMap =
+    "time: {column: t_ms, unit: ms}\n"
+    "position: {columns: \"act_{n}\", unit: deg}\n"
+    "commanded: {columns: \"cmd_{n}\", unit: deg}\n";
+
+/// arm2 with numbers.
+std::string arm2_with_numbers() {
+  std::string text = kArm2;
+  for (const std::string row : {"mY", "mZ", "XY", "XZ", "YZ"}) {
+    text.replace(text.find("\n" + row + " * *"), row.size() + 5, "\n" + row + " 0 0");
+  }
+  for (std::size_t at = text.find('*'); at != text.npos; at = text.find('*')) text[at] = '1';
+  return text;
+}
+
+TEST_F(ImportCommand, SimulateAndAtlasReadTrajectoriesByAMap) {
+  write("arm.robot", arm2_with_numbers());
+  write("cmd.csv", commanded_log());
+  write("map.yaml", kCommandedMap);
+  std::string plain = "time,q1,q2\n";
+  for (int k = 0; k < 400; ++k) {
+    const double t = 0.01 * k, degree = std::numbers::pi / 180;
+    plain += std::to_string(t) + "," + std::to_string(30 * degree * std::sin(2 * t)) + "," +
+             std::to_string(20 * degree * std::cos(1.5 * t)) + "\n";
+  }
+  write("plain.csv", plain);
+  const Outcome by_map =
+      dynid("simulate " + made("arm.robot") + " --trajectory " + made("cmd.csv") + " --map " +
+            made("map.yaml") + " -o " + made("a.csv"));
+  ASSERT_EQ(by_map.exit_code, 0) << by_map.out;
+  const Outcome as_is =
+      dynid("simulate " + made("arm.robot") + " --trajectory " + made("plain.csv") + " --map " +
+            made("map.yaml") + " -o " + made("b.csv"));
+  ASSERT_EQ(as_is.exit_code, 0) << as_is.out;
+  EXPECT_THAT(as_is.out, HasSubstr("it is read without the map"));
+  const runtime::Recording a = runtime::read_recording(made("a.csv"));
+  const runtime::Recording b = runtime::read_recording(made("b.csv"));
+  ASSERT_EQ(a.samples(), b.samples());
+  EXPECT_LT((a.q - b.q).cwiseAbs().maxCoeff(), 1e-4);
+  const Outcome atlas = dynid("atlas " + made("arm.robot") + " --trajectory " + made("cmd.csv") +
+                              " --map " + made("map.yaml"));
+  EXPECT_EQ(atlas.exit_code, 0) << atlas.out;
+  EXPECT_THAT(atlas.out, HasSubstr("4.0 s"));
+  const Outcome neither = dynid("atlas " + made("arm.robot") + " --trajectory " +
+                                made("arm.robot") + " --map " + made("map.yaml"));
+  EXPECT_EQ(neither.exit_code, 1) << neither.out;
+  write("other.csv", "a,b\n1,2\n2,3\n3,4\n");
+  const Outcome missing = dynid("atlas " + made("arm.robot") + " --trajectory " +
+                                made("other.csv") + " --map " + made("map.yaml"));
+  EXPECT_EQ(missing.exit_code, 1) << missing.out;
+  EXPECT_THAT(missing.out, HasSubstr("map.yaml:3:21: error: found no column 'cmd_1'"));
+}
+
+TEST_F(ImportCommand, ExciteSumsUpEarlierRecordingsByAMap) {
+  const std::string folder = DYNGEN_SOURCE_DIR "/tests/data/cases/units_row/run.csv.gz";
+  const std::string map = " --map " + std::string(DYNGEN_MAPS) + "/units_row.yaml";
+  write("arm.robot", kArm2);
+  const std::string robot = " " + made("arm.robot") + " ";
+  ASSERT_EQ(dynid("accumulate" + robot + folder + map + " -o " + made("first.qr")).exit_code, 0);
+  std::string limited = kArm2;
+  limited.replace(limited.find("stop"), 4, "qmin -2 -2\nqmax 2 2\nvmax 2 2\namax 10 10\nstop");
+  write("limited.robot", limited);
+  const std::string command =
+      "excite " + made("limited.robot") +
+      " --criterion a --evaluations 20 --starts 1 --rate 50 --periods 2 -o ";
+  const Outcome of_sum = dynid(command + made("a.csv") + " --prior " + made("first.qr"));
+  const Outcome of_log = dynid(command + made("b.csv") + " --prior " + folder + map);
+  ASSERT_EQ(of_sum.exit_code, 0) << of_sum.out;
+  ASSERT_EQ(of_log.exit_code, 0) << of_log.out;
+  EXPECT_EQ(content(made("a.csv")), content(made("b.csv")));
+}
+
+TEST_F(ImportCommand, TracksWhatTheLogSaysWasCommanded) {
+  write("plane.robot", "name plane\nnumber_link 1\nd 0\nsigma 0\nZZ *\nFv *\noff *\nstop\n");
+  std::string text = "t,cmd,act,trq\n";
+  for (int k = 0; k < 3000; ++k) {
+    const double t = 0.002 * k;
+    const double q = std::sin(3 * t) + 0.3 * std::sin(7 * t);
+    const double dq = 3 * std::cos(3 * t) + 2.1 * std::cos(7 * t);
+    const double ddq = -9 * std::sin(3 * t) - 14.7 * std::sin(7 * t);
+    text += std::to_string(t) + "," + std::to_string(q * 180 / std::numbers::pi) + "," +
+            std::to_string((q + 1e-4 * std::sin(40 * t)) * 180 / std::numbers::pi) + "," +
+            std::to_string(0.5 * ddq + 0.8 * dq + 0.1) + "\n";
+  }
+  write("log.csv", text);
+  write("map.yaml",
+        "time: {column: t, unit: s}\nposition: {columns: act, unit: deg}\n"
+        "commanded: {columns: cmd, unit: deg}\ntorque: {columns: trq, unit: N m}\n");
+  const Outcome fit = dynid("fit " + made("plane.robot") + " " + made("log.csv") + " --map " +
+                            made("map.yaml") + " --method iv --tracked " + made("log.csv"));
+  EXPECT_EQ(fit.exit_code, 0) << fit.out;
+}
+
+TEST_F(ImportCommand, EveryCommandThatReadsMotionTakesAMap) {
+  for (const std::string command :
+       {"fit", "check", "accumulate", "atlas", "diagnose", "simulate", "excite"}) {
+    EXPECT_THAT(dynid(command + " --help").out, HasSubstr("--map")) << command;
+  }
+}
+
 }  // namespace
 }  // namespace dyngen::test

@@ -262,6 +262,48 @@ TEST(ImportedRows, SaysWhichColumnIsMissing) {
               HasSubstr("expected 'constant' too"));
 }
 
+TEST(ImportedRows, RefusesUnitsThatTheJointCannotHave) {
+  using runtime::MotionKind;
+  const runtime::ImportedRobot robot{2, {}, {MotionKind::kAngle, MotionKind::kLength}};
+  const auto fault = [&](const std::string& position, const std::string& torque,
+                         const std::string& more = "") {
+    try {
+      imported("time: {column: t, unit: s}\nposition: {columns: \"q{n}\", unit: " + position +
+                   "}\ntorque: {columns: \"m{n}\", unit: " + torque + "}\n" + more,
+               {table_of("", kNames, plain_motion(20))}, robot);
+    } catch (const runtime::RecordingError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no fault");
+  };
+  EXPECT_EQ(fault("[rad, mm]", "[N m, N]"), "no fault");
+  EXPECT_THAT(fault("[mm, mm]", "[N m, N]"),
+              HasSubstr("map.yaml:2:36: error: found unit 'mm' of 'q1', and joint 1 of the robot "
+                        "is revolute: expected an angle, such as rad or deg"));
+  EXPECT_THAT(fault("deg", "[N m, N]"),
+              HasSubstr("map.yaml:2:35: error: found unit 'deg' of 'q2', and joint 2 of the robot "
+                        "is prismatic: expected a length"));
+  EXPECT_THAT(fault("[rad, mm]", "[N m, N m]"),
+              HasSubstr("map.yaml:3:39: error: found unit 'N m' of 'm2'"));
+  EXPECT_THAT(fault("[rad, mm], offset: [12 mm, 0]", "[N m, N]"),
+              HasSubstr("map.yaml:2:55: error: found unit 'mm' of the offset"));
+  // a spindle turns where its joint slides
+  EXPECT_EQ(fault("deg, side: [joint, motor]", "N m, side: [joint, motor]", "gears: [1, 400]\n"),
+            "no fault");
+}
+
+TEST(ImportedRows, ACounterWithItsRateIsATime) {
+  MatrixXd values = plain_motion(100);
+  for (Eigen::Index k = 0; k < 100; ++k) values(k, 0) = static_cast<double>(5000 + 2 * k);
+  const Imported found = imported(
+      "time: {column: t, rate: 2 kHz}\n"
+      "position: {columns: \"q{n}\", unit: rad}\n"
+      "torque: {columns: \"m{n}\", unit: N m}\n",
+      {table_of("", kNames, values)});
+  ASSERT_EQ(found.recording.samples(), 100);
+  EXPECT_NEAR(found.recording.time[99] - found.recording.time[0], 0.099, 1e-12);
+}
+
 TEST(ImportedRows, LeavesValuesOutThatAreMissing) {
   MatrixXd values = plain_motion(100);
   values(40, 2) = std::nan("");

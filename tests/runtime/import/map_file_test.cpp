@@ -97,5 +97,33 @@ TEST(MapFile, RefusesQuestionsThatAreOpen) {
               testing::Not(HasSubstr("no fault")));
 }
 
+TEST(MapFile, RefusesNumbersThatMeanNothing) {
+  const auto with = [](const std::string& position, const std::string& torque = "") {
+    return "time: {column: t, unit: s}\nposition: {columns: \"q{n}\", unit: rad" + position +
+           "}\ntorque: {columns: \"tau{n}\"" + (torque.empty() ? ", unit: N m" : torque) + "}\n";
+  };
+  EXPECT_THAT(fault_of(with(", gain: 0")),
+              HasSubstr("map.yaml:2:46: error: found gain 0, expected another number than 0"));
+  EXPECT_THAT(fault_of(with(", gain: [1, 0, 2]")), HasSubstr("map.yaml:2:50: error: found gain 0"));
+  EXPECT_THAT(fault_of(with(", gain: nan")), HasSubstr("found 'nan' in 'position', expected a"));
+  EXPECT_THAT(fault_of(with(", gain: .inf")), HasSubstr("found '.inf' in 'position', expected a"));
+  EXPECT_THAT(fault_of(with(", gain: 1e300 * 1e300")), HasSubstr("expected a finite number"));
+  EXPECT_THAT(fault_of(with(", gain: 1/0")), HasSubstr("expected a number without a unit"));
+  EXPECT_THAT(fault_of(with(", offset: 1e308 * 1e308 deg")), HasSubstr("a finite number"));
+  EXPECT_THAT(fault_of(with("", ", unit: A, constant: 0")), HasSubstr("found constant 0"));
+  EXPECT_THAT(fault_of(with("", ", unit: \"%\", rated: 0")), HasSubstr("found rated 0"));
+  EXPECT_THAT(fault_of("time: {column: t, unit: s}\nposition: {columns: q, unit: counts, "
+                       "counts_per_rev: 0}\ntorque: {columns: tau, unit: N m}\n"),
+              HasSubstr("found counts_per_rev 0"));
+  const std::string duty =
+      "time: {column: t, unit: s}\nposition: {columns: q, unit: rad}\nvelocity: {columns: v, "
+      "unit: rad/s}\n";
+  EXPECT_THAT(fault_of(duty + "torque: {duty: d, full: 0, voltage: 0, resistance: 0, constant: 1}"),
+              testing::AllOf(HasSubstr("found full 0"), HasSubstr("found voltage 0"),
+                             HasSubstr("found resistance 0, expected more than 0 ohm")));
+  EXPECT_THAT(fault_of(kPlain + "gears: [3, 0]\n"),
+              HasSubstr("map.yaml:4:12: error: found a gear"));
+}
+
 }  // namespace
 }  // namespace dyngen::test

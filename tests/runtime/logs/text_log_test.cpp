@@ -435,6 +435,47 @@ TEST(TextLog, ANumberWithTheOtherDecimalSignIsRefused) {
                 "decimals, as in '1.5'"));
 }
 
+TEST(TextLog, AFieldInQuotesMayGoOnOverLines) {
+  const WholeLog log = read_text(
+      "t,note,\"q1\n[deg]\"\n0,\"begins\nand ends\",1.5\n1,\"a \"\"word\"\"\n\nmore\",2\n2,,3\n");
+  ASSERT_EQ(log.tables.size(), 1U);
+  EXPECT_THAT(log.tables[0].columns, ElementsAre("t", "note", "q1"));
+  EXPECT_EQ(log.tables[0].units[2], "deg");
+  EXPECT_THAT(log.tables[0].column("q1"), ElementsAre(1.5, 2, 3));
+  EXPECT_THAT(log.tables[0].places, ElementsAre(3, 5, 8));
+  EXPECT_THAT(log.notices, HasSubstr("goes on over several lines; read as one line (3 such"));
+  // quotes that end no field are signs like others
+  const WholeLog stray =
+      read_text("t,note,q1\n0,\"5\" pipe,1\n1,6\" pipe,2\n2,\"open,3\n3,x,4\n4,y,5\n");
+  EXPECT_THAT(stray.tables[0].column("t"), ElementsAre(0, 1, 2, 3, 4));
+}
+
+/// Rows of one form; the last one is cut off after so many signs.
+std::string cut_text(int rows, std::size_t off) {
+  std::string text = "t,q1\n";
+  for (int k = 0; k < rows; ++k) {
+    text += std::to_string(k) + "," + std::to_string(0.25 * k + 0.123456) + "\n";
+  }
+  return text.substr(0, text.size() - 1 - off);
+}
+
+TEST(TextLog, ALastNumberThatIsCutOffIsLeftOut) {
+  for (const std::size_t off : {1U, 4U, 6U, 7U}) {
+    const WholeLog log = read_text(cut_text(40, off));
+    EXPECT_EQ(log.tables[0].rows.size(), 39U) << off;
+    EXPECT_THAT(log.notices, HasSubstr("run.csv:41:")) << off;
+    EXPECT_THAT(log.notices, HasSubstr("the last row is cut off")) << off;
+  }
+  // a file may end without an end of line
+  EXPECT_EQ(read_text(cut_text(40, 0)).tables[0].rows.size(), 40U);
+  // few rows of many forms tell nothing
+  EXPECT_EQ(read_text("t,q1\n0,1.25\n1,0.5\n2,3").tables[0].rows.size(), 3U);
+  std::string many = "t,count\n";
+  for (int k = 0; k < 120; ++k) many += std::to_string(k) + "," + std::to_string(5000 + k) + "\n";
+  EXPECT_EQ(read_text(many.substr(0, many.size() - 2)).tables[0].rows.size(), 119U);
+  EXPECT_EQ(read_text(many + "120,1e").tables[0].rows.size(), 120U);
+}
+
 TEST(TextLog, PiecesMakeNoDifference) {
   std::string text = "Time;A;Time;B\n";
   for (int i = 0; i < 2000; ++i) {

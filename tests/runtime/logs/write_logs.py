@@ -412,6 +412,11 @@ expect("document.json", ("entries", ["t", "q[1]", "q[2]", "when"], ["", "", "", 
 with open(path("columns.json"), "w") as out:
     json.dump({"run": {"t": list(t), "q": q.tolist()}, "version": 2}, out)
 expect("columns.json", ("run", columns_of("q", 3) + ["t"], [""] * 4, np.column_stack([q, t])))
+with open(path("channels.json"), "w") as out:
+    json.dump({"time": list(t), "pos": q.T.tolist(), "state": {"tau": tau.T.tolist(), "same": tau.tolist()},
+               "inertia": np.eye(3).tolist()}, out)
+expect("channels.json", ("", columns_of("pos", 3) + ["time"], [""] * 4, np.column_stack([q, t])),
+       ("state", columns_of("same", 3) + columns_of("tau", 3), [""] * 6, np.column_stack([tau, tau])))
 with open(path("rows.json"), "w") as out:
     json.dump(np.column_stack([t, q]).tolist(), out)
 expect("rows.json", ("", ["1", "2", "3", "4"], [""] * 4, np.column_stack([t, q])))
@@ -456,9 +461,15 @@ try:
         table = np.zeros(50, dtype=[("t", "f8"), ("n", "<i4"), ("stamp", "i8"), ("word", "S3")])
         table["t"], table["n"], table["stamp"] = t, np.arange(50), START + np.arange(50)
         file["deep/table"] = table
+        arrays = np.zeros(50, dtype=[("t", "f8"), ("q", "f8", (3,)), ("n", "<i8", (2, 2))])
+        arrays["t"], arrays["q"] = t, q
+        arrays["n"] = np.arange(200).reshape(50, 2, 2)
+        file["deep/vectors"] = arrays
     expect("groups.h5", ("", columns_of("big", 3) + ["stamps"], [""] * 4,
                          np.column_stack([q.astype("f4").astype(float), np.arange(50)])),
            ("deep/table", ["t", "n", "stamp"], [""] * 3, np.column_stack([t, np.arange(50), np.arange(50)])),
+           ("deep/vectors", ["t"] + columns_of("q", 3) + columns_of("n", 4), [""] * 8,
+            np.column_stack([t, q, np.arange(200).reshape(50, 4)])),
            ("robot", columns_of("joint/q", 3) + ["on"] + columns_of("tau", 3) + ["time"],
             ["rad"] * 3 + [""] * 4 + ["s"], np.column_stack([q, np.arange(50) % 2 == 0, tau, t])))
 

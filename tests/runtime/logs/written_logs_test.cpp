@@ -138,6 +138,24 @@ TEST_F(WrittenLogsOf, WhatIsLeftOutIsTold) {
   }
 }
 
+TEST(JsonSides, ASquareOfListsIsRefusedWithAdvice) {
+  const auto square = [](const std::string& time) {
+    std::string text = "{" + time + "\"pos\": [";
+    for (int i = 0; i < 12; ++i) {
+      text += i > 0 ? ",[" : "[";
+      for (int k = 0; k < 12; ++k) text += (k > 0 ? "," : "") + std::to_string(i + 0.5 * k);
+      text += "]";
+    }
+    return text + "]}";
+  };
+  if (!absent_package_of("a.json").empty()) GTEST_SKIP() << "needs nlohmann-json3-dev";
+  EXPECT_THAT(error_of(square("\"time\": [0,1,2,3,4,5,6,7,8,9,10,11], ")),
+              testing::AllOf(HasSubstr("found 12 lists of 12 numbers in 'pos', as many as in "
+                                       "'time': they may be samples or channels"),
+                             HasSubstr("give each channel a list of its own name")));
+  EXPECT_THAT(error_of(square("")), HasSubstr("and no time beside them"));
+}
+
 TEST_F(WrittenLogsOf, StampsKeepTheirOrigin) {
   const auto log = runtime::open_log(logs_->path("records.mcap"));
   for (std::size_t table = 0; table < 2; ++table) {

@@ -348,5 +348,26 @@ TEST(RepairedRecordings, MayHaveManySamplesOfUnevenTime) {
   EXPECT_EQ(result.recording.run_starts, (std::vector<Index>{0, 1000}));
 }
 
+/// 40 rows whose torque has six decimals, without the last `off` signs.
+std::string six_decimals(std::size_t off) {
+  std::string text = "time,q1,tau1\n";
+  for (int k = 0; k < 40; ++k) {
+    const std::string value = std::to_string(0.5 * k + 0.25);
+    text += std::to_string(0.001 * k) + "," + value + "," + value + "\n";
+  }
+  return text.substr(0, text.size() - 1 - off);
+}
+
+TEST(RepairedRecordings, ALastNumberThatIsCutOffIsLeftOut) {
+  for (const std::size_t off : {1U, 5U, 6U, 7U}) {
+    const ReadResult result = read_text(six_decimals(off));
+    EXPECT_EQ(result.recording.samples(), 39) << off;
+    ASSERT_EQ(result.notices.size(), 1U) << off;
+    EXPECT_EQ(result.notices[0], "run.csv:41: warning: the last row is truncated; left out");
+  }
+  EXPECT_EQ(read_text(six_decimals(0)).recording.samples(), 40);
+  EXPECT_TRUE(read_text(six_decimals(0)).notices.empty());
+}
+
 }  // namespace
 }  // namespace dyngen::test

@@ -64,8 +64,7 @@ struct Motions {
 
 Motions of_trajectory(const ToolOptions& options, AtlasReport& report) {
   const LinearModel& model = report.robot.linear;
-  ToldRepairs repairs;
-  const Trajectory trajectory = read_trajectory(options.atlas.trajectory, &repairs.notices);
+  const Trajectory trajectory = load_motion(options.atlas.trajectory, options.map, options.robot);
   if (trajectory.joints() != model.joints()) {
     throw std::invalid_argument(fmt::format("{}: {} joints, but {} has {} that move",
                                             options.atlas.trajectory, trajectory.joints(),

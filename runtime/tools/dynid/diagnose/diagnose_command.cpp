@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <exception>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -25,6 +24,7 @@
 #include "runtime/tools/dynid/options/rules_file.h"
 #include "runtime/tools/dynid/page/arm_drawing.h"
 #include "runtime/tools/dynid/page/page_output.h"
+#include "runtime/tools/dynid/process/late_error.h"
 #include "runtime/tools/dynid/recordings/inputs.h"
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
@@ -128,8 +128,7 @@ ForwardComparison simulated(const ToolOptions& options, const DiagnosisReport& r
                    std::move(heldout),
                    {}};
   for (const std::string& path : options.diagnose.commanded) {
-    ToldRepairs repairs;
-    task.commanded.push_back(read_trajectory(path, &repairs.notices));
+    task.commanded.push_back(load_motion(path, options.map, options.robot));
   }
   return compare_forward(report, robot, catalogue, task, [&](double done) {
     progress.show("simulation", static_cast<std::size_t>(1000 * done), 1000);
@@ -188,25 +187,6 @@ void write_outputs(const ToolOptions& options, const DescribedRobot& robot, Diag
   write_robot_files({{options.output, improved_text(report, robot)}});
   report.written.push_back(options.output);
 }
-
-/// What went wrong beside the answer, to be said when that stands.
-class LateError {
- public:
-  template <typename Work>
-  void during(const Work& work) {
-    try {
-      work();
-    } catch (...) {
-      if (!first_) first_ = std::current_exception();
-    }
-  }
-  void rethrow() const {
-    if (first_) std::rethrow_exception(first_);
-  }
-
- private:
-  std::exception_ptr first_;
-};
 
 }  // namespace
 
@@ -297,15 +277,19 @@ int run_diagnose(const ToolOptions& options) {
   }
   if (answered) add_code(report, robot, shared);
   progress.clear();
+  const bool writes_back = answered && is_description_name(options.output);
+  if (writes_back) {
+    progress.show("bodies of " + options.output, 0, 1);
+    late.during([&] {
+      report.written_back = made_description(options, improved_text(report, robot),
+                                             findings_comment(report, robot), input.train);
+    });
+    progress.clear();
+  }
   late.during([&] { write_outputs(options, robot, report, progress); });
   progress.clear();
   std::cout << diagnosis_text(report, style_of_output()) << std::flush;
-  if (answered && is_description_name(options.output)) {
-    late.during([&] {
-      write_description(options, improved_text(report, robot), findings_comment(report, robot),
-                        input.train);
-    });
-  }
+  if (report.written_back) late.during([&] { write_description(*report.written_back); });
   late.rethrow();
   if (answered) return kDone;
   std::cerr << "dynid: " << report.diagnosis.sentence << "\n";

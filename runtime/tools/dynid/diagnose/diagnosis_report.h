@@ -13,6 +13,7 @@
 #include "runtime/tools/dynid/diagnose/forward_comparison.h"
 #include "runtime/tools/dynid/diagnose/text_plot.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
+#include "runtime/tools/dynid/robot/identified_description.h"
 
 namespace dyngen::runtime {
 
@@ -56,6 +57,7 @@ struct DiagnosisReport {
   std::vector<int> parameter_links;  ///< of base parameters, in their order, from 1
   std::optional<ForwardComparison> forward;  ///< where a controller is given
   std::vector<std::string> written;          ///< files
+  std::optional<WrittenBack> written_back;   ///< where -o is URDF or MJCF
 
   [[nodiscard]] int joints() const { return static_cast<int>(revolute.size()); }
   /// Unit of a joint's torque: "N m" or "N".

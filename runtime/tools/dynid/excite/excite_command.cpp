@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <functional>
 #include <iostream>
 #include <string>
 
@@ -15,9 +14,10 @@
 namespace dyngen::runtime {
 namespace {
 
-using Progress = std::function<void(const std::string&, std::size_t, std::size_t)>;
-
-int run_separate(const ToolOptions& options, ProgressLine& progress, const Progress& tell) {
+int run_separate(const ToolOptions& options, ProgressLine& progress) {
+  const auto tell = [&](const std::string& what, std::size_t place, std::size_t all) {
+    progress.show(what, place, all);
+  };
   const SeparationReport report = make_separation_report(options.robot, options.excite, tell);
   progress.clear();
   std::vector<OutputFile> files;
@@ -46,11 +46,8 @@ int run_separate(const ToolOptions& options, ProgressLine& progress, const Progr
 
 int run_excite(const ToolOptions& options) {
   ProgressLine progress("dynid");
-  const Progress tell = [&](const std::string& what, std::size_t place, std::size_t all) {
-    progress.show(what, place, all);
-  };
-  if (!options.excite.findings.empty()) return run_separate(options, progress, tell);
-  const ExciteReport report = make_excite_report(options.robot, options.excite, tell);
+  if (!options.excite.findings.empty()) return run_separate(options, progress);
+  const ExciteReport report = make_excite_report(options, progress);
   progress.clear();
   std::vector<OutputFile> files;
   if (!options.json.empty()) files.push_back({options.json, json_of(report, options.output)});

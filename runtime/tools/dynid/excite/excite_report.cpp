@@ -14,6 +14,7 @@
 #include "runtime/excitation/multistage.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/excite/excite_values.h"
+#include "runtime/tools/dynid/recordings/summed.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -56,19 +57,39 @@ std::vector<int> asked_parameters(const LinearModel& model, const std::vector<st
   return places;
 }
 
-TorqueFactor earlier_equations(const LinearModel& model, const std::string& path) {
+/// Of --prior: .qr files, and recordings, which are summed up as 'dynid accumulate' does.
+TorqueFactor earlier_equations(const DescribedRobot& robot, const ToolOptions& options,
+                               ProgressLine& progress) {
+  const LinearModel& model = robot.linear;
   RobotSummaries all = empty_summaries(model);
-  try {
-    merge(all, read_summary_file(path));
-  } catch (const std::invalid_argument& error) {
-    throw SummaryFileError(
-        fmt::format("{}: error: it is not of the robot {}: {}", path, model.name, error.what()));
+  std::vector<std::string> recordings;
+  for (const std::string& path : options.excite.prior) {
+    if (!path.ends_with(".qr") && !is_summary_file(path)) {
+      recordings.push_back(path);
+      continue;
+    }
+    try {
+      merge(all, read_summary_file(path));
+    } catch (const std::invalid_argument& error) {
+      throw SummaryFileError(
+          fmt::format("{}: error: it is not of the robot {}: {}", path, model.name, error.what()));
+    }
+  }
+  if (!recordings.empty()) {
+    RecordingSummary sum = empty_summary(model.columns, model.size());
+    if (!add_recordings_to(sum, robot, recordings, options, progress)) {
+      throw TooLittleDataError("--prior: the earlier recordings have no equations");
+    }
+    RobotSummaries own = empty_summaries(model);
+    own.robots.emplace("", std::move(sum));
+    merge(all, own);
   }
   return pooled(all).equations;
 }
 
 /// Noise and prior information; noise that nobody gave is the earlier recordings' residual, or 1.
-void set_information(ExciteReport& report, InformationOptions& information) {
+void set_information(ExciteReport& report, const TorqueFactor& earlier,
+                     InformationOptions& information) {
   const LinearModel& model = report.robot.linear;
   const Index n = model.joints();
   report.noise = VectorXd::Ones(n);
@@ -76,11 +97,10 @@ void set_information(ExciteReport& report, InformationOptions& information) {
     report.noise = one_or_each(report.options.noise, n, "--noise");
   }
   if (!report.options.prior.empty()) {
-    const TorqueFactor equations = earlier_equations(model, report.options.prior);
     if (report.options.noise.empty()) {
-      report.noise = weighted_least_squares(equations).joint_weights.cwiseInverse();
+      report.noise = weighted_least_squares(earlier).joint_weights.cwiseInverse();
     }
-    const MatrixXd W = stacked(equations, report.noise.cwiseInverse()).W;
+    const MatrixXd W = stacked(earlier, report.noise.cwiseInverse()).W;
     information.prior = (W.transpose() * W)(report.parameters, report.parameters);
     report.prior = true;
   } else if (report.options.noise.empty()) {
@@ -122,7 +142,7 @@ JointMotion one_period(const TrajectoryFamily& family, const MatrixXd& x, Index 
   return basis_at(family, period_times(family, samples)).motion(x);
 }
 
-void find_periodic(ExciteReport& report, const Progress& progress) {
+void find_periodic(ExciteReport& report, const TorqueFactor& earlier, const Progress& progress) {
   const ExciteOptions& options = report.options;
   ExcitationOptions search;
   search.family.form =
@@ -138,7 +158,7 @@ void find_periodic(ExciteReport& report, const Progress& progress) {
   search.evaluations = options.evaluations;
   search.check_rate = kCheckRate;
   search.progress = progress;
-  set_information(report, search.information);
+  set_information(report, earlier, search.information);
   const Excitation excitation = excite(report.robot.linear, report.limits, search);
   report.found = excitation.found;
   report.message = excitation.message;
@@ -161,7 +181,7 @@ void find_multistage(ExciteReport& report, const Progress& progress) {
   const LinearModel& model = report.robot.linear;
   report.repeats = false;
   InformationOptions information;
-  set_information(report, information);
+  set_information(report, {}, information);
   MultistageOptions descent{
       .parameters = report.parameters,
       .iterations = options.evaluations > 0 ? options.evaluations : kIterations,
@@ -220,12 +240,14 @@ void find_multistage(ExciteReport& report, const Progress& progress) {
 
 }  // namespace
 
-ExciteReport make_excite_report(const RobotSource& robot, const ExciteOptions& options,
-                                const Progress& progress) {
+ExciteReport make_excite_report(const ToolOptions& tool, ProgressLine& progress) {
   ExciteReport report;
+  const ExciteOptions& options = tool.excite;
   report.options = options;
-  const Progress tell = progress ? progress : [](const std::string&, std::size_t, std::size_t) {};
-  report.robot = describe_robot(robot, OpenParameters::kAbsentRows, {.gradient = true});
+  const Progress tell = [&](const std::string& what, std::size_t place, std::size_t all) {
+    progress.show(what, place, all);
+  };
+  report.robot = describe_robot(tool.robot, OpenParameters::kAbsentRows, {.gradient = true});
   RobotLimits limits = limits_of(report.robot, asked_limits(options));
   report.limits = std::move(limits.limits);
   report.notes = std::move(limits.notes);
@@ -238,7 +260,9 @@ ExciteReport make_excite_report(const RobotSource& robot, const ExciteOptions& o
   if (options.form == "multistage") {
     find_multistage(report, tell);
   } else {
-    find_periodic(report, tell);
+    const TorqueFactor earlier =
+        options.prior.empty() ? TorqueFactor{} : earlier_equations(report.robot, tool, progress);
+    find_periodic(report, earlier, tell);
   }
   return report;
 }

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "gen/tool/progress_line.h"
 #include "runtime/excitation/excitation.h"
 #include "runtime/recordings/trajectory_file.h"
 #include "runtime/report/document.h"
 #include "runtime/tools/dynid/excite/excite_limits.h"
 #include "runtime/tools/dynid/excite/excite_values.h"
-#include "runtime/tools/dynid/options/excite_options.h"
+#include "runtime/tools/dynid/options/options.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 
 namespace dyngen::runtime {
@@ -49,11 +49,8 @@ struct ExciteReport {
 /// Hz, at which limits must be kept.
 inline constexpr double kCheckRate = 10000;
 
-/// @param progress  may be empty
-/// @throws ModelError, SummaryFileError, std::invalid_argument
-ExciteReport make_excite_report(
-    const RobotSource& robot, const ExciteOptions& options,
-    const std::function<void(const std::string&, std::size_t, std::size_t)>& progress);
+/// @throws ModelError, RecordingError, SummaryFileError, TooLittleDataError, std::invalid_argument
+ExciteReport make_excite_report(const ToolOptions& options, ProgressLine& progress);
 
 /// A table of the largest share of every limit.
 std::string limits_table(const LinearModel& model, const MotionLimits& limits,

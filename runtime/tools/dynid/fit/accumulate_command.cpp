@@ -7,9 +7,7 @@
 #include "gen/tool/output_files.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/tools/dynid/options/commands.h"
-#include "runtime/tools/dynid/recordings/inputs.h"
-#include "runtime/tools/dynid/recordings/judged.h"
-#include "runtime/tools/dynid/recordings/loading.h"
+#include "runtime/tools/dynid/recordings/summed.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -32,23 +30,7 @@ int run_accumulate(const ToolOptions& options) {
   refuse_without_parameters(robot);
   RobotSummaries all = empty_summaries(robot.linear);
   RecordingSummary sum = empty_summary(robot.linear.columns, robot.linear.size());
-  // one recording in memory at a time
-  std::vector<std::string> left_out;
-  const std::vector<RecordingInput> inputs = recording_inputs(options.recordings, options);
-  for (const RecordingInput& input : inputs) {
-    try {
-      LoadedRecordings one = load_recordings(std::vector{input}, options, false, progress);
-      LoadedRecordings none;
-      settle_cutoff(&robot.linear, one, none, options, progress);
-      judge_recordings(robot, one.sources, options, progress);
-      merge(sum, summarise_together(robot.linear, one, options, progress));
-    } catch (const TooLittleDataError& error) {
-      left_out.emplace_back(error.what());
-      progress.clear();
-      std::cerr << left_out.back() << "; it adds nothing\n";
-    }
-  }
-  if (left_out.size() == inputs.size()) {
+  if (!add_recordings_to(sum, robot, options.recordings, options, progress)) {
     std::cerr << "dynid: there are no equations to add up; nothing was written\n";
     return kCannotAnswer;
   }

@@ -18,6 +18,7 @@
 #include "runtime/tools/dynid/fit/number_notes.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/page/page_output.h"
+#include "runtime/tools/dynid/process/late_error.h"
 #include "runtime/tools/dynid/recordings/inputs.h"
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
@@ -143,9 +144,9 @@ void make_instruments(const ToolOptions& options, const LoadedRecordings& train,
   if (train.sources.size() != 1) {
     throw std::invalid_argument("--tracked goes with one recording, of the same samples");
   }
-  ToldRepairs repairs;
-  const MotionSource commanded = commanded_motion(
-      read_trajectory(options.tracked, &repairs.notices), options.tracked, train.sources.front());
+  const MotionSource commanded =
+      commanded_motion(load_motion(options.tracked, options.map, options.robot), options.tracked,
+                       train.sources.front());
   const Estimate start = weighted_least_squares(report.data.summary.equations);
   try {
     report.data.instruments = simulated_instruments(report.robot.linear, train.sources.front(),
@@ -253,19 +254,26 @@ void examine(FitReport& report, ProgressLine& progress) {
 
 /// The JSON and the page, before the robot files: an answer is not lost with one of them.
 /// @return  paths of the page and its figures
-std::vector<std::string> write_outputs(const ToolOptions& options, const FitReport& report,
+std::vector<std::string> write_outputs(const ToolOptions& options, FitReport& report,
                                        const std::vector<MotionSource>& motions,
                                        ProgressLine& progress) {
+  LateError late;
+  if (is_description_name(options.output)) {
+    progress.show("bodies of " + options.output, 0, 1);
+    late.during([&] {
+      report.written_back = made_description(options, identified_file(report),
+                                             identified_comment(report, true), motions);
+    });
+    progress.clear();
+  }
   std::vector<OutputFile> answer;
   if (!options.json.empty()) answer.push_back({options.json, fit_json(report)});
   std::vector<std::string> made = write_with_page(
       options.page, [&] { return fit_document(report, options.page.command); }, progress,
       std::move(answer));
-  if (options.output.empty()) return made;
-  if (is_description_name(options.output)) {
-    write_description(options, identified_file(report), identified_comment(report, true), motions);
-    return made;
-  }
+  late.rethrow();
+  if (report.written_back) write_description(*report.written_back);
+  if (options.output.empty() || report.written_back) return made;
   std::vector<OutputFile> robots = {{options.output, identified_file(report)}};
   for (std::size_t i = 0; report.hierarchy && i < report.hierarchy->robots.size(); ++i) {
     robots.push_back({path_of_robot(options.output, report.hierarchy->robots[i].name),

@@ -14,6 +14,7 @@
 #include "runtime/tools/dynid/effects/effect_report.h"
 #include "runtime/tools/dynid/recordings/loading.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
+#include "runtime/tools/dynid/robot/identified_description.h"
 
 namespace dyngen::runtime {
 
@@ -49,6 +50,7 @@ struct FitReport {
   std::optional<ConsistentFit> consistent;
   std::optional<EffectReport> effects;    ///< of a robot file with rows 'effect'
   std::optional<HierarchyFit> hierarchy;  ///< robots that share inertia
+  std::optional<WrittenBack> written_back;  ///< where -o is URDF or MJCF
   std::vector<std::string> notes;
 
   [[nodiscard]] const MethodFit& main() const { return fits.front(); }

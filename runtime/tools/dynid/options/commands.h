@@ -18,7 +18,7 @@ int run_accumulate(const ToolOptions& options);
 int run_atlas(const ToolOptions& options);
 int run_diagnose(const ToolOptions& options);
 int run_merge(const ToolOptions& options);
-int run_simulate(const SimulateOptions& options);
+int run_simulate(const ToolOptions& options);
 /// Prints what effects there are, or what one of them says; writes the document that is made of
 /// them all. @throws FigureError too
 int run_effects(const EffectsOptions& options);

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "gen/tool/robot_options.h"
+#include "runtime/tools/dynid/options/recording_options.h"
 
 namespace dyngen::runtime {
 
@@ -32,8 +33,8 @@ std::string ExciteOptions::usage_error() const {
   return "";
 }
 
-void add_excite(CLI::App& tool, RobotSource& robot, std::string& output, std::string& json,
-                PageOptions& page, ExciteOptions& options) {
+CLI::App* add_excite(CLI::App& tool, RobotSource& robot, std::string& map, std::string& output,
+                     std::string& json, PageOptions& page, ExciteOptions& options) {
   CLI::App* excite =
       tool.add_subcommand("excite", "a trajectory whose recording says most of the parameters");
   add_robot(*excite, robot, "robot with limits qmin, qmax, vmax, amax, taumax");
@@ -104,8 +105,11 @@ void add_excite(CLI::App& tool, RobotSource& robot, std::string& output, std::st
       ->check(CLI::PositiveNumber);
   excite
       ->add_option("--prior", options.prior,
-                   "a .qr file of earlier recordings, to which this one shall add most")
+                   "earlier recordings, to which this one shall add most, or a .qr file of them; "
+                   "may be given again")
+      ->allow_extra_args(false)
       ->excludes(findings);
+  add_map(*excite, map);
   excite
       ->add_option("--parameters", options.parameters,
                    "names, or inertial, rotor, viscous, coulomb, offset; the others are taken as "
@@ -128,6 +132,7 @@ void add_excite(CLI::App& tool, RobotSource& robot, std::string& output, std::st
   excite->add_option("--limits", options.limits, "share of the file's limits that may be used")
       ->check(CLI::Range(0.01, 1.0))
       ->capture_default_str();
+  return excite;
 }
 
 }  // namespace dyngen::runtime

@@ -32,7 +32,7 @@ struct ExciteOptions {
   double seconds = 60;
   int evaluations = 0;                  ///< 0: the clock ends it
   std::vector<double> noise;            ///< N m: one for all joints or one each
-  std::string prior;                    ///< a .qr file; empty: none
+  std::vector<std::string> prior;       ///< earlier recordings, or one .qr file of them
   std::vector<std::string> parameters;  ///< names or kinds; empty: all
   std::vector<double> keep_out;         ///< xmin xmax ymin ymax zmin zmax
   std::vector<double> tool;             ///< x y z
@@ -46,8 +46,8 @@ struct ExciteOptions {
   [[nodiscard]] std::string usage_error() const;
 };
 
-/// The subcommand and its options.
-void add_excite(CLI::App& tool, RobotSource& robot, std::string& output, std::string& json,
-                PageOptions& page, ExciteOptions& options);
+/// The subcommand and its options. @param map  of --map
+CLI::App* add_excite(CLI::App& tool, RobotSource& robot, std::string& map, std::string& output,
+                     std::string& json, PageOptions& page, ExciteOptions& options);
 
 }  // namespace dyngen::runtime

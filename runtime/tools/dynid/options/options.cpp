@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -18,6 +19,7 @@
 #include "gen/tool/usage_hint.h"
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/options/parts.h"
+#include "runtime/tools/dynid/options/recording_options.h"
 #include "runtime/tools/dynid/robot/held_numbers.h"
 
 namespace dyngen::runtime {
@@ -65,11 +67,6 @@ void add_state_options(CLI::App& command, ToolOptions& options, Words& words) {
       ->capture_default_str();
 }
 
-void add_as_recorded(CLI::App& command, ToolOptions& options) {
-  command.add_flag("--as-recorded", options.as_recorded,
-                   "believe recordings that cannot be meant (units, signs, columns)");
-}
-
 void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
   add_state_options(command, options, words);
   command
@@ -80,13 +77,7 @@ void add_motion_options(CLI::App& command, ToolOptions& options, Words& words) {
       .add_option("--period", words.period,
                   "seconds, auto (periods are looked for and averaged) or off")
       ->capture_default_str();
-  add_as_recorded(command, options);
-}
-
-void add_map(CLI::App& command, ToolOptions& options) {
-  command.add_option("--map", options.map,
-                     "YAML file that makes recordings of logs as they are (see 'dynid import'); a "
-                     "folder stands for the files in it");
+  add_as_recorded(command, options.as_recorded);
 }
 
 void add_recordings(CLI::App& command, ToolOptions& options, const char* text) {
@@ -128,7 +119,7 @@ void add_fit(CLI::App& tool, ToolOptions& options, Words& words) {
   CLI::App* fit = tool.add_subcommand("fit", "identify a robot's parameters from recordings");
   add_robot(*fit, options.robot, "robot: its numbers are where the fit begins");
   add_recordings(*fit, options, "recordings, or .qr files of 'dynid accumulate'");
-  add_map(*fit, options);
+  add_map(*fit, options.map);
   fit->add_option("--holdout", options.heldout,
                   "recordings that are not fitted but predicted; may be given again");
   fit->add_option("--holdout-part", options.heldout_part,
@@ -172,7 +163,7 @@ void add_atlas(CLI::App& tool, ToolOptions& options, Words& words) {
       "atlas", "what a refit hides of every effect, and how small it may be to be found");
   add_robot(*atlas, options.robot, "robot; with a trajectory, one with numbers");
   atlas->add_option("recordings", options.recordings, "recordings");
-  add_map(*atlas, options);
+  add_map(*atlas, options.map);
   atlas->add_option("--trajectory", options.atlas.trajectory,
                     "a motion that is planned, instead of recordings (CSV)");
   atlas
@@ -194,7 +185,7 @@ void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
       "diagnose", "where model and recordings differ, which physics was left out, and the proof");
   add_robot(*diagnose, options.robot, "robot: its numbers are where the fit begins");
   diagnose->add_option("recordings", options.recordings, "recordings");
-  add_map(*diagnose, options);
+  add_map(*diagnose, options.map);
   diagnose->add_option("--holdout", options.heldout,
                        "recordings that only prove the answer; may be given again. Else a fifth of "
                        "every recording: the last in which all joints move");
@@ -205,7 +196,7 @@ void add_diagnose(CLI::App& tool, ToolOptions& options, Words& words) {
   add_page_options(*diagnose, options.page);
   add_diagnose_options(*diagnose, options.diagnose);
   add_state_options(*diagnose, options, words);
-  add_as_recorded(*diagnose, options);
+  add_as_recorded(*diagnose, options.as_recorded);
 }
 
 void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
@@ -213,7 +204,7 @@ void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
   add_robot(*check, options.robot, "robot with numbers");
   add_effects(*check, options);
   add_recordings(*check, options, "recordings");
-  add_map(*check, options);
+  add_map(*check, options.map);
   check->add_option("--json", options.json, "all results for programs");
   add_motion_options(*check, options, words);
 
@@ -221,7 +212,7 @@ void add_others(CLI::App& tool, ToolOptions& options, Words& words) {
       tool.add_subcommand("accumulate", "sum recordings up in a .qr file that merges with others");
   add_robot(*accumulate, options.robot, "robot");
   add_recordings(*accumulate, options, "recordings");
-  add_map(*accumulate, options);
+  add_map(*accumulate, options.map);
   accumulate->add_option("-o,--output", options.output, "the .qr file")->required();
   accumulate->add_option("--name", options.robot_name,
                          "whose recordings these are; robots of different names stay apart");
@@ -239,11 +230,24 @@ int usage(const std::string& message) {
 
 /// Whether a file is called like a recording or a log, and like no robot.
 bool is_log_name(const std::string& path) {
-  constexpr std::array<std::string_view, 11> kLogs = {".csv", ".csv.gz", ".txt.gz", ".mat",
-                                                      ".db3", ".mcap",   ".bag",    ".npz",
-                                                      ".npy", ".h5",     ".jsonl"};
+  constexpr std::array<std::string_view, 14> kLogs = {".csv",  ".csv.gz", ".txt.gz", ".mat", ".db3",
+                                                      ".mcap", ".bag",    ".npz",    ".npy", ".h5",
+                                                      ".hdf5", ".json",   ".jsonl",  ".qr"};
   return std::any_of(kLogs.begin(), kLogs.end(),
                      [&](std::string_view ending) { return path.ends_with(ending); });
+}
+
+/// A recording or a log in the robot's place, in the words of the command; empty: there is none.
+std::string log_in_robots_place(const ToolOptions& options) {
+  const bool simulates = options.command == Command::kSimulate;
+  const std::string& path = simulates ? options.simulate.robot.path : options.robot.path;
+  if (!is_log_name(path)) return {};
+  std::string order = "recordings after it";
+  if (simulates) order = "the trajectory behind --trajectory";
+  if (options.command == Command::kExcite) order = "earlier recordings behind --prior";
+  if (options.command == Command::kImport) order = "logs without an option";
+  return fmt::format("found '{}' where the robot stands: expected the robot {}, {}", path,
+                     options.command == Command::kImport ? "behind --robot" : "first", order);
 }
 
 /// @return a message about wrong usage, or nothing
@@ -272,12 +276,6 @@ std::string understand(const Words& words, ToolOptions& options) {
     }
     options.fit.methods.push_back(*method);
   }
-  if (is_log_name(options.robot.path)) {
-    return fmt::format(
-        "found '{}' where the robot stands: expected the robot first, recordings "
-        "after it",
-        options.robot.path);
-  }
   if (options.command == Command::kAtlas) {
     if (options.recordings.empty() == options.atlas.trajectory.empty()) {
       return "expected recordings, or --trajectory FILE";
@@ -288,6 +286,22 @@ std::string understand(const Words& words, ToolOptions& options) {
     return "there is no recording: expected at least one";
   }
   return "";
+}
+
+/// The subcommand that was called; nothing: none.
+std::optional<Command> command_of(const CLI::App& tool) {
+  static const std::map<std::string, Command> commands = {{"fit", Command::kFit},
+                                                          {"check", Command::kCheck},
+                                                          {"accumulate", Command::kAccumulate},
+                                                          {"merge", Command::kMerge},
+                                                          {"simulate", Command::kSimulate},
+                                                          {"excite", Command::kExcite},
+                                                          {"atlas", Command::kAtlas},
+                                                          {"effects", Command::kEffects},
+                                                          {"diagnose", Command::kDiagnose},
+                                                          {"import", Command::kImport}};
+  if (tool.get_subcommands().empty()) return std::nullopt;
+  return commands.at(tool.get_subcommands().front()->get_name());
 }
 
 }  // namespace
@@ -304,11 +318,12 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_atlas(tool, parsed.options, words);
   add_diagnose(tool, parsed.options, words);
   parsed.options.page.command = command_text(argc, argv);
-  add_simulate(tool, parsed.options.simulate);
+  add_simulate(tool, parsed.options.map, parsed.options.simulate);
   add_effects(tool, parsed.options.catalogue);
   add_import(tool, parsed.options.robot, parsed.options.output, parsed.options.import);
-  add_excite(tool, parsed.options.robot, parsed.options.output, parsed.options.json,
-             parsed.options.page, parsed.options.excite);
+  add_as_recorded(*add_excite(tool, parsed.options.robot, parsed.options.map, parsed.options.output,
+                              parsed.options.json, parsed.options.page, parsed.options.excite),
+                  parsed.options.as_recorded);
   try {
     tool.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -318,21 +333,18 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     parsed.exit_code = tool.exit(version);
     return parsed;
   } catch (const CLI::ParseError& error) {
-    parsed.exit_code = usage(usage_message(tool, argc, argv, error.what()));
+    // files in another order are one too many, or one too few
+    parsed.options.command = command_of(tool).value_or(Command::kFit);
+    const std::string order = log_in_robots_place(parsed.options);
+    parsed.exit_code = usage(order.empty() ? usage_message(tool, argc, argv, error.what()) : order);
     return parsed;
   }
-  const std::string name = tool.get_subcommands().front()->get_name();
-  const std::map<std::string, Command> commands = {{"fit", Command::kFit},
-                                                   {"check", Command::kCheck},
-                                                   {"accumulate", Command::kAccumulate},
-                                                   {"merge", Command::kMerge},
-                                                   {"simulate", Command::kSimulate},
-                                                   {"excite", Command::kExcite},
-                                                   {"atlas", Command::kAtlas},
-                                                   {"effects", Command::kEffects},
-                                                   {"diagnose", Command::kDiagnose},
-                                                   {"import", Command::kImport}};
-  parsed.options.command = commands.at(name);
+  parsed.options.command = command_of(tool).value();
+  const std::string order = log_in_robots_place(parsed.options);
+  if (!order.empty()) {
+    parsed.exit_code = usage(order);
+    return parsed;
+  }
   SimulateOptions& simulate = parsed.options.simulate;
   simulate.plant = simulate.robot.beside(simulate.plant.path);
   if (parsed.options.command == Command::kSimulate || parsed.options.command == Command::kEffects) {

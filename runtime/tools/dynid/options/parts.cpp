@@ -71,6 +71,7 @@ void add_excite_needs(const ToolOptions& options, Needs& needs) {
   needs.add_if(!options.excite.findings.empty(), Part::kJson, "--for");
   needs.add_if(!options.excite.picture.empty(), Part::kGnuplot, "--picture");
   needs.add_file(options.output);
+  needs.add_files(options.excite.prior);
 }
 
 void add_simulate_needs(const SimulateOptions& options, Needs& needs) {

@@ -4,10 +4,11 @@
 #include <CLI/CLI.hpp>
 
 #include "gen/tool/robot_options.h"
+#include "runtime/tools/dynid/options/recording_options.h"
 
 namespace dyngen::runtime {
 
-void add_simulate(CLI::App& tool, SimulateOptions& options) {
+void add_simulate(CLI::App& tool, std::string& map, SimulateOptions& options) {
   CLI::App* simulate =
       tool.add_subcommand("simulate", "simulate a robot under a controller, and record it");
   add_robot(*simulate, options.robot, "robot with numbers: the controller's model");
@@ -16,6 +17,7 @@ void add_simulate(CLI::App& tool, SimulateOptions& options) {
       ->add_option("--trajectory", options.trajectory,
                    "CSV: time,q1..qn[,qd1..qdn][,qdd1..qddn]; two equal rows are a step")
       ->required();
+  add_map(*simulate, map);
   simulate->add_option("-o,--output", options.output, "the recording (.csv, .csv.gz)")->required();
   simulate->add_option("--truth", options.truth,
                        "the true motion and torque, without encoder and noise");

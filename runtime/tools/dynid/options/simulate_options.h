@@ -31,7 +31,7 @@ struct SimulateOptions {
   std::vector<std::string> effects;        ///< folders of a user's own effects
 };
 
-/// Adds the subcommand to the command line.
-void add_simulate(CLI::App& tool, SimulateOptions& options);
+/// Adds the subcommand to the command line. @param map  of --map
+void add_simulate(CLI::App& tool, std::string& map, SimulateOptions& options);
 
 }  // namespace dyngen::runtime

@@ -22,6 +22,8 @@ ImportedRobot imported_robot(const RobotSource& source) {
   for (const JointModel& joint : model.joints) {
     if (joint.type == JointType::kFixed) continue;
     ++robot.joints;
+    robot.kinds.push_back(joint.type == JointType::kPrismatic ? MotionKind::kLength
+                                                              : MotionKind::kAngle);
     if (!joint.name.empty()) robot.names.push_back(joint.name);
   }
   if (robot.names.size() != static_cast<std::size_t>(robot.joints)) robot.names.clear();
@@ -42,6 +44,54 @@ std::vector<RecordingInput> recording_inputs(const std::vector<std::string>& pat
     inputs.push_back(imported_recording(map, group, robot));
   }
   return inputs;
+}
+
+namespace {
+
+/// Whether an input opens; else what it says.
+std::string fault_of_opening(const RecordingInput& input) {
+  ReadOptions options;
+  options.torque_required = false;
+  try {
+    input.open(options);
+  } catch (const RecordingError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+RecordingInput motion_input(const std::string& path, const std::string& map,
+                            const RobotSource& robot, std::vector<Notice>& notices) {
+  RecordingInput plain = recording_file(path);
+  if (map.empty()) return plain;
+  const auto own =
+      std::make_shared<const ImportMap>(map_of_motion(read_import_map(map, MapUse::kMotion)));
+  const std::vector<LogGroup> groups = log_groups(*own, {path});
+  if (groups.size() != 1) {
+    throw ImportError(fmt::format("{}: error: found {} motions in it by --map, expected one here",
+                                  path, groups.size()));
+  }
+  RecordingInput mapped = imported_recording(own, groups.front(), imported_robot(robot));
+  if (!plain.reopens) return mapped;
+  const std::string fault = fault_of_opening(mapped);
+  const bool stands = fault_of_opening(plain).empty();
+  if (!fault.empty()) {
+    if (!stands) throw ImportError(fault);
+    notices.push_back({path, 0, 0,
+                       fmt::format("the columns of {} are not in it, and it is a trajectory as it "
+                                   "stands: it is read without the map",
+                                   map)});
+    return plain;
+  }
+  if (stands) {
+    notices.push_back({path, 0, 0,
+                       fmt::format("it could be read as it stands; it has the columns of {} and is "
+                                   "read by the map",
+                                   map)});
+  }
+  return mapped;
 }
 
 namespace {

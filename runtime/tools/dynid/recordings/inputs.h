@@ -19,6 +19,13 @@ ImportedRobot imported_robot(const RobotSource& source);
 std::vector<RecordingInput> recording_inputs(const std::vector<std::string>& paths,
                                              const ToolOptions& options);
 
+/// A motion that was commanded or is planned, as it stands or through --map. A trajectory that does
+/// not have the map's columns is read as it stands.
+/// @param map  of --map; empty: none   @param notices  which of both, where both could be meant
+/// @throws ImportError, ModelError, RecordingError
+RecordingInput motion_input(const std::string& path, const std::string& map,
+                            const RobotSource& robot, std::vector<Notice>& notices);
+
 /// Recordings that the command line names twice, by their content: sentences. Equations that count
 /// twice make standard deviations too small, and held-out residuals of what was fitted prove
 /// nothing.

@@ -15,6 +15,12 @@ ToldRepairs::~ToldRepairs() {
   for (const Notice& notice : notices) std::cerr << notice.text() << "\n";
 }
 
+Trajectory load_motion(const std::string& path, const std::string& map, const RobotSource& robot) {
+  ToldRepairs repairs;
+  const RecordingInput input = motion_input(path, map, robot, repairs.notices);
+  return read_trajectory(input, &repairs.notices);
+}
+
 OpenParameters opened_by(const ToolOptions& options) {
   return options.consistent ? OpenParameters::kEverything : OpenParameters::kAbsentRows;
 }

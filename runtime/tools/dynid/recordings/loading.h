@@ -8,6 +8,7 @@
 #include "runtime/identification/motion_source.h"
 #include "runtime/identification/summary.h"
 #include "runtime/model/linear_model.h"
+#include "runtime/recordings/trajectory_file.h"
 #include "runtime/tools/dynid/options/options.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 
@@ -43,6 +44,9 @@ class ToldRepairs {
   ToldRepairs& operator=(const ToldRepairs&) = delete;
   std::vector<Notice> notices;
 };
+
+/// A motion that was commanded or is planned: motion_input() with its repairs told.
+Trajectory load_motion(const std::string& path, const std::string& map, const RobotSource& robot);
 
 /// What of the robot file a fit asks about.
 OpenParameters opened_by(const ToolOptions& options);

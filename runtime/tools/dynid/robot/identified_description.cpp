@@ -87,6 +87,7 @@ class WriteBack {
 
   IdentifiedDescription write() {
     IdentifiedDescription result;
+    result.form = is_mjcf_ ? "MJCF" : "URDF";
     expected_ = beta_;
     edit_joints(result);
     edit_bodies(result);

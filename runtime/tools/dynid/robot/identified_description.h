@@ -29,9 +29,17 @@ struct LeftOut {
 
 struct IdentifiedDescription {
   std::string text;
+  std::string form;  ///< "URDF" or "MJCF"
   std::vector<LeftOut> left_out;
   std::vector<std::string> table;  ///< of left_out, lines; empty: nothing was
   std::vector<std::string> notes;  ///< sentences
+};
+
+/// A description with identified numbers, and where it is written.
+struct WrittenBack {
+  std::string path;         ///< of the output
+  std::string description;  ///< path of what it was made of
+  IdentifiedDescription result;
 };
 
 /// What an identified robot is written back into, and what is known of it.

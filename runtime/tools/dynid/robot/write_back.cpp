@@ -56,16 +56,20 @@ void check_write_back(const ToolOptions& options) {
   }
 }
 
-void write_description(const ToolOptions& options, const std::string& identified,
-                       const std::vector<std::string>& comment,
-                       const std::vector<MotionSource>& motions) {
+WrittenBack made_description(const ToolOptions& options, const std::string& identified,
+                             const std::vector<std::string>& comment,
+                             const std::vector<MotionSource>& motions) {
   const WriteBackTask task{write_back_target(options), comment, motions, options.rows};
-  const IdentifiedDescription written = identified_description(identified, options.robot.path, task,
-                                                               effect_catalogue(options.effects));
-  write_files({{options.output, written.text}});
-  std::cout << fmt::format("\n{} is {} with the identified numbers\n", options.output,
-                           task.description.path);
-  for (const auto* lines : {&written.table, &written.notes}) {
+  return {options.output, task.description.path,
+          identified_description(identified, options.robot.path, task,
+                                 effect_catalogue(options.effects))};
+}
+
+void write_description(const WrittenBack& made) {
+  write_files({{made.path, made.result.text}});
+  std::cout << fmt::format("\n{} is {} with the identified numbers\n", made.path,
+                           made.description);
+  for (const auto* lines : {&made.result.table, &made.result.notes}) {
     for (const std::string& line : *lines) std::cout << line << "\n";
   }
   std::cout << std::flush;

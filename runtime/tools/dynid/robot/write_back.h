@@ -21,12 +21,15 @@ RobotSource write_back_target(const ToolOptions& options);
 /// @throws std::invalid_argument  as write_back_target(), and for what goes with robot files alone
 void check_write_back(const ToolOptions& options);
 
-/// Writes the description with the identified numbers, and prints what was left out.
+/// The description with the identified numbers, to be written.
 /// @param identified  text of the robot file
 /// @param comment     what is known of the numbers
-/// @throws ModelError, NoBodiesError, OutputError
-void write_description(const ToolOptions& options, const std::string& identified,
-                       const std::vector<std::string>& comment,
-                       const std::vector<MotionSource>& motions);
+/// @throws ModelError, NoBodiesError
+WrittenBack made_description(const ToolOptions& options, const std::string& identified,
+                             const std::vector<std::string>& comment,
+                             const std::vector<MotionSource>& motions);
+
+/// Writes it, and prints what was left out. @throws OutputError
+void write_description(const WrittenBack& made);
 
 }  // namespace dyngen::runtime

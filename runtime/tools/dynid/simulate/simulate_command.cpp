@@ -27,11 +27,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-Trajectory trajectory_of(const std::string& path) {
-  ToldRepairs repairs;
-  return read_trajectory(path, &repairs.notices);
-}
-
 void check_joints(const std::string& what, int found, const SimulatedRobot& robot) {
   if (found == robot.joints()) return;
   throw std::invalid_argument(
@@ -107,9 +102,10 @@ std::string table(const SimulatedRobot& plant, const ClosedLoopRun& run, const V
 
 }  // namespace
 
-int run_simulate(const SimulateOptions& options) {
+int run_simulate(const ToolOptions& tool) {
+  const SimulateOptions& options = tool.simulate;
   ProgressLine progress("dynid");
-  const Trajectory trajectory = trajectory_of(options.trajectory);
+  const Trajectory trajectory = load_motion(options.trajectory, tool.map, options.robot);
   progress.show("equations of " + options.robot.path, 0, 1);
   const bool same = options.plant.empty();
   const EffectCatalogue catalogue = effect_catalogue(options.effects);
