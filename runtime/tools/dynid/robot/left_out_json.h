@@ -7,7 +7,7 @@
 namespace dyngen::runtime {
 
 /// Key "written_back" of a report: the file, what it was made of, and the torque that its form has
-/// no field for. docs/robots_in_and_out.md has the keys.
+/// no field for. docs/reference/robots_in_and_out.md has the keys.
 Json written_back_json(const WrittenBack& made);
 
 }  // namespace dyngen::runtime
