@@ -147,7 +147,7 @@ struct AnswerRules {
   DecisionRule heldout_chance{
       1e-3, "answer.heldout_chance", "1",
       "Probability of a joint's held-out ratio, or of its worsening, if nothing is left out.",
-      "F and normal distribution"};
+      "F and Student's distribution"};
   DecisionRule open_parameters{
       0.1, "answer.open_parameters", "1",
       "Predicted variance over the residual's, above which held-out motion goes beyond the fitted "
