@@ -23,6 +23,7 @@
 #include "runtime/diagnosis/names/noise_sentence.h"
 #include "runtime/diagnosis/names/reference.h"
 #include "runtime/diagnosis/names/undecidable.h"
+#include "runtime/diagnosis/scans/in_parallel.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -200,17 +201,22 @@ class Diagnostician {
   void describe_gains() {
     const EffectRecordings& heldout = search_.shown_heldout();
     const auto& effects = answer_.fit.point.effects;
-    for (std::size_t i = 0; i < effects.size() && i < answer_.findings.size(); ++i) {
-      VectorXd without = answer_.heldout.before;
-      if (effects.size() > 1) {
-        tell("held-out recordings", static_cast<double>(i) / static_cast<double>(effects.size()));
-        std::vector<EffectInstance> others = effects;
-        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-        EffectFitOptions settings;
-        if (result().noise.from_periods) settings.noise = result().noise.known();
-        const EffectFit fit = fit_effects(search_.sets().train, others, settings);
-        without = raw_rms(heldout, raw_residuals(heldout, from_rest(fit.point)));
-      }
+    const std::size_t count = std::min(effects.size(), answer_.findings.size());
+    std::vector<VectorXd> without_one(count, answer_.heldout.before);
+    const auto fit_others = [&](std::size_t i, std::size_t) {
+      std::vector<EffectInstance> others = effects;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      EffectFitOptions settings;
+      if (result().noise.from_periods) settings.noise = result().noise.known();
+      const EffectFit fit = fit_effects(search_.sets().train, others, settings);
+      without_one[i] = raw_rms(heldout, raw_residuals(heldout, from_rest(fit.point)));
+    };
+    if (effects.size() > 1) {
+      in_parallel(count, working_threads(), fit_others,
+                  [&](double done) { tell("held-out recordings", done); });
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const VectorXd& without = without_one[i];
       double all = 0, left = 0;
       for (const int joint : joints_of(effects[i], input_.model.joints())) {
         const double floor = std::max(answer_.heldout.after[joint], 1e-300);

@@ -38,6 +38,7 @@ class EffectFitter {
         options_(options),
         progress_(progress),
         signals_(data),
+        triangles_(data),
         scales_(data) {}
 
   EffectFit run() {
@@ -49,7 +50,7 @@ class EffectFitter {
     unknowns_ = unknowns_of(point);
     point = within_bounds(scales_, std::move(point), unknowns_);
     for (std::size_t k = 0; k < written_.size(); ++k) point = started(std::move(point), k);
-    SearchState state = EffectSearch(data_, signals_, scales_, unknowns_, weights_)
+    SearchState state = EffectSearch(data_, signals_, triangles_, scales_, unknowns_, weights_)
                             .with_linear_solved(std::move(point));
     hold_steps(state);
     free_initial_states(state);
@@ -67,8 +68,7 @@ class EffectFitter {
   void fit_without() {
     tell("the model without effects", 0);
     const EffectPoint nothing = at_rest(data_, VectorXd::Zero(data_.model.size()), {});
-    const EffectEquations equations = linearised(data_, signals_, nothing, base_unknowns(nothing));
-    const TorqueFactor factor = factor_of(equations.source(), equations.columns, equations.size);
+    const TorqueFactor factor = triangles_.at(signals_, nothing, base_unknowns(nothing));
     const VectorXd ones = VectorXd::Ones(data_.joints());
     const Estimate estimate =
         options_.weighted ? weighted_least_squares(factor) : least_squares(factor, ones);
@@ -104,7 +104,7 @@ class EffectFitter {
       candidates.back().effects[k].parameters = start;
     }
     if (candidates.size() == 1) return candidates.front();
-    const EffectSearch search(data_, signals_, scales_, unknowns_, weights_);
+    const EffectSearch search(data_, signals_, triangles_, scales_, unknowns_, weights_);
     std::optional<SearchState> best;
     for (EffectPoint& candidate : candidates) {
       SearchState state = search.run(std::move(candidate), {kPreviewSteps, options_.tolerance});
@@ -147,9 +147,7 @@ class EffectFitter {
       }
     }
     if (all.size == unknowns_.size) return;
-    const EffectEquations equations =
-        EffectSearch(data_, signals_, scales_, all, weights_).equations_at(state.point);
-    const TorqueFactor factor = factor_of(equations.source(), equations.columns, all.size);
+    const TorqueFactor factor = triangles_.at(signals_, state.point, all);
     const VectorXd norms = column_norms(factor, weights_);
     for (std::size_t r = 0; r < data_.runs.size(); ++r) {
       for (std::size_t k = 0; k < written_.size(); ++k) {
@@ -169,7 +167,7 @@ class EffectFitter {
     for (int round = 0; round < options_.most_rounds; ++round) {
       tell("fitting effects", static_cast<double>(round) / options_.most_rounds);
       signals_.set_tangent_beta(state.point.beta);
-      const EffectSearch search(data_, signals_, scales_, unknowns_, weights_);
+      const EffectSearch search(data_, signals_, triangles_, scales_, unknowns_, weights_);
       state = search.run(std::move(state.point), {options_.most_steps, options_.tolerance});
       fit_.steps += state.steps;
       fit_.converged = state.converged;
@@ -185,7 +183,7 @@ class EffectFitter {
 
   void conclude(SearchState state) {
     tell("noise and intervals", 0);
-    const EffectSearch search(data_, signals_, scales_, unknowns_, weights_);
+    const EffectSearch search(data_, signals_, triangles_, scales_, unknowns_, weights_);
     const EffectSearch::Held held = search.held_at(state);
     state.point = on_bounds(std::move(state.point), held);
     const VectorXd x = values_of(state.point, unknowns_);
@@ -301,6 +299,7 @@ class EffectFitter {
   const EffectFitOptions& options_;
   const EffectProgress& progress_;
   EffectSignals signals_;
+  ModelTriangles triangles_;
   ScaleTable scales_;
   EffectUnknowns unknowns_;
   VectorXd weights_;

@@ -76,6 +76,53 @@ class RunRows {
   }
 
   RowBlock make() {
+    add_effects();
+    RowBlock block;
+    block.Y = MatrixXd::Zero(here_.rows.Y.rows(), Index{data_.joints()} * unknowns_.size);
+    block.tau = here_.rows.tau;
+    block.counted = here_.rows.counted;
+    for (int j = 0; j < data_.joints(); ++j) {
+      fill(block.Y.middleCols(j * Index{unknowns_.size}, unknowns_.size), block.tau.col(j), j);
+    }
+    leave_out(block.counted);
+    for (Index j = 0; j < block.tau.cols(); ++j) {
+      for (Index k = 0; k < block.tau.rows(); ++k) {
+        if (block.counted(k, j) != 0) continue;
+        block.tau(k, j) = 0;
+        block.Y.row(k).segment(j * unknowns_.size, unknowns_.size).setZero();
+      }
+    }
+    return block;
+  }
+
+  /// As of equations_at().
+  void add_to(PointEquations& equations, const std::vector<bool>& whole,
+              const std::vector<bool>& beside) {
+    add_effects();
+    MatrixXd counted = here_.rows.counted;
+    leave_out(counted);
+    MatrixXd Y(here_.rows.Y.rows(), unknowns_.size);
+    for (int j = 0; j < data_.joints(); ++j) {
+      const auto place = static_cast<std::size_t>(j);
+      if (!whole[place] && !beside[place]) continue;
+      std::vector<int> columns = equations.columns[place];
+      if (!whole[place]) std::erase_if(columns, [&](int c) { return c < unknowns_.base; });
+      Y.setZero();
+      VectorXd tau = here_.rows.tau.col(j);
+      fill(Y, tau, j);
+      JointRows rows;
+      rows.A.resize(Y.rows(), static_cast<Index>(columns.size()) + 1);
+      rows.A << Y(Eigen::all, columns), tau;
+      for (Index k = 0; k < Y.rows(); ++k) {
+        if (counted(k, j) == 0) rows.A.row(k).setZero();
+      }
+      rows.counted = counted.col(j).sum();
+      equations.joints[place].push_back(std::move(rows));
+    }
+  }
+
+ private:
+  void add_effects() {
     for (std::size_t k = 0; k < point_.effects.size(); ++k) {
       const EffectInstance& effect = point_.effects[k];
       if (!is_alignment(effect) && data_.acts_in(effect, run_)) add_effect(k);
@@ -83,16 +130,8 @@ class RunRows {
     for (std::size_t k = 0; k < point_.effects.size(); ++k) {
       if (is_alignment(point_.effects[k])) add_lateness(k);
     }
-    RowBlock block;
-    block.Y = MatrixXd::Zero(here_.rows.Y.rows(), Index{data_.joints()} * unknowns_.size);
-    block.tau = here_.rows.tau;
-    block.counted = here_.rows.counted;
-    for (int j = 0; j < data_.joints(); ++j) fill(block, j);
-    leave_out(block);
-    return block;
   }
 
- private:
   void add_effect(std::size_t k) {
     const EffectInstance& effect = point_.effects[k];
     const EffectLaw& law = effect.law;
@@ -153,33 +192,38 @@ class RunRows {
     return first_difference(column, here_.motion.sample_time);
   }
 
-  void fill(RowBlock& block, int j) {
+  /// Columns of J and torque of one joint. @param Y  (N x size) zeros  @param tau  as recorded
+  void fill(Eigen::Ref<MatrixXd> Y, Eigen::Ref<VectorXd> tau, int j) {
     const double lag = late_.lag[j];
     const JointEquations& joint = joints_[static_cast<std::size_t>(j)];
-    const Index size = unknowns_.size, nb = unknowns_.base;
-    block.Y.middleCols(j * size, nb) = here_.rows.Y.middleCols(Index{j} * nb, nb);
+    const Index nb = unknowns_.base;
+    Y.leftCols(nb) = here_.rows.Y.middleCols(Index{j} * nb, nb);
     if (lag != 0) {
       const MatrixXd& rates = signals_.filtered_rates(run_, j);
       const std::vector<int>& columns = data_.model.columns[static_cast<std::size_t>(j)];
       for (std::size_t i = 0; i < columns.size(); ++i) {
-        block.Y.col(j * size + columns[i]) += lag * rates.col(static_cast<Index>(i));
+        Y.col(columns[i]) += lag * rates.col(static_cast<Index>(i));
       }
     }
     if (late_.delay[j] != 0 && here_.motion.tau.size() > 0) {
       const double samples = late_.delay[j] / here_.motion.sample_time;
-      VectorXd tau = shifted(here_.motion.tau.col(j), samples);
-      if (data_.model.held) tau -= signals_.held_torque(run_).col(j);
-      block.tau.col(j) = decimate(here_.decimator, tau);
+      VectorXd recorded = shifted(here_.motion.tau.col(j), samples);
+      if (data_.model.held) recorded -= signals_.held_torque(run_).col(j);
+      tau = decimate(here_.decimator, recorded);
     }
     if (lag != 0 && data_.model.held) {
-      block.tau.col(j) -= lag * decimate(here_.decimator, rate(signals_.held_torque(run_).col(j)));
+      tau -= lag * decimate(here_.decimator, rate(signals_.held_torque(run_).col(j)));
     }
-    block.tau.col(j) -= filtered(joint.torque, lag);
+    tau -= filtered(joint.torque, lag);
+    const auto add = [&](int place, const VectorXd& column) {
+      Y.col(place) += column;
+      tau += x_[place] * column;
+    };
     for (std::size_t i = 0; i < joint.places.size(); ++i) {
-      add_column(block, j, joint.places[i], filtered(joint.columns[i], lag));
+      add(joint.places[i], filtered(joint.columns[i], lag));
     }
     for (const Lateness& late : lateness_) {
-      if (late.joint == j) add_column(block, j, late.place, filtered(late.column, 0));
+      if (late.joint == j) add(late.place, filtered(late.column, 0));
     }
   }
 
@@ -188,14 +232,9 @@ class RunRows {
     return decimate(here_.decimator, lag == 0 ? column : (column + lag * rate(column)).eval());
   }
 
-  void add_column(RowBlock& block, int j, int place, const VectorXd& column) const {
-    block.Y.col(Index{j} * unknowns_.size + place) += column;
-    block.tau.col(j) += x_[place] * column;
-  }
-
-  /// Equations that do not count are zeros; those that an undone delay does not reach count not.
-  void leave_out(RowBlock& block) const {
-    const Index count = block.tau.rows();
+  /// Equations that an undone delay does not reach count not.
+  void leave_out(MatrixXd& counted) const {
+    const Index count = counted.rows();
     for (const EffectInstance& effect : point_.effects) {
       if (effect.law.alignment != AlignmentOperator::kDelay) continue;
       const double longest =
@@ -205,15 +244,8 @@ class RunRows {
           count / 4,
           static_cast<Index>(std::ceil(reach / static_cast<double>(here_.decimator.factor))));
       for (const int j : joints_of(effect, data_.joints())) {
-        block.counted.col(j).head(rows).setZero();
-        block.counted.col(j).tail(rows).setZero();
-      }
-    }
-    for (Index j = 0; j < block.tau.cols(); ++j) {
-      for (Index k = 0; k < count; ++k) {
-        if (block.counted(k, j) != 0) continue;
-        block.tau(k, j) = 0;
-        block.Y.row(k).segment(j * unknowns_.size, unknowns_.size).setZero();
+        counted.col(j).head(rows).setZero();
+        counted.col(j).tail(rows).setZero();
       }
     }
   }
@@ -383,6 +415,19 @@ EffectEquations linearised(const EffectRecordings& data, EffectSignals& signals,
   equations.columns = visible(data, point, unknowns);
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     equations.blocks.push_back(RunRows(data, signals, point, unknowns, run).make());
+  }
+  return equations;
+}
+
+PointEquations equations_at(const EffectRecordings& data, EffectSignals& signals,
+                            const EffectPoint& point, const EffectUnknowns& unknowns,
+                            const std::vector<bool>& whole, const std::vector<bool>& beside) {
+  signals.set_beta(point.beta);
+  PointEquations equations;
+  equations.columns = visible(data, point, unknowns);
+  equations.joints.resize(static_cast<std::size_t>(data.joints()));
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    RunRows(data, signals, point, unknowns, run).add_to(equations, whole, beside);
   }
   return equations;
 }

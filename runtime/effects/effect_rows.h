@@ -76,6 +76,22 @@ struct EffectEquations {
 EffectEquations linearised(const EffectRecordings& data, EffectSignals& signals,
                            const EffectPoint& point, const EffectUnknowns& unknowns);
 
+/// The same equations of one joint in one run.
+struct JointRows {
+  Eigen::MatrixXd A;   ///< (N x m + 1) m columns of J, then tau; 0 where an equation is left out
+  double counted = 0;  ///< equations that are not
+};
+struct PointEquations {
+  std::vector<std::vector<JointRows>> joints;  ///< [joint][run]; none of a joint that is not asked
+  std::vector<std::vector<int>> columns;       ///< as of EffectEquations
+};
+
+/// @param whole   of which joints all columns that can act on them are wanted
+/// @param beside  of which joints those behind beta alone: the columns of effects
+PointEquations equations_at(const EffectRecordings& data, EffectSignals& signals,
+                            const EffectPoint& point, const EffectUnknowns& unknowns,
+                            const std::vector<bool>& whole, const std::vector<bool>& beside);
+
 /// Torque of one effect and its derivatives by parameters, behind the filter.
 struct EffectSignature {
   std::vector<int> joints;               ///< on which it acts

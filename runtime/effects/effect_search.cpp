@@ -94,8 +94,7 @@ std::vector<int> EffectSearch::places(const EffectPoint& point, bool linear) con
 
 SearchState EffectSearch::evaluated(EffectPoint point) const {
   SearchState state;
-  const EffectEquations equations = equations_at(point);
-  state.factor = factor_of(equations.source(), equations.columns, unknowns_.size);
+  state.factor = triangles_.at(signals_, point, unknowns_);
   state.cost =
       residual_squares(state.factor, values_of(point, unknowns_)).dot(weights_.cwiseAbs2());
   if (!std::isfinite(state.cost)) state.cost = std::numeric_limits<double>::infinity();

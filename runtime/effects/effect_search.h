@@ -6,6 +6,7 @@
 
 #include "runtime/effects/effect_constraints.h"
 #include "runtime/effects/effect_rows.h"
+#include "runtime/effects/model_triangles.h"
 
 namespace dyngen::runtime {
 
@@ -26,11 +27,12 @@ struct SearchState {
 /// The search for the least cost of a model with effects, by variable projection.
 class EffectSearch {
  public:
-  /// @param data, signals, scales  must outlive it
-  EffectSearch(const EffectRecordings& data, EffectSignals& signals, const ScaleTable& scales,
-               EffectUnknowns unknowns, Eigen::VectorXd joint_weights)
+  /// @param data, signals, triangles, scales  must outlive it
+  EffectSearch(const EffectRecordings& data, EffectSignals& signals, ModelTriangles& triangles,
+               const ScaleTable& scales, EffectUnknowns unknowns, Eigen::VectorXd joint_weights)
       : data_(data),
         signals_(signals),
+        triangles_(triangles),
         scales_(scales),
         unknowns_(std::move(unknowns)),
         weights_(std::move(joint_weights)) {}
@@ -64,6 +66,7 @@ class EffectSearch {
 
   const EffectRecordings& data_;
   EffectSignals& signals_;
+  ModelTriangles& triangles_;
   const ScaleTable& scales_;
   EffectUnknowns unknowns_;
   Eigen::VectorXd weights_;

@@ -223,11 +223,13 @@ const MatrixXd& EffectSignals::tangent(std::size_t run, const std::string& name,
 const MatrixXd& EffectSignals::tangent_at(std::size_t run, const std::string& name, int link,
                                           double further) {
   if (further == 0) return tangent(run, name, link);
-  Further& kept = further_[{run, {name, link}}];
-  if (kept.columns.size() == 0 || kept.distance != further) {
-    kept = {further, tangents(run, {name, link}, further).at({name, link})};
+  const auto place = further_.find({run, {name, link}});
+  if (place != further_.end() && place->second.distance == further) return place->second.columns;
+  // one program gives all that an effect reads of a link
+  for (auto& [key, columns] : tangents(run, {name, link}, further)) {
+    if (key.second == link) further_[{run, key}] = {further, std::move(columns)};
   }
-  return kept.columns;
+  return further_.at({run, {name, link}}).columns;
 }
 
 VectorXd EffectSignals::signal(std::size_t run, const std::string& name,

@@ -33,17 +33,18 @@ Eigen::CompleteOrthogonalDecomposition<MatrixXd> orthogonal(const MatrixXd& A, d
 SingularValues decomposed(const MatrixXd& A) {
   check_finite(A);
   if (A.size() == 0) {
-    return {MatrixXd::Zero(A.rows(), 0), VectorXd::Zero(0),
-            MatrixXd::Identity(A.cols(), A.cols())};
+    return {MatrixXd::Zero(A.rows(), 0), VectorXd::Zero(0), MatrixXd::Identity(A.cols(), A.cols())};
   }
-  const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  // divided and conquered: several times as fast as Jacobi's rotations, and as exact as the largest
+  // singular value's rounding, which is all that ranks and conditions ask for
+  const Eigen::BDCSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
 }
 
 VectorXd singular_values(const MatrixXd& A) {
   check_finite(A);
   if (A.size() == 0) return VectorXd::Zero(0);
-  return Eigen::JacobiSVD<MatrixXd>(A).singularValues();
+  return Eigen::BDCSVD<MatrixXd>(A).singularValues();
 }
 
 MatrixXd triangle_of(const MatrixXd& A) {

@@ -58,15 +58,17 @@ void LeastSquaresOptions::validate(int parameters) const {
   }
 }
 
-Estimate least_squares(const TorqueFactor& factor, const VectorXd& joint_weights,
-                       const LeastSquaresOptions& options) {
+namespace {
+
+/// All but the condition of the equations without a scale, which takes a decomposition of its own.
+Estimate solved(const TorqueFactor& factor, const VectorXd& joint_weights,
+                const LeastSquaresOptions& options) {
   check_weights(factor, joint_weights);
   options.validate(factor.parameters);
   const StackedRows rows = stacked(factor, joint_weights);
   Estimate estimate;
   estimate.joint_weights = joint_weights;
   estimate.scale = options.scale.size() != 0 ? options.scale : unit_norm_scale(rows.W);
-  estimate.raw_condition = condition_number(singular_values(factor, joint_weights, {}));
   const MatrixXd A = rows.W * estimate.scale.asDiagonal();
   const Index parameters = A.cols();
 
@@ -105,6 +107,15 @@ Estimate least_squares(const TorqueFactor& factor, const VectorXd& joint_weights
   return estimate;
 }
 
+}  // namespace
+
+Estimate least_squares(const TorqueFactor& factor, const VectorXd& joint_weights,
+                       const LeastSquaresOptions& options) {
+  Estimate estimate = solved(factor, joint_weights, options);
+  estimate.raw_condition = condition_number(singular_values(factor, joint_weights, {}));
+  return estimate;
+}
+
 VectorXd residual_deviation(const TorqueFactor& factor, const VectorXd& beta) {
   VectorXd deviation = residual_squares(factor, beta);
   const VectorXd torque = torque_squares(factor);
@@ -127,14 +138,15 @@ VectorXd residual_deviation(const TorqueFactor& factor, const VectorXd& beta) {
 Estimate weighted_least_squares(const TorqueFactor& factor, const LeastSquaresOptions& options) {
   constexpr int kMostRounds = 30;
   VectorXd weights = VectorXd::Ones(static_cast<Index>(factor.joints.size()));
-  Estimate estimate = least_squares(factor, weights, options);
+  Estimate estimate = solved(factor, weights, options);
   for (int round = 0; round < kMostRounds; ++round) {
     const VectorXd next = residual_deviation(factor, estimate.beta).cwiseInverse();
     const double change = ((next - weights).array() / next.array()).abs().maxCoeff();
     weights = next;
-    estimate = least_squares(factor, weights, options);
+    estimate = solved(factor, weights, options);
     if (change < 1e-8) break;
   }
+  estimate.raw_condition = condition_number(singular_values(factor, weights, {}));
   return estimate;
 }
 

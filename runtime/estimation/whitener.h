@@ -27,7 +27,10 @@ class Whitener {
     std::size_t gain = 0;  ///< where its gains begin
     double deviation = 0;  ///< of what the prediction misses; 0: the sample does not count
   };
+  template <int kTogether>
   class Columns;
+  template <int kTogether>
+  void apply_to(const std::vector<double*>& columns) const;
 
   Eigen::VectorXd coefficients_;  ///< (m) of the autoregressive part, m at least 1
   Eigen::VectorXd poles_;         ///< of the slow parts

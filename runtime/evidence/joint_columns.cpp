@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "runtime/effects/effect_rows.h"
 
@@ -23,6 +24,13 @@ JointColumns columns_of(std::map<int, MatrixXd> parts) {
 }
 
 }  // namespace
+
+JointColumns columns_of_joint(int joint, MatrixXd part) {
+  JointColumns columns;
+  columns.joints.push_back(joint);
+  columns.parts.push_back(std::move(part));
+  return columns;
+}
 
 JointColumns side_by_side(const std::vector<JointColumns>& sets) {
   Index width = 0;

@@ -17,6 +17,9 @@ struct JointColumns {
   [[nodiscard]] Eigen::Index columns() const { return parts.empty() ? 0 : parts.front().cols(); }
 };
 
+/// Columns of one joint, moved into their place: a list of matrices in braces would copy them.
+JointColumns columns_of_joint(int joint, Eigen::MatrixXd part);
+
 /// Columns of several sets, in their order, with the joints of all of them; those of joints that a
 /// set lacks are 0.
 JointColumns side_by_side(const std::vector<JointColumns>& sets);

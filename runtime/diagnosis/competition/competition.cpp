@@ -53,8 +53,8 @@ class Competition {
         conditions_(train_, signals_, hypotheses_, structures_, stiction_, result_),
         nameless_(train_, signals_, heldout_, hypotheses_, structures_, stiction_, half_band_,
                   system_options(), options_.false_alarm, result_),
-        likely_(train_, signals_, hypotheses_, scales_, result_,
-                [this](const EffectInstance& effect) { return with(effect); }),
+        likely_(train_, screening_data_, hypotheses_, scales_, result_,
+                [this](const EffectInstance& effect) { return fit(effects_and(effect)); }),
         pairs_(train_, signals_, hypotheses_, stiction_, conditions_, options_.false_alarm, result_,
                {[this](const std::vector<EffectInstance>& all) {
                   tell("pairs of effects", 0);
@@ -99,7 +99,14 @@ class Competition {
     if (progress_) progress_(stage, done);
   }
 
-  EffectFit fit(const std::vector<EffectInstance>& effects) {
+  [[nodiscard]] std::vector<EffectInstance> effects_and(const EffectInstance& effect) const {
+    std::vector<EffectInstance> all = effects();
+    all.push_back(effect);
+    return all;
+  }
+
+  /// May be called from several threads.
+  EffectFit fit(const std::vector<EffectInstance>& effects) const {
     EffectFitOptions settings;
     settings.most_rounds = 2;
     settings.most_steps = 15;
@@ -363,9 +370,7 @@ class Competition {
 
   EffectFit with(const EffectInstance& effect) {
     tell("the model with " + short_name(effect), 0);
-    std::vector<EffectInstance> all = effects();
-    all.push_back(effect);
-    return fit(all);
+    return fit(effects_and(effect));
   }
 
   /// A winner that the others made superfluous leaves.

@@ -5,8 +5,11 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "runtime/diagnosis/competition/heldout.h"
+#include "runtime/diagnosis/scans/in_parallel.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -24,16 +27,27 @@ bool LikelySearch::next(const ModelSide& side, const ModelSide& plain,
                         const std::function<bool(const LikelyEffect&)>& take) {
   const LikelihoodRatio ratio(data_, residuals_of(data_, result_.fit.point));
   for (auto& [place, likely] : likely_) likely.fresh = false;
+  std::vector<std::pair<std::size_t, const ModelSide*>> asked;
+  std::set<std::size_t> places;
+  const auto ask = [&](std::size_t place, const ModelSide& of) {
+    if (!likely_.contains(place) && places.insert(place).second) asked.emplace_back(place, &of);
+  };
   for (int joint = 0; joint < data_.joints(); ++joint) {
     for (const std::size_t place : strongest_of(side.screening, joint)) {
-      if (!likely_.contains(place)) likely_[place] = compared(place, ratio, side);
+      ask(place, side);
     }
     for (const std::size_t place : strongest_of(plain.screening, joint)) {
       if (hypotheses_[place].windowed) continue;  // what is slow has a window that fits it
-      if (!likely_.contains(place)) likely_[place] = compared(place, ratio, plain);
+      ask(place, plain);
       break;
     }
   }
+  std::vector<LikelyEffect> answers(asked.size());
+  in_parallel(asked.size(), screened_.readers().size(), [&](std::size_t i, std::size_t thread) {
+    answers[i] =
+        compared(asked[i].first, ratio, *asked[i].second, screened_.readers()[thread].whole);
+  });
+  for (std::size_t i = 0; i < asked.size(); ++i) likely_[asked[i].first] = std::move(answers[i]);
   // what an earlier round said of other joints orders them; the best is asked again
   for (;;) {
     const auto best =
@@ -41,7 +55,7 @@ bool LikelySearch::next(const ModelSide& side, const ModelSide& plain,
                          [](const auto& a, const auto& b) { return a.second.net < b.second.net; });
     if (best == likely_.end() || best->second.net <= 0) return false;
     if (!best->second.fresh) {
-      best->second = compared(best->first, ratio, side);
+      best->second = compared(best->first, ratio, side, screened_.readers().front().whole);
       continue;
     }
     const LikelyEffect likely = best->second;
@@ -56,11 +70,11 @@ bool LikelySearch::next(const ModelSide& side, const ModelSide& plain,
 }
 
 LikelyEffect LikelySearch::compared(std::size_t place, const LikelihoodRatio& ratio,
-                                    const ModelSide& side) {
+                                    const ModelSide& side, EffectSignals& signals) const {
   LikelyEffect likely{side.screening.named[place], {}};
   NamedResult& named = likely.named;
   const Hypothesis& hypothesis = hypotheses_[place];
-  named.best = refined(data_, signals_, side.system, hypothesis, named.best,
+  named.best = refined(data_, signals, side.system, hypothesis, named.best,
                        scales_.of(result_.fit.point.beta, hypothesis.effect));
   try {
     likely.fit = with_(named.best.effect);

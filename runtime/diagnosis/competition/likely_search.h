@@ -9,6 +9,7 @@
 #include "runtime/diagnosis/competition/beside_white_noise.h"
 #include "runtime/diagnosis/competition/competition_result.h"
 #include "runtime/diagnosis/competition/likelihood.h"
+#include "runtime/diagnosis/scans/screening.h"
 
 namespace dyngen::runtime {
 
@@ -25,13 +26,14 @@ struct LikelyEffect {
 /// and compared by their likelihoods, each with a noise of its own.
 class LikelySearch {
  public:
-  /// All must outlive it. @param with  fits the model and what was found with one effect more
-  LikelySearch(const EffectRecordings& data, EffectSignals& signals,
+  /// All must outlive it. @param screened  of the same data
+  /// @param with  fits the model and what was found with one effect more; from several threads
+  LikelySearch(const EffectRecordings& data, ScreeningData& screened,
                const std::vector<Hypothesis>& hypotheses, const ScaleTable& scales,
                const CompetitionResult& result,
                std::function<EffectFit(const EffectInstance&)> with)
       : data_(data),
-        signals_(signals),
+        screened_(screened),
         hypotheses_(hypotheses),
         scales_(scales),
         result_(result),
@@ -45,12 +47,13 @@ class LikelySearch {
             const std::function<bool(const LikelyEffect&)>& take);
 
  private:
-  LikelyEffect compared(std::size_t place, const LikelihoodRatio& ratio, const ModelSide& side);
+  LikelyEffect compared(std::size_t place, const LikelihoodRatio& ratio, const ModelSide& side,
+                        EffectSignals& signals) const;
   [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
   [[nodiscard]] std::vector<std::size_t> strongest_of(const Screening& screening, int joint) const;
 
   const EffectRecordings& data_;
-  EffectSignals& signals_;
+  ScreeningData& screened_;
   const std::vector<Hypothesis>& hypotheses_;
   const ScaleTable& scales_;
   const CompetitionResult& result_;

@@ -12,6 +12,7 @@
 #include "runtime/diagnosis/names/rivals.h"
 #include "runtime/diagnosis/names/stability.h"
 #include "runtime/diagnosis/names/unnamed_rival.h"
+#include "runtime/diagnosis/scans/in_parallel.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -151,6 +152,9 @@ class Places {
         result_(result),
         options_(options) {}
 
+  /// Whether another effect came into a winner's place.
+  [[nodiscard]] bool changed() const { return changed_; }
+
   Naming named(std::size_t winner) {
     Naming naming = name(winner);
     // another form of the same effect, beside all that was found since
@@ -202,6 +206,7 @@ class Places {
     own.trial = own.others[rival.hypothesis].best;  // squares beside those of its round
     own.trial.effect = rival.trial.effect;
     result_.fit = fit;
+    changed_ = true;
   }
 
   /// Adds to the distance of the nearest rival what held-out recordings say, and puts it in the
@@ -230,6 +235,14 @@ class Places {
   const std::vector<Hypothesis>& hypotheses_;
   CompetitionResult& result_;
   const EvidenceSystem::Options& options_;
+  bool changed_ = false;
+};
+
+/// What one winner is called, and everything once it is.
+struct NamedPlace {
+  Naming naming;
+  bool changed = false;  ///< then result is another
+  CompetitionResult result;
 };
 
 }  // namespace
@@ -239,13 +252,29 @@ std::vector<Naming> settle_names(const EffectRecordings& train, const EffectReco
                                  const std::vector<Hypothesis>& hypotheses,
                                  CompetitionResult& result, const EvidenceSystem::Options& options,
                                  const CompetitionProgress& progress) {
-  Places places(train, fitted, heldout, signals, hypotheses, result, options);
   std::vector<Naming> namings;
-  for (std::size_t i = 0; i < result.winners.size(); ++i) {
-    if (progress) {
-      progress("names", static_cast<double>(i) / static_cast<double>(result.winners.size()));
+  const std::size_t count = result.winners.size();
+  const std::size_t threads = std::min(working_threads(), count);
+  std::vector<EffectSignals> others(threads > 0 ? threads - 1 : 0, EffectSignals(train));
+  while (namings.size() < count) {
+    const std::size_t first = namings.size();
+    if (progress) progress("names", static_cast<double>(first) / static_cast<double>(count));
+    // several winners at once, each as if those before it kept their places
+    std::vector<NamedPlace> named(std::min(threads, count - first));
+    in_parallel(named.size(), threads, [&](std::size_t i, std::size_t thread) {
+      NamedPlace& own = named[i];
+      own.result = result;
+      EffectSignals& reader = thread == 0 ? signals : others[thread - 1];
+      Places places(train, fitted, heldout, reader, hypotheses, own.result, options);
+      own.naming = places.named(first + i);
+      own.changed = places.changed();
+    });
+    for (NamedPlace& own : named) {
+      namings.push_back(std::move(own.naming));
+      if (!own.changed) continue;
+      result = std::move(own.result);
+      break;  // those behind it are asked again
     }
-    namings.push_back(places.named(i));
   }
   return namings;
 }

@@ -71,7 +71,7 @@ JointColumns line_columns(const EffectRecordings& data, const GenericStructure& 
     start += run.rows.Y.rows();
     column += 2;
   }
-  return {{structure.joint}, {std::move(part)}};
+  return columns_of_joint(structure.joint, std::move(part));
 }
 
 /// Values of a run for all runs, where they are of a run's motion.
@@ -209,7 +209,7 @@ JointColumns counted_columns(const EffectRecordings& data, int joint, MatrixXd s
     part = (run.rows.counted.col(joint).asDiagonal() * part).eval();
     start += part.rows();
   }
-  return {{joint}, {std::move(shapes)}};
+  return columns_of_joint(joint, std::move(shapes));
 }
 
 MatrixXd function_shapes(const EffectRecordings& data, EffectSignals& signals,

@@ -125,7 +125,7 @@ JointColumns impulse_columns(const EffectRecordings& data, int joint) {
     middles.push_back(felt_impulses_of(run, joint, still));
     count += static_cast<Index>(middles.back().size());
   }
-  JointColumns columns{{joint}, {MatrixXd::Zero(data.equations(), count)}};
+  JointColumns columns = columns_of_joint(joint, MatrixXd::Zero(data.equations(), count));
   Index start = 0, column = 0;
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     const EffectRun& here = data.runs[run];

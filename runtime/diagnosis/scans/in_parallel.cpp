@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/scans/in_parallel.h"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -8,6 +9,8 @@
 #include <vector>
 
 namespace dyngen::runtime {
+
+std::size_t working_threads() { return std::clamp(std::thread::hardware_concurrency(), 1u, 4u); }
 
 void in_parallel(std::size_t count, std::size_t threads,
                  const std::function<void(std::size_t piece, std::size_t thread)>& work,

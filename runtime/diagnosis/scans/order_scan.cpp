@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "runtime/diagnosis/scans/turning.h"
 
@@ -94,10 +95,11 @@ OrderScan scan_orders(const EffectRecordings& data, const EvidenceSystem& system
         runs[run].next();
       }
     }
-    const JointColumns columns{{joint}, {part.leftCols(4 * batch)}};
+    part.conservativeResize(Eigen::NoChange, 4 * batch);
+    JointColumns columns = columns_of_joint(joint, std::move(part));
     bool error = false;  // torque and that of an error by turns
     for (const Products& products :
-         system.products_of_groups(system.whitened(columns), 2, surrogates)) {
+         system.products_of_groups(system.whitened(std::move(columns)), 2, surrogates)) {
       const Score score = score_of(products, surrogates);
       if (surrogates) scan.surrogates = scan.surrogates.cwiseMax(score.surrogates);
       (error ? error_squares : squares).push_back(score.delta_chi2);

@@ -122,7 +122,7 @@ JointColumns harmonic_columns(const EffectRecordings& data, int joint,
     }
     start += rows;
   }
-  return {{joint}, {std::move(part)}};
+  return columns_of_joint(joint, std::move(part));
 }
 
 }  // namespace dyngen::runtime

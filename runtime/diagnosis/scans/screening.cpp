@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "runtime/diagnosis/scans/in_parallel.h"
@@ -286,8 +285,7 @@ double detectable_lambda(double surprise) {
 
 ScreeningData::ScreeningData(const EffectRecordings& data)
     : whole_(data), coarse_(thinned(data)), repeats_(repeats_of(data)) {
-  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
-  for (unsigned i = 0; i < threads; ++i) {
+  for (std::size_t i = 0; i < working_threads(); ++i) {
     readers_.push_back({EffectSignals(whole_), EffectSignals(coarse_)});
   }
 }

@@ -100,6 +100,21 @@ TEST(JointNoise, DensityIsTheSumOfTheAutocovariance) {
   }
 }
 
+TEST(Whitener, AColumnDoesNotDependOnHowManyThereAre) {
+  VectorXd counted = VectorXd::Ones(60);
+  counted.segment(20, 3).setZero();
+  const JointNoise noise{second_order(), {{0.97, 0.2}}};
+  const Whitener whitener(noise, counted);
+  const MatrixXd x = drawn(second_order(), 60, 71);
+  MatrixXd alone = x;
+  for (Index c = 0; c < x.cols(); ++c) whitener.apply(alone.col(c));
+  for (const Index count : {2, 8, 9, 16, 17, 32, 33, 71}) {
+    MatrixXd together = x.leftCols(count);
+    whitener.apply(together);
+    EXPECT_EQ(together, alone.leftCols(count)) << count << " columns";
+  }
+}
+
 TEST(Whitener, OfWhiteNoiseIsADivision) {
   AutoregressiveNoise noise;
   noise.innovation = noise.deviation = 0.5;
