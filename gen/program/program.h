@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -80,6 +81,11 @@ bool same_steps(const Program& a, const Program& b);
 
 /// Lowers a function; registers are used again when their value is not needed any more.
 Program lower(const Trace& trace);
+
+/// The same program for some of its results: steps that only the others need are left out.
+/// Registers keep their numbers, so that what is left rounds as before.
+Program with_results(const Program& program,
+                     const std::function<bool(const Program::Result&)>& wanted);
 
 /// An input array: values[e * samples + k] is element e of sample k; values[e] of what all samples
 /// share (chi, gravity, payload).

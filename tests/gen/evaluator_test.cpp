@@ -33,6 +33,23 @@ TEST(ProgramEvaluator, RoundsAsTheEvaluationOfManySamples) {
   }
 }
 
+TEST(Program, ForSomeResultsHasTheirStepsAlone) {
+  const Program program = program_of("mass_matrix");
+  const auto wanted = [](const Program::Result& result) { return result.index % 6 == 4; };
+  const Program part = with_results(program, wanted);
+  EXPECT_EQ(part.results.size(), 6U);
+  EXPECT_LT(part.instructions.size(), program.instructions.size());
+  for (const MotionSample& sample : random_samples(6, 5, 1)) {
+    std::vector<double> all(36), some(36, -1e9);
+    evaluate(program, 1, {{"q", sample.q}}, {{"M", all}});
+    evaluate(part, 1, {{"q", sample.q}}, {{"M", some}});
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(some[i], i % 6 == 4 ? all[i] : -1e9);
+  }
+  const Program nothing = with_results(program, [](const Program::Result&) { return false; });
+  EXPECT_TRUE(nothing.instructions.empty());
+  EXPECT_TRUE(nothing.inputs.empty());
+}
+
 TEST(ProgramEvaluator, RefusesArraysThatItDoesNotKnow) {
   const Program program = program_of("id");
   EXPECT_THROW(ProgramEvaluator(program, {"q", "dq"}, "tau"), std::invalid_argument);

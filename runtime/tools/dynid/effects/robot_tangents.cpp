@@ -24,6 +24,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// Derivatives by a joint's motion, and the arrays of motion_derivatives() that have them.
+constexpr std::array<std::pair<const char*, const char*>, 3> kByMotion = {
+    {{"d_q", "D_q"}, {"d_qd", "D_dq"}, {"d_qdd", "D_ddq"}}};
 constexpr std::array<const char*, 6> kWrench = {"fx", "fy", "fz", "nx", "ny", "nz"};
 
 std::span<const double> numbers_of(const MatrixXd& matrix) {
@@ -110,7 +113,8 @@ class Tangents {
       } else if (name == "hidden_gx" || name == "hidden_gy") {
         result = hidden_gravity(motion);
       } else if (name == "d_q" || name == "d_qd" || name == "d_qdd") {
-        result = by_motion(further_of(link, motion, further), standard);
+        result = further == 0 ? by_motion(motion, standard)
+                              : by_motion_of(link, further_of(link, motion, further), standard);
       } else if (name.starts_with("wrench_")) {
         result = wrench(motion, standard);
       } else {
@@ -165,10 +169,33 @@ class Tangents {
     for (int link = 1; link <= model_.size(); ++link) {
       const int coordinate = model_.joint(link).coordinate;
       if (coordinate < 0) continue;
-      for (const auto& [name, array] :
-           {std::pair{"d_q", "D_q"}, {"d_qd", "D_dq"}, {"d_qdd", "D_ddq"}}) {
+      for (const auto& [name, array] : kByMotion) {
         result[{name, link}] = column_of(outputs.at(array), coordinate, n, n);
       }
+    }
+    return result;
+  }
+
+  /// Those of one link: a search asks for them at every distance that it tries.
+  TangentColumns by_motion_of(int link, const JointMotion& motion, const VectorXd& standard) {
+    const Index n = model_.coordinate_count;
+    const int coordinate = link < 1 || link > model_.size() ? -1 : model_.joint(link).coordinate;
+    if (coordinate < 0) return {};
+    const TangentProgram& all = kept(derivatives_, [&] { return motion_derivatives(model_); });
+    std::unique_lock lock(guard_);
+    std::unique_ptr<TangentProgram>& place = derivatives_of_[link];
+    lock.unlock();
+    const TangentProgram& program = kept(place, [&] {
+      return TangentProgram{with_results(all.program,
+                                         [&](const Program::Result& result) {
+                                           return result.index % n == coordinate;
+                                         }),
+                            all.chi};
+    });
+    const auto outputs = run(program.program, motion, values_of(program.chi, standard), gravity_);
+    TangentColumns result;
+    for (const auto& [name, array] : kByMotion) {
+      result[{name, link}] = column_of(outputs.at(array), coordinate, n, n);
     }
     return result;
   }
@@ -249,6 +276,7 @@ class Tangents {
   std::mutex guard_;  // of the programs
   std::unique_ptr<TangentProgram> gravity_torque_, derivatives_, wrenches_;
   std::unique_ptr<PayloadProgram> payload_;
+  std::map<int, std::unique_ptr<TangentProgram>> derivatives_of_;  // by link
   std::map<int, std::unique_ptr<Program>> jacobians_;
   std::map<TangentKey, std::unique_ptr<TangentProgram>> geometry_;
 };
