@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "gen/diagnostic/diagnostic.h"
-#include "gen/robot_file/spelling.h"
+#include "gen/words/spelling.h"
 
 namespace dyngen::runtime {
 namespace {
