@@ -86,22 +86,22 @@ std::string diagnosis_json(const DiagnosisReport& report) {
                     {"std", number(shift.stddev)}});
   }
   Json json = {{"schema", "dynid.diagnosis/1"},
-                     {"robot", report.robot},
-                     {"joints", report.joints()},
-                     {"verdict", verdict_name(diagnosis.verdict)},
-                     {"findings", std::move(findings)},
-                     {"undecidable", std::move(undecidable)},
-                     {"unexplained", std::move(unexplained)},
-                     {"certificate", std::move(certificate)},
-                     {"base_parameters", std::move(base)},
-                     {"heldout",
-                      {{"unit", torque_unit(report)},
-                       {"rms_before", numbers(diagnosis.heldout.before)},
-                       {"rms_after", numbers(diagnosis.heldout.after)},
-                       {"noise_floor", numbers(diagnosis.heldout.floor)}}},
-                     {"next_experiment",
-                      {{"purpose", text_or_null(diagnosis.next.purpose)},
-                       {"trajectory", text_or_null(report.trajectory)}}}};
+               {"robot", report.robot},
+               {"joints", report.joints()},
+               {"verdict", verdict_name(diagnosis.verdict)},
+               {"findings", std::move(findings)},
+               {"undecidable", std::move(undecidable)},
+               {"unexplained", std::move(unexplained)},
+               {"certificate", std::move(certificate)},
+               {"base_parameters", std::move(base)},
+               {"heldout",
+                {{"unit", torque_unit(report)},
+                 {"rms_before", numbers(diagnosis.heldout.before)},
+                 {"rms_after", numbers(diagnosis.heldout.after)},
+                 {"noise_floor", numbers(diagnosis.heldout.floor)}}},
+               {"next_experiment",
+                {{"purpose", text_or_null(diagnosis.next.purpose)},
+                 {"trajectory", text_or_null(report.trajectory)}}}};
   // recordings that are too long for memory
   for (const DiagnosedRecording& own : report.recordings) {
     for (const auto& [from, to] : own.stretches) {
