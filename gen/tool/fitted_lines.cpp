@@ -61,7 +61,8 @@ std::size_t indent_of(std::string_view line, std::size_t columns) {
 std::string fitted_line(std::string_view line, int columns) {
   const auto width = static_cast<std::size_t>(columns);
   if (width_of(line) <= width || has_place(line) || shows_file(line)) return std::string(line);
-  const std::string margin(indent_of(line, width), ' ');
+  std::string margin(indent_of(line, width), ' ');
+  if (line.starts_with('#')) margin.front() = '#';  // what follows is a comment too
   std::string result, part;
   for (std::size_t at = 0; at < line.size();) {
     // a word with the blanks before it

@@ -39,6 +39,11 @@ TEST(FittedLine, BreaksAtBlanksAndAlignsWhatFollows) {
   EXPECT_EQ(fitted_line("h\xC3\xA4ngt nicht", 11), "h\xC3\xA4ngt nicht");
 }
 
+TEST(FittedLine, AWrappedCommentStaysAComment) {
+  // the map that 'dynid import --guess' prints stays a map
+  EXPECT_EQ(fitted_line("# one two three", 10), "# one two\n# three");
+}
+
 TEST(FittedLine, LeavesPlacesAndLinesOfFilesAlone) {
   for (const std::string line :
        {"arm.robot:4:7: error: a long sentence that goes on", "run.csv:17: warning: another one",

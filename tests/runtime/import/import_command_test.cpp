@@ -391,7 +391,7 @@ TEST_F(ImportCommand, SimulateAndAtlasReadTrajectoriesByAMap) {
   const Outcome missing = dynid("atlas " + made("arm.robot") + " --trajectory " +
                                 made("other.csv") + " --map " + made("map.yaml"));
   EXPECT_EQ(missing.exit_code, 1) << missing.out;
-  EXPECT_THAT(missing.out, HasSubstr("map.yaml:3:21: error: found no column 'cmd_1'"));
+  EXPECT_THAT(missing.out, HasSubstr("map.yaml:3:22: error: found no column 'cmd_1'"));
 }
 
 TEST_F(ImportCommand, ExciteSumsUpEarlierRecordingsByAMap) {

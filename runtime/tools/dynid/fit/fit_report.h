@@ -48,8 +48,8 @@ struct FitReport {
   Conditioning conditioning;
   std::vector<UnseenCombination> unseen;
   std::optional<ConsistentFit> consistent;
-  std::optional<EffectReport> effects;    ///< of a robot file with rows 'effect'
-  std::optional<HierarchyFit> hierarchy;  ///< robots that share inertia
+  std::optional<EffectReport> effects;      ///< of a robot file with rows 'effect'
+  std::optional<HierarchyFit> hierarchy;    ///< robots that share inertia
   std::optional<WrittenBack> written_back;  ///< where -o is URDF or MJCF
   std::vector<std::string> notes;
 

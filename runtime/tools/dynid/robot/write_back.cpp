@@ -67,8 +67,7 @@ WrittenBack made_description(const ToolOptions& options, const std::string& iden
 
 void write_description(const WrittenBack& made) {
   write_files({{made.path, made.result.text}});
-  std::cout << fmt::format("\n{} is {} with the identified numbers\n", made.path,
-                           made.description);
+  std::cout << fmt::format("\n{} is {} with the identified numbers\n", made.path, made.description);
   for (const auto* lines : {&made.result.table, &made.result.notes}) {
     for (const std::string& line : *lines) std::cout << line << "\n";
   }
