@@ -65,7 +65,10 @@ def judged(arm, kind, seed, dynid, folder, truth):
     if file.robot:
         robot = folder / f"{name}.robot"
         robot.write_text(file.robot(arm))
-    code, words, errors = run(dynid, ["fit", robot, path, "--json", answer, *file.options])
+    try:
+        code, words, errors = run(dynid, ["fit", robot, path, "--json", answer, *file.options])
+    except subprocess.TimeoutExpired:
+        return "crash", name, "no answer after 600 s"
     if code < 0 or code >= 64 or CRASH.search(words):
         return "crash", name, words[-500:]
     off = mistakes(answer, truth) if answer.exists() else []

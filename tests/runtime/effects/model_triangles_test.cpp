@@ -13,16 +13,16 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::known;
 
-constexpr double kSampleTime = 0.005;
+constexpr double kTriangleSampleTime = 0.005;
 
 class ModelTrianglesTest : public testing::Test {
  protected:
   ModelTrianglesTest()
-      : data_(effect_recordings(
-            test::planar_arm(), test::planar_arm_tangents(),
-            test::measured({test::sines(20, kSampleTime), test::sines(15, kSampleTime, 0.9, 0.4)},
-                           test::planar_arm_values(), {}, 0.1, 0.5, 1),
-            {1, -1})),
+      : data_(effect_recordings(test::planar_arm(), test::planar_arm_tangents(),
+                                test::measured({test::sines(20, kTriangleSampleTime),
+                                                test::sines(15, kTriangleSampleTime, 0.9, 0.4)},
+                                               test::planar_arm_values(), {}, 0.1, 0.5, 1),
+                                {1, -1})),
         signals_(data_) {}
 
   /// Triangles of both ways over all parameters of the effects, as far as least squares see them:
