@@ -49,7 +49,9 @@ TEST(Rules, StandInTheReferenceWithTheirValues) {
 }
 
 TEST(Rules, ArePrintedAsAFileThatSetsThem) {
-  const std::string text = test::dynid("diagnose --print-rules").out;
+  const test::Outcome printed = test::dynid("diagnose --print-rules");
+  EXPECT_EQ(printed.exit_code, 0);
+  const std::string& text = printed.out;
   DecisionRules changed;
   for (const DecisionRule* rule : all_rules(changed)) {
     ASSERT_NE(text.find(rule->name), std::string::npos) << rule->name;

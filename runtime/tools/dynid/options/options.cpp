@@ -326,11 +326,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                   parsed.options.as_recorded);
   try {
     tool.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    parsed.exit_code = tool.exit(help);
-    return parsed;
-  } catch (const CLI::CallForVersion& version) {
-    parsed.exit_code = tool.exit(version);
+  } catch (const CLI::Success& ended) {  // --help, --version, --print-rules
+    parsed.exit_code = tool.exit(ended);
     return parsed;
   } catch (const CLI::ParseError& error) {
     // files in another order are one too many, or one too few
