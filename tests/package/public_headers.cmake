@@ -1,5 +1,6 @@
 # The installed headers are those of runtime/public_headers.cmake. Each of them compiles alone. Each public one stands in
 # an example, and the examples compile and run.
+cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/../script.cmake)
 include(${SOURCE_DIR}/runtime/public_headers.cmake)
 set(root ${PREFIX}/include/dyngen/runtime)
@@ -47,9 +48,10 @@ foreach(header IN LISTS shown)
 endforeach()
 
 list(REMOVE_ITEM parts runtime)
+file(WRITE ${WORK}/lists.cmake "set(HEADERS \"${all}\")\nset(COMPONENTS \"${parts}\")\n")
 run(text 0 ${CMAKE_COMMAND} -S ${examples} -B ${WORK}/build -G ${BUILD_TOOL} -DCMAKE_PREFIX_PATH=${PREFIX}
   -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${CXX_LAUNCHER} -DCMAKE_BUILD_TYPE=${BUILD_TYPE}
-  "-DHEADERS=${all}" "-DCOMPONENTS=${parts}")
+  -DLISTS=${WORK}/lists.cmake)
 run(text 0 ${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 foreach(program IN LISTS programs)
   cmake_path(GET program STEM name)

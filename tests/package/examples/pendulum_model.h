@@ -2,6 +2,8 @@
 // The pendulum as a model that is linear in its parameters.
 #pragma once
 
+#include <optional>
+
 #include "pendulum.h"
 #include "runtime/model/linear_model.h"
 
@@ -11,13 +13,10 @@ inline dyngen::runtime::LinearModel pendulum_model() {
   model.name = "pendulum";
   model.joint_names = {"joint1"};
   model.revolute = {true};
-  model.parameters = {{.name = "ZZ1", .unit = "kg m^2", .formula = "ZZ1", .link = 1},
-                      {.name = "MX1", .unit = "kg m", .formula = "MX1", .link = 1},
-                      {.name = "FV1",
-                       .unit = "N m s/rad",
-                       .formula = "FV1",
-                       .link = 1,
-                       .kind = ParameterKind::kViscous}};
+  using enum ParameterKind;
+  model.parameters = {{"ZZ1", "kg m^2", "ZZ1", 1, kInertial, std::nullopt},
+                      {"MX1", "kg m", "MX1", 1, kInertial, std::nullopt},
+                      {"FV1", "N m s/rad", "FV1", 1, kViscous, std::nullopt}};
   model.columns = {{0, 1, 2}};
   model.regressor = [](const Eigen::MatrixXd& q, const Eigen::MatrixXd& dq,
                        const Eigen::MatrixXd& ddq, Eigen::MatrixXd& Y) {

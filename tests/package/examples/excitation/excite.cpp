@@ -16,6 +16,8 @@ int main() {
   limits.upper = Eigen::VectorXd::Constant(1, 2);
   limits.speed = Eigen::VectorXd::Constant(1, 3);
   limits.acceleration = Eigen::VectorXd::Constant(1, 10);
+  limits.torque = Eigen::VectorXd::Constant(1, 20);
+  limits.beta = Eigen::Vector3d(pendulum::kInertia, pendulum::kMoment, pendulum::kViscous);
   limits.validate(model);
 
   ExcitationOptions options;
