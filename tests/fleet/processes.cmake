@@ -6,6 +6,13 @@ file(WRITE ${WORK}/damaged.csv "time,q1,q2,q3\n0,1,2,3\n")
 file(WRITE ${WORK}/bad.txt
   "part/0.csv\nlost.csv\npart/1.csv\ndamaged.csv\npart/2.csv\npart/3.csv\npart/4.csv\n")
 
+# Standard output and errors come through mpirun one beside the other, in any order of their lines.
+function(sorted_lines variable text)
+  string(REPLACE "\n" ";" lines "${text}")
+  list(SORT lines)
+  set(${variable} "${lines}" PARENT_SCOPE)
+endfunction()
+
 foreach(list IN ITEMS part/list.txt bad.txt)
   cmake_path(GET list STEM name)
   run(alone 0 ${DYNID} fit ${robot} --list ${list} -o ${name}.robot --json ${name}.json)
@@ -16,7 +23,9 @@ foreach(list IN ITEMS part/list.txt bad.txt)
     expect_same_file("${K} processes" ${WORK}/${name}.json ${WORK}/${name}_${K}.json)
     # what mpirun's libraries say of a machine without /sys, a bare tree for instance
     string(REGEX REPLACE "\\[hwloc/[^\n]*\n" "" text "${text}")
-    if(NOT text STREQUAL alone)
+    sorted_lines(lines "${text}")
+    sorted_lines(lines_alone "${alone}")
+    if(NOT lines STREQUAL lines_alone)
       message(FATAL_ERROR "${list}: ${K} processes print\n${text}\nwithout mpirun:\n${alone}")
     endif()
   endforeach()
