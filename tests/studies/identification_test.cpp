@@ -127,7 +127,8 @@ TEST(Identification, InstrumentsHelpAgainstACoarseEncoderInTheLoop) {
     options.state.cutoff_hz = hz;
     const auto both = study(robot, 4, {FitMethod::kLs, FitMethod::kIv}, loop, options);
     EXPECT_LT(median(both[1].torque_errors), part * median(both[0].torque_errors));
-    EXPECT_GT(both[1].coverage(), both[0].coverage());
+    // deviations of least squares contain the bias of the noisy accelerations
+    for (const auto& method : both) EXPECT_GT(method.coverage(), 0.9) << hz;
   }
 }
 

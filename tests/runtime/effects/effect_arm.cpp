@@ -7,6 +7,7 @@
 #include <random>
 
 #include "runtime/effects/effect_fit.h"
+#include "runtime/recordings/periods.h"
 
 namespace dyngen::test {
 
@@ -154,7 +155,12 @@ MotionSource source_of(const Motion& motion) {
   source.sample_time = motion.sample_time;
   source.position_noise = VectorXd::Zero(motion.joints());
   source.fastest = motion.dq.cwiseAbs().colwise().maxCoeff();
-  const auto run = std::make_shared<const Motion>(motion);
+  Recording positions;
+  positions.time = motion.time;
+  positions.q = motion.q;
+  positions.run_starts = {0};
+  const auto run = std::make_shared<Motion>(motion);
+  run->period = find_periods(positions).period;
   source.pieces = [run](const std::function<void(const StreamPiece&)>& visit) {
     visit({*run, false});
   };
