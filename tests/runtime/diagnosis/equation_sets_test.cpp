@@ -309,17 +309,15 @@ TEST(EquationSets, NoiseOfPositionsIsNotInWhatColumnsAreHeldAgainst) {
 /// accelerations of. @param repeats  in whole samples
 MotionSource noisy_arm(bool repeats) {
   constexpr double kPositionNoise = 1e-4;  // rad
-  const Motion exact = test::sines(30, 1 / kRate, 0.3);
+  constexpr double kPeriod = 6;            // s
+  const Motion exact = repeats ? test::sines(30, 1 / kRate, 0.3, 20 * std::acos(-1.0) / kPeriod)
+                               : test::sines(30, 1 / kRate, 0.3);
   Recording recording;
   recording.time = exact.time;
   recording.q = exact.q;
   test::measured({exact}, test::planar_arm_values(), {}, 0.01, 0, 7)
       .front()
       .pieces([&](const StreamPiece& piece) { recording.tau = piece.motion.tau; });
-  constexpr Index kPeriod = 3000;
-  for (Index k = kPeriod; repeats && k < exact.samples(); ++k) {
-    recording.q.row(k) = recording.q.row(k % kPeriod);
-  }
   std::mt19937_64 random(8);
   std::normal_distribution<double> normal;
   for (double& q : recording.q.reshaped()) q += kPositionNoise * normal(random);

@@ -300,7 +300,7 @@ TEST(Diagnosis, SaysInWhichRecordingAJointRests) {
   const Diagnosis diagnosis =
       diagnose(test::arm_input(train, {}, {test::spring_law()}), test::every_sample());
   EXPECT_EQ(diagnosis.verdict, Verdict::kClean) << diagnosis.sentence;
-  EXPECT_NE(diagnosis.noise.how.find("turn in " + train[1].name), std::string::npos)
+  EXPECT_NE(diagnosis.noise.how.find("stick at reversals in " + train[1].name), std::string::npos)
       << diagnosis.noise.how;
 }
 
