@@ -11,11 +11,6 @@ build=${BUILD:-build/tidy}
 cmake -G Ninja -S . -B "$build" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_UNITY_BUILD=OFF -DDYNGEN_BUILD_TESTS=OFF \
   -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
 
-# sources that the build makes without a compiler
-made=$(ninja -C "$build" -t targets all | sed -n 's/: CUSTOM_COMMAND$//p' | grep -E '^(gen|runtime)/.*\.(h|cpp)$' || true)
-# shellcheck disable=SC2086  # targets, in words
-[ -z "$made" ] || ninja -C "$build" $made > /dev/null
-
 if [ $# -eq 0 ]; then set -- '^gen/' '^runtime/'; fi
 for pattern in "$@"; do git ls-files 'gen/*.cpp' 'runtime/*.cpp' | grep -E "$pattern" || true; done |
   grep -v 'puma560_demo' | sort -u > "$build/tidy_files"  # the demo includes what dyngen makes

@@ -167,14 +167,11 @@ class MjcfReader {
     RigidPose step = pose;
     for (std::size_t i = 0; i < joints.size(); ++i) {
       TreeJoint& joint = joints[i].joint;
-      const bool last = i + 1 == joints.size();
       joint.parent = parent;
       joint.child = static_cast<int>(tree_.bodies.size());
       joint.pose = step * from_reference(joint, joints[i].reference);
       step = RigidPose{};
-      if (last) {
-        tree_.bodies.push_back(std::move(body));
-      } else {
+      if (i + 1 < joints.size()) {
         TreeBody between;
         between.name = fmt::format("{}_{}", body.name, i + 1);
         between.place = between.inertial_place = joint.place;
@@ -183,6 +180,7 @@ class MjcfReader {
       parent = joint.child;
       tree_.joints.push_back(std::move(joint));
     }
+    tree_.bodies.push_back(std::move(body));
     return parent;
   }
 
