@@ -3,6 +3,5 @@
 find_package(OpenBLAS QUIET CONFIG)
 if(OpenBLAS_FOUND AND NOT TARGET dyngen::blas)
   add_library(dyngen::blas INTERFACE IMPORTED GLOBAL)
-  target_include_directories(dyngen::blas SYSTEM INTERFACE ${OpenBLAS_INCLUDE_DIRS})
   target_link_libraries(dyngen::blas INTERFACE ${OpenBLAS_LIBRARIES})
 endif()

@@ -14,6 +14,32 @@ function(dyngen_optional_part part found package adds)
   set_property(GLOBAL APPEND PROPERTY dyngen_optional_parts "${line}")
 endfunction()
 
+# dyngen_source_with(<target> <source> PARTS <part>... [LIBRARIES <library>...] [INCLUDES <folder>...]): a source that asks
+# `#if DYNGEN_WITH_<part>`. Nothing else is compiled differently where a part is absent: a compiler cache holds all other
+# sources for every choice of parts. Where the parts are there, LIBRARIES are linked, and INCLUDES are for this source.
+function(dyngen_source_with target source)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "PARTS;LIBRARIES;INCLUDES")
+  set(definitions "")
+  set(options "")
+  set(all TRUE)
+  foreach(part IN LISTS arg_PARTS)
+    if(DYNGEN_WITH_${part})
+      list(APPEND definitions DYNGEN_WITH_${part}=1)
+    else()
+      list(APPEND definitions DYNGEN_WITH_${part}=0)
+      set(all FALSE)
+    endif()
+  endforeach()
+  if(all)
+    target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
+    foreach(folder IN LISTS arg_INCLUDES)
+      list(APPEND options -isystem${folder})
+    endforeach()
+  endif()
+  set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/${source} TARGET_DIRECTORY ${target} PROPERTIES
+    COMPILE_DEFINITIONS "${definitions}" COMPILE_OPTIONS "${options}" SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # dyngen_show_optional_parts(): all of them, for the end of the configuration.
 function(dyngen_show_optional_parts)
   get_property(lines GLOBAL PROPERTY dyngen_optional_parts)

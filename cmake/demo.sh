@@ -3,11 +3,11 @@
 #
 # Installs the packages that are missing, builds dyngen, generates the code of a Puma 560, prints its operation counts
 # beside the bounds, torques and speed. Then builds dynid, which finds friction that a model does not have in recordings
-# full of noise. Broken off, it goes on from where it was. BUILD is the build folder (build/demo).
+# full of noise. Broken off, it goes on from where it was. BUILD is the build folder (build/quick).
 set -eu
 cd "$(dirname "$0")/.."
 
-build=${BUILD:-build/demo}
+build=${BUILD:-build/quick}
 log=$build.log
 mkdir -p "$(dirname "$build")"
 begin=$(date +%s)
@@ -21,7 +21,7 @@ WORDS
 # took WHAT SINCE: the seconds that a step took.
 took() { echo "($1: $(($(date +%s) - $2)) s)"; }
 
-sh cmake/install_packages.sh build-essential cmake ninja-build pkg-config \
+sh cmake/install_packages.sh build-essential cmake ninja-build ccache pkg-config \
   libginac-dev libcln-dev libeigen3-dev libfmt-dev libcli11-dev zlib1g-dev libexpat1-dev nlohmann-json3-dev libboost-dev
 took "packages" "$begin"
 

@@ -10,7 +10,7 @@
 #include "gen/diagnostic/utf8.h"
 #include "gen/xml/attribute_ranges.h"
 
-#ifdef DYNGEN_WITH_EXPAT
+#if DYNGEN_WITH_EXPAT
 #include <expat.h>
 #endif
 
@@ -30,7 +30,7 @@ const XmlElement* XmlElement::child(std::string_view wanted) const {
   return nullptr;
 }
 
-#ifndef DYNGEN_WITH_EXPAT
+#if !DYNGEN_WITH_EXPAT
 
 bool has_xml_reader() { return false; }
 

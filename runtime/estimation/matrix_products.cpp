@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/estimation/matrix_products.h"
 
-#ifdef DYNGEN_WITH_BLAS
+#if DYNGEN_WITH_BLAS
 #include <cblas.h>
 #endif
 
@@ -10,7 +10,7 @@ namespace dyngen::runtime {
 using Eigen::MatrixXd;
 using Eigen::Ref;
 
-#ifdef DYNGEN_WITH_BLAS
+#if DYNGEN_WITH_BLAS
 
 /// An OpenBLAS that was built without threads does not guard its work space against those of a
 /// program: of 40 000 products on two threads 38 came out wrong (0.3.21). Which one a program gets

@@ -7,13 +7,13 @@
 #include <limits>
 #include <stdexcept>
 
-#ifdef DYNGEN_WITH_ZLIB
+#if DYNGEN_WITH_ZLIB
 #include <zlib.h>
 #endif
 
 namespace dyngen::runtime {
 
-#ifdef DYNGEN_WITH_ZLIB
+#if DYNGEN_WITH_ZLIB
 
 bool gzip_available() { return true; }
 

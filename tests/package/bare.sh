@@ -21,7 +21,8 @@ artifacts=${BARE_ARTIFACTS:-$cache/logs}
 ccache=${BARE_CCACHE:-}
 base=$cache/base
 tree=$cache/tree
-clone=/root/dyngen # within the tree
+# Within the tree, at the path that it has here: both are the same to a compiler cache.
+clone=$project
 times=$artifacts/times.txt
 
 fail() {
@@ -78,6 +79,7 @@ fresh_tree() {
   cp /etc/resolv.conf "$tree/etc/resolv.conf"
   # debootstrap leaves to the installer what every installed Debian has; without it a name server is asked for localhost
   printf '127.0.0.1 localhost\n' >"$tree/etc/hosts"
+  mkdir -p "$tree$(dirname "$clone")"
   git -c safe.directory='*' clone -q --no-hardlinks "$project" "$tree$clone"
   mkdir -p "$tree/dev/shm"
   mount --bind /proc "$tree/proc"
@@ -149,12 +151,12 @@ for part in "$@"; do
     demo)
       fresh_tree
       in_tree demo sh cmake/demo.sh
-      keep build/demo.log build/demo/puma560.c
+      keep build/quick.log build/quick/puma560.c
       ;;
     test)
       fresh_tree
       in_tree test sh cmake/test.sh
-      keep build/test/ctest.log build/test/.ninja_log
+      keep build/quick/ctest.log build/quick/.ninja_log
       ;;
     parts)
       fresh_tree

@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 
 needed="build-essential cmake ninja-build pkg-config libginac-dev libcln-dev libeigen3-dev libfmt-dev libcli11-dev"
-build=build/none
+build=build/quick
 begin=$(date +%s)
 
 fail() {
@@ -131,18 +131,18 @@ all="libopenblas-pthread-dev zlib1g-dev libboost-dev nlohmann-json3-dev libceres
   libexpat1-dev libyaml-cpp-dev libmatio-dev libhdf5-dev libzip-dev libsqlite3-dev liblz4-dev libzstd-dev libbz2-dev"
 # shellcheck disable=SC2086  # one word each
 sh cmake/install_packages.sh $all >/dev/null
-rm -rf build/configured
-configure build/configured -DDYNGEN_BUILD_TESTS=OFF
+rm -rf $build
+configure $build -DDYNGEN_BUILD_TESTS=OFF
 # shellcheck disable=SC2086
-expect_parts build/configured.log $all
+expect_parts $build.log $all
 took "configured with all" "$step"
 step=$(date +%s)
-cmake --build build/configured >>build/configured.log 2>&1 || {
-  tail -n 60 build/configured.log >&2
+cmake --build $build >>$build.log 2>&1 || {
+  tail -n 60 $build.log >&2
   fail "it does not build with all optional packages"
 }
-build/configured/runtime/dynid --version | grep -q "^without" && fail "dynid says that a package is absent: $(build/configured/runtime/dynid --version)"
-build/configured/runtime/dynid fit tests/package/pendulum.robot build/run.csv --json build/fit.json --report build/fit.html \
+$dynid --version | grep -q "^without" && fail "dynid says that a package is absent: $($dynid --version)"
+$dynid fit tests/package/pendulum.robot build/run.csv --json build/fit.json --report build/fit.html \
   --figures build/figures >/dev/null
 took "build with all" "$step"
 took "all parts" "$begin"
