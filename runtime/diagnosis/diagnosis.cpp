@@ -71,16 +71,19 @@ class Diagnostician {
     CompetitionOptions settings;
     settings.false_alarm = options_.false_alarm;
     settings.most_winners = options_.most_findings;
+    settings.effort = options_.effort;
     settings.seed = options_.seed;
     settings.with_regressor = !options_.residual_only;
     settings.rules = options_.rules;
     search_.compete(settings, progress_);
+    answer_.effort = {options_.effort, search_.work(), result().cut_off};
     describe_noise();
     answer_.before = tests_of(result().first);
     answer_.after = tests_of(result().last);
     if (found_nothing(result())) {
       answer_.sentence =
           too_little.empty() ? why_too_slow(result(), options_.rules.noise) : too_little;
+      if (answer_.sentence.empty()) answer_.sentence = why_cut_off(result());
     }
     if (!answer_.sentence.empty()) return std::move(answer_);
     answer_.findings = found_effects(search_, settings, progress_);
@@ -285,6 +288,10 @@ void DiagnosisOptions::validate() const {
   if (!(false_alarm > 0 && false_alarm < 0.5)) {
     throw std::invalid_argument(fmt::format(
         "DiagnosisOptions: false_alarm is {}, expected a number in (0, 0.5)", false_alarm));
+  }
+  if (!(effort >= 0 && std::isfinite(effort))) {
+    throw std::invalid_argument(
+        fmt::format("DiagnosisOptions: effort is {}, expected a number, 0 or more", effort));
   }
   if (most_findings < 0) {
     throw std::invalid_argument(

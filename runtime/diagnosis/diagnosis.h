@@ -16,6 +16,9 @@ namespace dyngen::runtime {
 struct DiagnosisOptions {
   double false_alarm = 0.002;  ///< of the whole diagnosis, 0 .. 0.5
   int most_findings = 8;
+  /// Work that the search may do, in 1e9 multiplications (WorkCount); 0: as much as it needs. What
+  /// the model alone leaves is looked at in any case.
+  double effort = 0;
   /// The regressor's parameters are not fitted: torque is what another simulator left unexplained.
   bool residual_only = false;
   Eigen::Index decimation = 0;  ///< as RowOptions

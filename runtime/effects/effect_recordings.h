@@ -4,11 +4,13 @@
 #include <Eigen/Core>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "runtime/effects/effect_law.h"
+#include "runtime/effects/work_count.h"
 #include "runtime/estimation/rows.h"
 #include "runtime/identification/motion_rows.h"
 #include "runtime/identification/motion_source.h"
@@ -63,10 +65,16 @@ struct EffectRecordings {
   EffectRobot robot;
   std::vector<EffectRun> runs;  ///< those that give at least one equation
   double row_time = 0;          ///< s between equations; the mean where recordings differ
+  /// What is computed of them is added here; nothing: it is not counted.
+  std::shared_ptr<WorkCount> work{};
 
   [[nodiscard]] int joints() const { return model.joints(); }
   [[nodiscard]] bool acts_in(const EffectInstance& effect, std::size_t run) const {
     return effect.recording < 0 || effect.recording == runs[run].recording;
+  }
+  /// Adds to the work, if it is counted; as WorkCount::add().
+  void count_work(Eigen::Index rows, Eigen::Index columns, Eigen::Index each) const {
+    if (work) work->add(rows, columns, each);
   }
   /// Equations of each joint, over all runs.
   [[nodiscard]] Eigen::Index equations() const;

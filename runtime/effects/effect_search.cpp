@@ -94,6 +94,7 @@ std::vector<int> EffectSearch::places(const EffectPoint& point, bool linear) con
 
 SearchState EffectSearch::evaluated(EffectPoint point) const {
   SearchState state;
+  data_.count_work(data_.equations() * data_.joints(), unknowns_.size, unknowns_.size);
   state.factor = triangles_.at(signals_, point, unknowns_);
   state.cost =
       residual_squares(state.factor, values_of(point, unknowns_)).dot(weights_.cwiseAbs2());

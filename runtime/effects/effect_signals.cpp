@@ -278,7 +278,9 @@ VectorXd EffectSignals::signal(std::size_t run, const std::string& name,
 }
 
 MatrixXd EffectSignals::variables(std::size_t run, const EffectInstance& effect, int target) {
+  constexpr Index kEach = 40;  // multiplications: a law's value, and the filter behind it
   const auto& names = effect.law.variables;
+  data_.count_work(data_.runs[run].motion.samples(), static_cast<Index>(names.size()) + 1, kEach);
   MatrixXd values(data_.runs[run].motion.samples(), static_cast<Index>(names.size()));
   for (std::size_t v = 0; v < names.size(); ++v) {
     values.col(static_cast<Index>(v)) = signal(run, names[v], effect, target);

@@ -215,6 +215,8 @@ void EvidenceSystem::whiten(Eigen::Ref<MatrixXd> rows, int joint) const {
 }
 
 JointColumns EvidenceSystem::whitened(JointColumns columns) const {
+  constexpr Index kEach = 20;  // multiplications: the order of the filter that whitens
+  for (const MatrixXd& part : columns.parts) data_.count_work(part.rows(), part.cols(), kEach);
   for (std::size_t i = 0; i < columns.joints.size(); ++i) {
     whiten(columns.parts[i], columns.joints[i]);
   }
@@ -222,6 +224,7 @@ JointColumns EvidenceSystem::whitened(JointColumns columns) const {
 }
 
 void EvidenceSystem::project(const MatrixXd& columns) {
+  data_.count_work(columns.rows(), columns.cols(), columns.cols() + 2 * noise_.cols());
   rest_ -= columns * (columns.transpose() * rest_);
   subtract_product(columns, transposed_product(columns, noise_), noise_);
   const Index before = basis_.cols();
@@ -282,6 +285,7 @@ std::vector<Products> EvidenceSystem::products_of_groups(const JointColumns& whi
     rest += C.transpose() * rest_.segment(first, rows_);
     if (surrogates) noise += transposed_product(C, noise_.middleRows(first, rows_));
   }
+  if (surrogates) count_products(whitened, rows_, true);
   const MatrixXd inner = absorbed(whitened, 0, rows_);
   std::vector<Products> groups;
   for (Index start = 0; start + width <= count; start += width) {
@@ -300,8 +304,16 @@ std::vector<Products> EvidenceSystem::products_of_groups(const JointColumns& whi
   return groups;
 }
 
+void EvidenceSystem::count_products(const JointColumns& whitened, Index rows,
+                                    bool with_surrogates) const {
+  const Index others = with_surrogates ? noise_.cols() : basis_.cols() + whitened.columns();
+  const auto joints = static_cast<Index>(whitened.joints.size());
+  data_.count_work(joints * rows, whitened.columns(), others);
+}
+
 MatrixXd EvidenceSystem::absorbed(const JointColumns& whitened, Index from, Index to) const {
   MatrixXd inner = MatrixXd::Zero(basis_.cols(), whitened.columns());
+  count_products(whitened, to - from, false);
   for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
     inner += transposed_product(basis_.middleRows(whitened.joints[i] * rows_ + from, to - from),
                                 whitened.parts[i].middleRows(from, to - from));
@@ -341,6 +353,8 @@ Products EvidenceSystem::products(const JointColumns& whitened, Index from, Inde
   products.rest = VectorXd::Zero(k);
   products.noise = MatrixXd::Zero(k, surrogates ? noise_.cols() : 0);
   MatrixXd inner = MatrixXd::Zero(basis_.cols(), k);
+  count_products(whitened, count, false);
+  if (surrogates) count_products(whitened, count, true);
   for (std::size_t i = 0; i < whitened.joints.size(); ++i) {
     const Index first = whitened.joints[i] * rows_ + from;
     const auto C = whitened.parts[i].middleRows(from, count);

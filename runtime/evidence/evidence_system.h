@@ -99,6 +99,8 @@ class EvidenceSystem {
   void whiten(Eigen::Ref<Eigen::MatrixXd> rows, int joint) const;
   void take_out_unknown(Eigen::Ref<Eigen::MatrixXd> rows, int joint) const;
   void project(const Eigen::MatrixXd& columns);
+  /// Of columns with the model's and one another, or with the surrogates, over rows of each joint.
+  void count_products(const JointColumns& whitened, Eigen::Index rows, bool with_surrogates) const;
 
   const EffectRecordings& data_;
   ScanRules rules_;

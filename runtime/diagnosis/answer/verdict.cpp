@@ -68,6 +68,12 @@ std::string why_too_slow(const CompetitionResult& result, const NoiseRules& rule
       joint + 1, least);
 }
 
+std::string why_cut_off(const CompetitionResult& result) {
+  if (result.cut_off.empty()) return {};
+  return fmt::format("Nothing was found before the effort was spent; not searched: {}.",
+                     fmt::join(result.cut_off, ", "));
+}
+
 Conclusion concluded(const Search& search, const std::vector<Finding>& findings,
                      const AnswerRules& rules) {
   const std::vector<Nameless>& all = search.result().nameless;

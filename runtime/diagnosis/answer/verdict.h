@@ -22,6 +22,10 @@ bool found_nothing(const CompetitionResult& result);
 /// independent samples. Empty: they are worth enough.
 std::string why_too_slow(const CompetitionResult& result, const NoiseRules& rules);
 
+/// Why recordings in which nothing was found are not clean: not everything was searched. Empty: it
+/// was.
+std::string why_cut_off(const CompetitionResult& result);
+
 /// @param findings  of the winners, in their order, then those since the reference
 Conclusion concluded(const Search& search, const std::vector<Finding>& findings,
                      const AnswerRules& rules);

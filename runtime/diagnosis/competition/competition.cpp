@@ -80,6 +80,7 @@ class Competition {
       if (round == 0) result_.first = screening;
       result_.last = screening;
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
+      if (exhausted("further effects")) break;
       const bool found = result_.noise.from_periods
                              ? next_winner(system, screening) || next_pair(system, screening) ||
                                    nameless_.next(system, screening)
@@ -88,7 +89,8 @@ class Competition {
       if (options_.until_stiction && !result_.sticking.empty()) return std::move(result_);
     }
     drop_superfluous();
-    if (scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {
+    if (!exhausted("frequencies of what was found") &&
+        scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {
       result_.fit = fit(effects());
     }
     return std::move(result_);
@@ -97,6 +99,14 @@ class Competition {
  private:
   void tell(const std::string& stage, double done) const {
     if (progress_) progress_(stage, done);
+  }
+
+  /// Whether the work that may be done is done; then a search is left out, and named.
+  bool exhausted(const std::string& search) {
+    if (options_.effort <= 0 || !train_.work || train_.work->done() < options_.effort) return false;
+    std::vector<std::string>& names = result_.cut_off;
+    if (std::find(names.begin(), names.end(), search) == names.end()) names.push_back(search);
+    return true;
   }
 
   [[nodiscard]] std::vector<EffectInstance> effects_and(const EffectInstance& effect) const {
@@ -258,7 +268,7 @@ class Competition {
 
   bool next_pair(const EvidenceSystem& system, const Screening& screening) {
     return static_cast<int>(result_.winners.size()) + 2 <= options_.most_winners &&
-           pairs_.next(system, screening);
+           !exhausted("pairs of effects") && pairs_.next(system, screening);
   }
 
   /// One winner more beside those that there are. @param wanted  how many there are to be
@@ -322,6 +332,7 @@ class Competition {
   [[nodiscard]] NamedResult settled(const NamedResult& named, const std::vector<std::size_t>& order,
                                     const std::set<std::size_t>& refused,
                                     const Screening& screening) {
+    if (exhausted("rivals of what was found")) return named;
     tell("rivals of " + short_name(named.best.effect), 0);
     std::vector<EffectInstance> all = effects();
     all.push_back(named.best.effect);

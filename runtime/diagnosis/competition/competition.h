@@ -14,6 +14,7 @@ namespace dyngen::runtime {
 struct CompetitionOptions {
   double false_alarm = 0;  ///< this and the next two: of DiagnosisOptions
   int most_winners = 0;
+  double effort = 0;  ///< the same
   std::uint64_t seed = 0;
   bool with_regressor = true;
   DecisionRules rules;

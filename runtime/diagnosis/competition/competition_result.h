@@ -53,6 +53,8 @@ struct CompetitionResult {
   EffectFit fit;           ///< of the model with the winners
   TorqueNoiseModel noise;  ///< of the last round
   Screening first, last;   ///< of the model alone, and with everything that was found
+  /// Searches that were left out, or ended, where the work was bounded: "pairs of effects".
+  std::vector<std::string> cut_off;
 };
 
 /// Whether a hypothesis has won already.

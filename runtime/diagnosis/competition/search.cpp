@@ -16,6 +16,14 @@ Eigen::VectorXd model_alone(const EffectRecordings& train) {
   return fit_effects(train, {}, once).point.beta;
 }
 
+/// What is computed of any of them is added there.
+void count_in(EquationSets& sets, const std::shared_ptr<WorkCount>& work) {
+  for (EffectRecordings* own : {&sets.train, &sets.heldout, &sets.proof, &sets.slow}) {
+    own->work = work;
+  }
+  if (sets.beside) sets.beside->work = work;
+}
+
 }  // namespace
 
 Search::Search(const DiagnosisInput& input, Eigen::Index decimation, const EquationRules& rules)
@@ -26,7 +34,9 @@ Search::Search(const DiagnosisInput& input, Eigen::Index decimation, const Equat
                                    : Division{input.train, input.heldout}),
       seen_{.rows = diagnosis_rows(parts_.train, decimation), .rules = rules},
       sets_(equation_sets_of(input, parts_, seen_)),
-      moving_(counted_part(sets_.train)) {}
+      moving_(counted_part(sets_.train)) {
+  count_in(sets_, work_);
+}
 
 void Search::compete(CompetitionOptions options, const CompetitionProgress& progress) {
   const ScaleTable scales(sets_.train);
@@ -62,6 +72,7 @@ bool Search::look_beside(const std::vector<StictionJoint>& found) {
                 away_from_stiction(whole_->heldout, parts_.heldout, whole)};
   seen_ = beside;
   sets_ = std::move(sets);
+  count_in(sets_, work_);
   return true;
 }
 

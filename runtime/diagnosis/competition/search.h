@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,8 @@ class Search {
   /// The same without stiction intervals, where friction can take any value: what a verdict is of.
   [[nodiscard]] const EffectRecordings& judged_train() const;
   [[nodiscard]] const EffectRecordings& judged_heldout() const;
+  /// In 1e9 multiplications.
+  [[nodiscard]] double work() const { return work_->done(); }
   [[nodiscard]] bool has_stiction() const { return away_.has_value(); }
 
  private:
@@ -46,6 +49,7 @@ class Search {
   EquationRules rules_;
   Division parts_;
   EquationSetOptions seen_;
+  std::shared_ptr<WorkCount> work_ = std::make_shared<WorkCount>();
   EquationSets sets_;
   Eigen::VectorXd moving_;  ///< (n) part of the equations in which a joint does not stand still
   /// Recordings with the joint state that was chosen and where joints rest, if the sets are

@@ -139,6 +139,13 @@ struct NextExperiment {
   std::vector<std::string> families;
 };
 
+/// Work of the search, and what was not searched since it was bounded.
+struct EffortUsed {
+  double most = 0;                   ///< in 1e9 multiplications; 0: no bound
+  double done = 0;                   ///< the same
+  std::vector<std::string> cut_off;  ///< "pairs of effects", ...
+};
+
 /// The answer.
 struct Diagnosis {
   Verdict verdict = Verdict::kInsufficientData;
@@ -154,6 +161,7 @@ struct Diagnosis {
   std::vector<BaseShift> base_parameters;
   HeldoutResidual heldout;
   NextExperiment next;
+  EffortUsed effort;
   EffectFit fit;  ///< of the model with the findings, to the training recordings
 };
 

@@ -92,6 +92,45 @@ TEST(Diagnosis, NamesWhatWasLeftOut) {
   }
 }
 
+/// A bound on the work gives what was found by then, names what was not searched, and calls nothing
+/// clean that it did not look at.
+TEST(Diagnosis, EndsWhereItsEffortIsSpent) {
+  const EffectInstance spring = test::known(test::spring_law(), 1, {0.4});
+  const DiagnosisInput input = input_with({spring}, 1), null = input_with({}, 1);
+  DiagnosisOptions options = test::every_sample();
+  const Diagnosis all = diagnose(input, options);
+  ASSERT_EQ(all.findings.size(), 1U);
+  EXPECT_GT(all.effort.done, 0);
+  EXPECT_EQ(all.effort.most, 0);
+  EXPECT_TRUE(all.effort.cut_off.empty());
+
+  options.effort = 1e-6;
+  const Diagnosis least = diagnose(input, options);
+  EXPECT_TRUE(least.findings.empty());
+  EXPECT_EQ(least.effort.cut_off, std::vector<std::string>{"further effects"});
+  EXPECT_EQ(least.verdict, Verdict::kInsufficientData);
+  EXPECT_NE(least.sentence.find("further effects"), std::string::npos) << least.sentence;
+  EXPECT_LT(least.effort.done, all.effort.done);
+  EXPECT_EQ(diagnose(null, options).verdict, Verdict::kInsufficientData);
+
+  // enough for the first effect, and for nothing beside it
+  options.effort = 1.01 * least.effort.done;
+  const Diagnosis some = diagnose(input, options);
+  ASSERT_EQ(some.findings.size(), 1U) << some.sentence;
+  EXPECT_EQ(some.findings.front().effect.law.name, spring.law.name);
+  EXPECT_FALSE(some.effort.cut_off.empty());
+  EXPECT_LT(some.effort.done, all.effort.done);
+
+  options.effort = 2 * all.effort.done;
+  const Diagnosis enough = diagnose(input, options);
+  EXPECT_EQ(enough.effort.done, all.effort.done);
+  EXPECT_TRUE(enough.effort.cut_off.empty());
+  EXPECT_EQ(enough.sentence, all.sentence);
+
+  options.effort = -1;
+  EXPECT_THROW(diagnose(input, options), std::invalid_argument);
+}
+
 /// A factor on the torque of one of two joints is, but for a factor on all of them, one on the
 /// other.
 TEST(Diagnosis, SaysOnWhichOtherJointAnEffectWouldDoAsWell) {

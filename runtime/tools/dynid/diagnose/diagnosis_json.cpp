@@ -45,6 +45,12 @@ Json finding_json(const Finding& finding, const EffectWords& words) {
           {"why", finding.why}};
 }
 
+Json effort_json(const EffortUsed& effort) {
+  return {{"done", number(effort.done)},
+          {"limit", effort.most > 0 ? number(effort.most) : Json(nullptr)},
+          {"not_searched", effort.cut_off}};
+}
+
 /// One word for all joints where they are alike.
 std::string torque_unit(const DiagnosisReport& report) {
   bool any_revolute = false, any_prismatic = false;
@@ -99,6 +105,7 @@ std::string diagnosis_json(const DiagnosisReport& report) {
                  {"rms_before", numbers(diagnosis.heldout.before)},
                  {"rms_after", numbers(diagnosis.heldout.after)},
                  {"noise_floor", numbers(diagnosis.heldout.floor)}}},
+               {"effort", effort_json(diagnosis.effort)},
                {"next_experiment",
                 {{"purpose", text_or_null(diagnosis.next.purpose)},
                  {"trajectory", text_or_null(report.trajectory)}}}};

@@ -202,6 +202,10 @@ std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style
   }
   text += heldout_table(report, style) + forward_table(report);
   if (!diagnosis.noise.how.empty()) text += "noise: " + diagnosis.noise.how + "\n";
+  if (diagnosis.effort.most > 0) {
+    text += fmt::format("effort: {:.3g} of {:.3g}\n", diagnosis.effort.done, diagnosis.effort.most);
+  }
+  text += list_text("not searched, since the effort was spent:", diagnosis.effort.cut_off);
   for (const std::string& note : report.notes) text += note + "\n";
   text += list_text("unexplained:", unexplained_lines(report));
   text += list_text("cannot be decided:", undecidable_lines(diagnosis));

@@ -46,6 +46,12 @@ void add_diagnose_options(CLI::App& command, DiagnoseOptions& options) {
       ->capture_default_str();
   command.add_option("--seed", options.diagnosis.seed, "of the random numbers")
       ->capture_default_str();
+  command
+      .add_option("--effort", options.diagnosis.effort,
+                  "work that the search may do, in 1e9 multiplications: the same answer on every "
+                  "machine; 0: as much as it needs")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command.add_option("--rules", options.rules,
                      "file of decision rules for studies: a name and a value on each line");
   command.add_flag_callback(
