@@ -108,7 +108,7 @@ class SignalRepair {
       }
     }
     tell_glitches(fmt::format("q{}", j + 1), recording_.q.col(j), glitches);
-    tell_stuck(fmt::format("q{} freezes while the joint moves, and jumps after it", j + 1), stuck);
+    tell_stuck(fmt::format("q{} freezes while the joint moves", j + 1), stuck);
   }
 
   void repair_torque(Index j) {

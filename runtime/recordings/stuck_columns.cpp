@@ -76,40 +76,66 @@ double mean_speed(const ConstColumn& time, const ConstColumn& values, Index from
   return from < to ? (values(to) - values(from)) / (time(to) - time(from)) : 0;
 }
 
+constexpr Index kBeside = 8;  // samples on either side of a plateau that tell how its joint moved
+
+/// Does a joint stop within one sample, and go on within one? What brakes gets slower before it
+/// stands.
+bool stops_at_once(const ConstColumn& position, Index first, Index last) {
+  constexpr double kFull = 0.7;  // of the largest step beside: a brake of 8 samples leaves 1/8
+  const double before = std::abs(position(first) - position(first - 1));
+  const double after = std::abs(position(last + 2) - position(last + 1));
+  const double largest_before = largest_step(position, first - kBeside, first);
+  const double largest_after = largest_step(position, last + 1, last + 1 + kBeside);
+  return before > 0 && after > 0 && before >= kFull * largest_before &&
+         after >= kFull * largest_after;
+}
+
 }  // namespace
 
 std::vector<Stuck> find_frozen_positions(const ConstColumn& time, const ConstColumn& position,
                                          double sample_time, double resolution) {
-  constexpr Index kBeside = 8;
   constexpr double kLeast = 0.002, kHalfOfAcceleration = 400;  // 800 rad/s^2 make no such jump
   constexpr double kSteps = 5, kManySteps = 8, kResolutions = 10, kMissed = 0.5;
-  constexpr double kHeld = 0.85;
-  std::vector<Stuck> found;
-  Index in_found = 0;
+  constexpr double kHeld = 0.85, kRare = 0.01;
+  constexpr double kSeldom = 0.15;  // of a column: a motion with pauses stands for longer
+  std::vector<Stuck> sure, abrupt;
+  Index in_plateaus = 0, in_abrupt = 0;
   for_each_plateau(time, position, [&](Index first, Index last) {
-    if (first < kBeside || last + 1 >= position.size()) return;
+    if (first < kBeside || last + 2 >= position.size()) return;
+    const Stuck plateau{first + 1, last - first};  // the first of them is a measurement
     const double jump = position(last + 1) - position(last);
     const double step = std::max(largest_step(position, first - kBeside, first),
                                  largest_step(position, last + 1, last + 1 + kBeside));
-    if (std::abs(jump) < std::max({kLeast, kHalfOfAcceleration * sample_time * sample_time,
-                                   kSteps * step, kResolutions * resolution})) {
-      return;
-    }
+    const bool jumps =
+        std::abs(jump) >= std::max({kLeast, kHalfOfAcceleration * sample_time * sample_time,
+                                    kSteps * step, kResolutions * resolution});
     const double speed = (mean_speed(time, position, first - kBeside, first) +
                           mean_speed(time, position, last + 1, last + 1 + kBeside)) /
                          2;
     const double missed = speed * (time(last + 1) - time(first));
     const bool agrees =
         std::abs(jump - missed) <= kMissed * std::max(std::abs(jump), std::abs(missed));
-    if (!agrees && std::abs(jump) < kManySteps * step) return;
-    found.push_back({first + 1, last - first});  // the first of them is a measurement
-    in_found += last - first;
+    if (jumps && (agrees || std::abs(jump) >= kManySteps * step)) {
+      sure.push_back(plateau);
+    } else if (jumps || stops_at_once(position, first, last)) {
+      abrupt.push_back(plateau);
+      in_abrupt += plateau.count;
+    } else {
+      return;
+    }
+    in_plateaus += plateau.count;
   });
+  const auto others = static_cast<double>(position.size() - 1 - in_plateaus);
+  const auto held = static_cast<double>(equal_steps(position) - in_plateaus);
   // A sensor that holds most of its values, or a coarse one, is as it always is.
-  const Index others = position.size() - 1 - in_found;
-  const Index held = equal_steps(position) - in_found;
-  return static_cast<double>(held) > kHeld * static_cast<double>(others) ? std::vector<Stuck>()
-                                                                         : found;
+  if (held > kHeld * others) return {};
+  // Where a column hardly ever repeats a value, many in succession are no measurements.
+  const bool seldom =
+      static_cast<double>(in_abrupt) <= kSeldom * static_cast<double>(position.size());
+  if (held <= kRare * others && seldom) sure.insert(sure.end(), abrupt.begin(), abrupt.end());
+  std::sort(sure.begin(), sure.end(),
+            [](const Stuck& a, const Stuck& b) { return a.first < b.first; });
+  return sure;
 }
 
 std::vector<Stuck> find_stuck_torques(const ConstColumn& time, const ConstColumn& position,

@@ -15,8 +15,9 @@ struct Stuck {
 inline constexpr Eigen::Index kFewestStuck = 20;
 inline constexpr double kShortestStuck = 0.05;
 
-/// A position that freezes while the joint moves, and then jumps by what it missed. Not of a sensor
-/// that holds its values most of the time.
+/// A position that freezes while the joint moves, and then jumps by what it missed. In a column that
+/// hardly ever repeats a value: one that stops and goes on within a sample too, as where the joint
+/// turns back meanwhile. Not of a sensor that holds its values most of the time.
 ///
 /// @param resolution  a small step of the column
 std::vector<Stuck> find_frozen_positions(const Eigen::Ref<const Eigen::VectorXd>& time,

@@ -89,7 +89,7 @@ class Competition {
       if (options_.until_stiction && !result_.sticking.empty()) return std::move(result_);
     }
     drop_superfluous();
-    if (!exhausted("frequencies of what was found") &&
+    if (!result_.winners.empty() && !exhausted("frequencies of what was found") &&
         scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {
       result_.fit = fit(effects());
     }

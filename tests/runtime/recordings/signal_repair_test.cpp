@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -418,6 +420,50 @@ TEST(SignalRepair, ALimitedOrDeadTorqueIsNotStuck) {
   Recording recording = moving_arm({}, generator);
   recording.tau.col(0) = recording.tau.col(0).cwiseMin(6);
   recording.tau.col(1).setZero();
+  const Recording before = recording;
+  const auto notices = repair(recording);
+  EXPECT_TRUE(notices.empty()) << texts(notices);
+  EXPECT_TRUE(same(recording, before));
+}
+
+/// The joint turns back meanwhile: where the column goes on, little or nothing was missed.
+TEST(SignalRepair, APositionThatFreezesAroundAReversalBecomesAGap) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    std::mt19937 generator(seed);
+    ArmMotion motion;
+    motion.sample_time = 0.002;
+    motion.samples = 5000;
+    Recording recording = moving_arm(motion, generator);
+    std::normal_distribution<double> noise(0, 1e-6);
+    const double frequency = between(0.3, 1, generator);
+    for (Index k = 0; k < recording.samples(); ++k) {
+      recording.q(k, 0) =
+          0.4 * std::sin(2 * M_PI * frequency * recording.time(k)) + noise(generator);
+    }
+    const double quarter = 0.25 / frequency, before = between(0.3, 0.9, generator) * quarter,
+                 after = between(0.3, 0.9, generator) * quarter;
+    const auto row = [&](double t) { return static_cast<Index>(t / motion.sample_time); };
+    const Index begin = row(5 * quarter - before), length = row(before + after);
+    recording.q.col(0).segment(begin, length).setConstant(recording.q(begin, 0));
+    const auto notices = repair(recording);
+    ASSERT_EQ(notices.size(), 1U) << seed << "\n" << texts(notices);
+    EXPECT_NE(notices[0].message.find("q1 freezes while the joint moves"), std::string::npos);
+    EXPECT_EQ(recording.run_starts, (std::vector<Index>{0, begin + 1})) << seed;
+    EXPECT_EQ(recording.samples(), 5000 - length + 1);
+  }
+}
+
+/// Commanded positions go from one constant speed to rest within a sample.
+TEST(SignalRepair, AMotionWithPausesIsNotStuck) {
+  std::mt19937 generator(5);
+  ArmMotion motion;
+  motion.sample_time = 0.002;
+  motion.samples = 5000;
+  Recording recording = moving_arm(motion, generator);
+  for (Index k = 0; k < recording.samples(); ++k) {
+    const double t = recording.time(k), turn = std::floor(t / 2), within = t - 2 * turn;
+    recording.q(k, 0) = 0.3 * (turn + std::clamp(within - 0.5, 0.0, 1.0));
+  }
   const Recording before = recording;
   const auto notices = repair(recording);
   EXPECT_TRUE(notices.empty()) << texts(notices);
