@@ -44,7 +44,8 @@ grey plate is a fixed joint. They stand somewhere on their axis, not always at t
 (x), green (y) and blue (z), with the number of the link. Axes with the same origin and direction are one arrow. Joint j turns or
 slides about z of frame j. Links are light and dark grey in turn. A dashed end continues beyond the last length of the file. The
 cross in a ring is the end of the last link. Weight pulls downwards on the paper. The picture states the configuration. All joints
-are at 0, except where limits exclude 0, a prismatic joint would have no length, or links would overlap. ")
+are at 0, except where limits exclude 0, a prismatic joint would have no length, or links would overlap.
+")
 
 file(GLOB robots ${SOURCE_DIR}/robots/*.robot)
 list(SORT robots)
