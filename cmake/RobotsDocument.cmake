@@ -33,18 +33,18 @@ endfunction()
 set(page "# The robots
 
 The files of `robots/` as dyngen reads them: a drawing, and where every axis stands. This page and its drawings are written by
-`cmake --build build --target robots_document`; a test holds them to what dyngen says today. The same for your own arm:
+`cmake --build build --target robots_document`; a test compares them with the present output of dyngen. For your own arm:
 
 ```sh
 dyngen arm.robot --explain --drawing arm.svg
 ```
 
-**How to read a drawing.** A cylinder is a revolute joint, about its z; a box a prismatic one, along its z; a flat grey plate a fixed
-one. They stand somewhere on their axis, not always at the frame's origin. Axes of frames are red (x), green (y) and blue (z), with
-the number of the link; those that point the same way from the same origin are one arrow. Joint j turns or slides about z of frame j.
-Links are grey, one light and one dark; a dashed end goes on beyond the last length of the file; the cross in a ring is the end
-of the last link. Weight pulls downwards on the paper. The configuration stands in the picture: all joints at 0, unless limits leave
-0 out, a prismatic joint would have no length, or links would lie on each other.
+**How to read a drawing.** A cylinder is a revolute joint about its z axis. A box is a prismatic joint along its z axis. A flat
+grey plate is a fixed joint. They stand somewhere on their axis, not always at the origin of the frame. Axes of frames are red
+(x), green (y) and blue (z), with the number of the link. Axes with the same origin and direction are one arrow. Joint j turns or
+slides about z of frame j. Links are light and dark grey in turn. A dashed end continues beyond the last length of the file. The
+cross in a ring is the end of the last link. Weight pulls downwards on the paper. The picture states the configuration. All joints
+are at 0, except where limits exclude 0, a prismatic joint would have no length, or links would overlap.
 ")
 
 file(GLOB robots ${SOURCE_DIR}/robots/*.robot)

@@ -3,13 +3,13 @@
 #
 # Kinematics  modified frames of Armstrong, Khatib and Burdick, "The explicit dynamic model and
 #             inertial parameters of the PUMA 560 arm", 1986.
-# Inertia     mass, centre of mass and inertia of the links from the same paper (tables 4 to 6),
-#             as carried by Corke's Robotics Toolbox, moved exactly to the frame origins. Link 3
-#             has Izz = 0.086 about its centre of mass. The mass of link 1 has no effect and is 0.
+# Inertia     links: same paper (tables 4 to 6), with the numbers of Corke's Robotics Toolbox.
+#             They are moved exactly to the frame origins. Link 3 has Izz = 0.086 about its
+#             centre of mass. The mass of link 1 has no effect and is 0.
 # IA          motor and drive inertia at the joint, same paper, table 6.
 # Friction    Corke's Robotics Toolbox, mdl_puma560, moved from motor to joint: Fv = B G^2 and Fs
-#             = |G| (|Tc+| + |Tc-|) / 2 (his Coulomb friction differs with the sign of the
-#             velocity: the mean stands here).
+#             = |G| (|Tc+| + |Tc-|) / 2. Fs is the mean of both directions, in which his Coulomb
+#             friction differs.
 
 name        puma560
 number_link 6

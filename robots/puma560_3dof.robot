@@ -2,17 +2,17 @@
 # PUMA 560, first three joints: the arm of the thesis "Dynamic estimation for serial manipulators"
 # (1995).
 #
-# Kinematics  modified frames of the thesis's chapter 3 and Appendix A; the offset of the shoulder
-#             and elbow along their axes is grouped into the base parameters, hence r = 0.
-# Inertia     the 15 base parameters of the thesis's Table 7.1 (Armstrong, Khatib and Burdick
-#             1986, motor inertias included), written into the rows that they are named after.
+# Kinematics  modified frames of the thesis's chapter 3 and Appendix A. The base parameters
+#             contain the offset of shoulder and elbow along their axes, hence r = 0.
+# Inertia     the 15 base parameters of the thesis's Table 7.1, motor inertias included (Armstrong,
+#             Khatib and Burdick 1986). They are in the rows after which they are named.
 #             They are grouped values, not the link's own: XX2 stands for XX2 - YY2 - L^2 M3, so
 #             it may be negative. (The thesis does not print which P is which: matched by value.)
 # Friction    none: Table 7.1 gives none.
 # Limits      thesis, Table 5.1.
 #
-# Joint angles are the thesis's: theta = theta_AKB + (pi, pi, -pi), with theta_AKB as in
-# puma560.robot (the shift of joint 1 turns the arm about the vertical and changes no torque).
+# Joint angles are the thesis's: theta = theta_AKB + (pi, pi, -pi), with theta_AKB of puma560.robot.
+# The shift of joint 1 turns the arm about the vertical and changes no torque.
 
 name        puma560_3dof
 number_link 3

@@ -7,9 +7,9 @@
 #             leans by 45 degrees.
 # Gravity     first moments and base acceleration as defined in the C listing of Appendix B (Table
 #             7.6 prints the same numbers rounded).
-# Inertia     0: Table 7.6 identifies gravity parameters only (section 6.3.2), so this file says
-#             nothing about inertia and friction: use it for gravity, not for motion. The links'
-#             masses are 0 too: what they weigh is grouped into the first moments.
+# Inertia     0: Table 7.6 identifies gravity parameters only (section 6.3.2). Use this file for
+#             gravity, not for motion: it has no inertia and friction. The links' masses are 0 too:
+#             their weight is grouped into the first moments.
 
 name        sarcos_grla
 number_link 7

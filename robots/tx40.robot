@@ -2,7 +2,7 @@
 # Staubli TX40, six joints.
 #
 # Kinematics  modified frames and dimensions used with the TX40 recordings of figaroh-plus (CNRS,
-#             Toward; Apache-2.0): arm 0.225, forearm 0.225, shoulder offset 0.035, base height
+#             Toward; Apache-2.0). Arm 0.225, forearm 0.225, shoulder offset 0.035, base height
 #             0.32 m. Joint angles are those of these frames: q2 and q3 are the robot's minus and
 #             plus pi/2.
 # Inertia     unknown ('*'), likewise IA, Fs and Fv: to be identified from recordings.

@@ -50,36 +50,37 @@ const std::vector<EffectScale>& effect_scales() {
       {"Fv", "torque/rate", "viscous friction of the joint"},
       {"Ia", "torque/acceleration", "rotor inertia of the joint"},
       {"v_max", "rate", "largest speed of the joint in the recording"},
-      {"v90", "rate", "speed that 90 % of the samples are below"},
-      {"q_range", "position", "between the extreme positions of the joint"},
+      {"v90", "rate", "speed below which 90 % of the samples are"},
+      {"q_range", "position", "distance between the extreme positions of the joint"},
       {"tau_max", "torque", "largest torque of the joint"},
-      {"duration", "s", "of the recording"},
-      {"position_step", "position", "of the encoder, as recorded"},
-      {"temp_range", "K", "by which the recorded temperature changes"}};
+      {"duration", "s", "duration of the recording"},
+      {"position_step", "position", "encoder step, as recorded"},
+      {"temp_range", "K", "range of the recorded temperature"}};
   return kScales;
 }
 
 const std::vector<std::pair<std::string_view, std::string_view>>& effect_tests() {
   static const std::vector<std::pair<std::string_view, std::string_view>> kTests = {
       {"distance_collapse",
-       "after reversals the residual is one curve of the distance travelled, at every speed"},
-      {"time_collapse", "after events the residual is one curve of the time since"},
-      {"slow_steady", "it is there in slow steady motion, away from reversals"},
+       "after velocity reversals the residual is one function of distance, at every speed"},
+      {"time_collapse", "after events the residual is one function of the time since the event"},
+      {"slow_steady", "it appears in slow steady motion, away from velocity reversals"},
       {"speed_independent", "its size does not depend on the speed"},
       {"speed_scaling", "its size grows with the square of the speed"},
-      {"order_match", "its order is a whole number of times a gear ratio, teeth or poles"},
+      {"order_match",
+       "its order is an integer multiple of a gear ratio, of a number of teeth or of poles"},
       {"load_scaling", "its size is proportional to the load"},
       {"two_loads", "the same parameters hold for two payloads or postures"},
       {"both_directions", "the same parameters hold in both directions of motion"},
-      {"load_reversal", "it is found where the load changes its sign, not where the velocity does"},
-      {"partner_alone", "it is there while the partner moves alone"},
+      {"load_reversal", "it acts where the load changes its sign, not where the velocity does"},
+      {"partner_alone", "it appears while the other joint moves alone"},
       {"transposed", "the other joint of the pair shows the transposed coupling"},
       {"all_joints", "one value explains every joint"},
-      {"distal_silence", "joints beyond the link see nothing of it"},
-      {"high_load_only", "it is found at large torque alone"},
-      {"monotone", "it goes one way over the recording"},
-      {"rest_resets", "a rest undoes it"},
-      {"nested_loops", "small loops within larger ones close"},
+      {"distal_silence", "joints beyond the link carry no torque of it"},
+      {"high_load_only", "it acts at large torque only"},
+      {"monotone", "it changes in one direction over the recording"},
+      {"rest_resets", "a pause resets it"},
+      {"nested_loops", "small loops within larger loops close"},
       {"onset", "it begins within one period of the motion"}};
   return kTests;
 }

@@ -52,8 +52,9 @@ Strokes strokes_of(const VectorXd& x, const MotionLimits& limits, Index joint) {
   return s;
 }
 
-/// Where strokes begin and end. Patterns leave it one way and come back the other: a joint that
-/// stops turns, since friction holds one that only stops, for a while that no model tells.
+/// Where strokes begin and end. Patterns leave this point in one direction and come back in the
+/// other. Every stop is thus a reversal: stiction holds a joint that stops without one for an
+/// unknown time.
 double end_of(const Strokes& s) { return s.centre - s.amplitude; }
 
 /// There and back over the whole amplitude.

@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 
 constexpr double kRoom = 0.999;  // of the limits, since rounding may pass what is held exactly
 constexpr int kRandomMotions = 5;
-constexpr double kNothing = 1e-9;  // squares of noise that are rounding
+constexpr double kNothing = 1e-9;  // chi-square that is rounding
 
 /// All limits of a motion, made smaller. Torque and box stay: motions do not know of them.
 MotionLimits tightened(MotionLimits limits, double factor) {

@@ -74,7 +74,7 @@ std::vector<int> wanted_columns(const Hypothesis& hypothesis) {
   return wanted;
 }
 
-/// Squares of a vector that no combination of columns imitates, beside the model.
+/// The chi-square of a vector that no combination of the columns and the model explains.
 /// @param vector  what the model leaves of it
 double missed(const VectorXd& vector, const MatrixXd& columns, const Projection& model) {
   constexpr double kAllAbsorbed = 1e-9;  // what rounding leaves of a column of the model

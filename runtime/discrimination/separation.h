@@ -32,17 +32,17 @@ struct SeparationProblem {
 /// How far a rival is from the finding.
 struct RivalSeparation {
   EffectInstance rival;  ///< at the shapes that come nearest
-  double lambda = 0;     ///< squares of noise by which it misses
+  double lambda = 0;     ///< chi-square that it leaves of the finding
 };
 
 struct Separation {
   double least = 0;    ///< of all rivals
-  double visible = 0;  ///< squares of the finding that the model alone does not take up
+  double visible = 0;  ///< chi-square of the finding that the model alone does not absorb
   std::vector<RivalSeparation> rivals;
 };
 
-/// The T-criterion: what is left of the finding's torque when the model and a rival, fitted
-/// together, imitate it as well as they can, in squares of the noise,
+/// The T-criterion: the chi-square that remains of the finding's torque after the best joint fit of
+/// the model and a rival,
 ///
 ///     min over theta, beta_b, shapes of || W theta + psi_b beta_b - psi_a ||^2.
 ///

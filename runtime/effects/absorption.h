@@ -36,14 +36,14 @@ struct AtlasEntry {
   EffectInstance effect;  ///< at its typical size
   std::string name;       ///< "stribeck 2", "motor_coupling 6<-5", "base_tilt"
   std::string missing;    ///< why there are no numbers, in words; empty: there are
-  double absorbed = 0;    ///< part of the whitened squares that the model takes up, 0 .. 1
+  double absorbed = 0;    ///< part of the whitened sum of squares that the model absorbs, 0 .. 1
   Absorbed kind = Absorbed::kPartly;
   double enr_before = 0;  ///< rms over the noise, of the joints on which it acts
   double enr_left = 0;    ///< the same of what a refit leaves
-  double lambda = 0;      ///< noncentrality: squares of what is left, whitened; N_eff ENR_left^2
-  double worth = 0;       ///< N_eff: how many independent samples that is
-  int parameter = -1;     ///< by which the size is given
-  double typical = 0;     ///< of this parameter
+  double lambda = 0;   ///< noncentrality: whitened sum of squares after the refit; N_eff ENR_left^2
+  double worth = 0;    ///< N_eff: how many independent samples that is
+  int parameter = -1;  ///< by which the size is given
+  double typical = 0;  ///< of this parameter
   double detectable = 0;  ///< the change of it that is found nine times in ten; inf if never
 };
 

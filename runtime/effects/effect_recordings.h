@@ -54,8 +54,8 @@ struct EffectRun {
   Eigen::VectorXd position_step;  ///< (n) rad or m of the encoder; 0: not known
   Decimator decimator;            ///< the parallel filter
   RowBlock rows;                  ///< behind it; tau is 0 where none was recorded
-  /// (n) ascending: where a joint's friction may be any torque, since it rests. Its equations
-  /// count, and evidence takes out of them what any torque there would change. Empty: nowhere.
+  /// (n) stiction intervals of each joint, ascending: its friction may be any torque there. Its
+  /// equations count; the evidence projects out what any torque there would change. Empty: none.
   std::vector<std::vector<SampleRange>> unknown{};
 };
 
@@ -82,8 +82,8 @@ struct EffectRecordings {
 
 /// The equations of recordings, filtered and decimated as rows_of() does it.
 ///
-/// At rest friction holds any torque up to its own, which says nothing of it: joints that stand
-/// still have no equations, as in rows_of(). Where effects remember, those samples are kept.
+/// A joint at zero velocity has no equations, as in rows_of(): stiction can take any value up to
+/// its breakaway level. Where effects have states, those samples are kept.
 /// @param remembering  (n) joints that keep all equations unless options.still_speed says at which
 ///                     speed they are left out (>= 0); empty: all of them
 /// @throws std::invalid_argument  if a recording has another number of joints

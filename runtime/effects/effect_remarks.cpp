@@ -71,7 +71,7 @@ std::vector<EffectRemark> remarks_on_unseen(const EffectRecordings& data, const 
 /// Whether a scale that stands at its bound would gain nothing if that were twice as far: a
 /// warm-up that lasts longer than the recordings.
 bool flat_beyond(const EffectPoint& point, const ConstraintName& name, double multiplier) {
-  constexpr double kNothing = 1;  // squares of noise
+  constexpr double kNothing = 1;  // of chi-square
   if (name.kind != ConstraintName::Kind::kBound || name.effect < 0) return false;
   const EffectLaw& law = point.effects[static_cast<std::size_t>(name.effect)].law;
   return by_logarithm(law.parameters[static_cast<std::size_t>(name.parameter)]) &&

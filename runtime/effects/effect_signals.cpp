@@ -96,8 +96,8 @@ VectorXd travelled_sign(const VectorXd& q, const VectorXd& dq, double band) {
     } else if (std::abs(q[k] - farthest) > band) {
       now = -now;
       farthest = q[k];
-      // certain now, true since the velocity turned: friction beside standstill lives in those few
-      // samples
+      // certain now, true since the velocity reversal: friction near zero velocity acts in those
+      // few samples
       for (Index i = k - 1; i >= 0 && now * dq[i] > 0; --i) sign[i] = now;
     }
     sign[k] = now;

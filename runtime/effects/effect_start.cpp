@@ -94,7 +94,7 @@ bool of_shapes_alone(const EffectInstance& effect, const EffectCondition& condit
   return true;
 }
 
-/// Squares that are left of `rest` when an effect's linear parameters are fitted to it.
+/// The sum of squares of `rest` after a fit of an effect's linear parameters to it.
 class StartTrial {
  public:
   StartTrial(EffectSignals& signals, const EquationStack& stack, const Projection& others,

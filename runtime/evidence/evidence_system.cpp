@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Below this part of a column's squares what is left of it is rounding, or as good as nothing.
+/// Below this part of a column's sum of squares the remainder of the column is rounding.
 constexpr double kAbsorbed = 1e-7;
 
 /// Columns that are left once those before them are taken out, and their Cholesky triangle.
@@ -49,8 +49,7 @@ PivotedTriangle pivoted_triangle(const MatrixXd& A) {
 }
 
 /// An orthonormal basis of columns that had unit length before projection. Impulses are hundreds of
-/// columns, and joints that rest make that many bases: products of matrices are all that is fast
-/// enough.
+/// columns, and joints with stiction need as many bases: only products of matrices are fast enough.
 MatrixXd basis_of(const MatrixXd& projected) {
   const PivotedTriangle independent = pivoted_triangle(transposed_product(projected, projected));
   MatrixXd basis = projected(Eigen::all, independent.columns);
@@ -116,7 +115,8 @@ Score score_of(const Products& products, bool surrogates) {
 }
 
 std::vector<double> squares_of_few(const Products& products) {
-  constexpr double kOfOthers = 1e-8;  // part of a column's squares: it is of the others
+  constexpr double kOfOthers =
+      1e-8;  // part of a column's sum of squares: below, it depends on the others
   MatrixXd A = products.left;
   VectorXd r = products.rest;
   const VectorXd own = products.whole.diagonal();

@@ -28,23 +28,23 @@ struct Products {
 struct Score {
   double delta_chi2 = 0;         ///< r'P r: the chi-square reduction
   int degrees = 0;               ///< independent columns that the model does not absorb
-  double part_left = 0;          ///< of the columns' squares, before and after projection
+  double part_left = 0;          ///< of the columns' sum of squares, after projection over before
   Eigen::VectorXd coefficients;  ///< (k) of the columns; 0 of those that are absorbed
-  Eigen::VectorXd surrogates;    ///< (m) squares of the noise surrogates
+  Eigen::VectorXd surrogates;    ///< (m) chi-square reduction of the noise surrogates
 };
 /// @param surrogates  false: those are left out
 Score score_of(const Products& products, bool surrogates = true);
 
-/// Squares that the columns explain which are taken up one by one, each the best beside those
-/// before it: of m columns at place m - 1, as many as are independent.
+/// Chi-square reductions of columns that are selected one by one, each the best beside those before
+/// it: of m columns at place m - 1, as many as are independent.
 std::vector<double> squares_of_few(const Products& products);
 
 /// The equations of a model, whitened: regressor, columns of effects that belong to it by now, what
 /// they leave of the torque, and noise of the same kind, projected alike.
 ///
 /// After whitening noise is white and of unit variance, so that a surrogate of the recordings under
-/// "nothing is left out" is a vector of standard normal numbers. Where friction at rest is unknown
-/// (EffectRun::unknown) what any torque there would change is taken out of all of them.
+/// "nothing is left out" is a vector of standard normal numbers. In stiction intervals
+/// (EffectRun::unknown), the effect of any torque there is projected out of all of them.
 class EvidenceSystem {
  public:
   struct Options {

@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double kFaintest = 1e-6;  // of a column's length, in one equation
-constexpr double kSeen = 1e-6;      // of a column's squares: what equations hardly show stays
+constexpr double kSeen = 1e-6;      // of a column's sum of squares: columns with less stay
 constexpr double kDense = 0.2;      // of all values: with more than that columns are not sparse
 constexpr Index kActTogether = 32;  // columns of a basis from one equation on
 

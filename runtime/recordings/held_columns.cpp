@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kMostAlike = 0.7;      // of the stretches have the length of the period
-constexpr Index kLongestHold = 64;      // samples: longer stretches are a signal that rests
+constexpr Index kLongestHold = 64;      // samples: longer stretches are a constant signal
 constexpr Index kFewestStretches = 64;  // fewer say nothing
 
 /// The length that most stretches have, if kMostAlike of those up to kLongestHold have it; else 1.
@@ -82,7 +82,7 @@ void fill_held(const Eigen::Ref<const VectorXd>& time, const HeldColumn& held,
   for (Index k = 0; k < values.size(); ++k) {
     const Index since = fresh.empty() ? 0 : k - fresh.back();
     const bool changes = k == 0 || values[k] != values[k - 1];
-    // what rests is measured all the same
+    // a constant signal is measured too
     const bool is_new = held.pulsed ? values[k] != 0 || since >= 2 * held.period
                                     : changes || since >= held.period;
     if (is_new) fresh.push_back(k);

@@ -8,7 +8,7 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kLeastLeft = 1e-6;  // of an effect's squares beside the model
+constexpr double kLeastLeft = 1e-6;  // of an effect's chi-square beside the model
 
 }  // namespace
 

@@ -38,7 +38,7 @@ VectorXd worsening(const EffectRecordings& heldout, const RunResiduals& before,
                    const RunResiduals& after) {
   VectorXd result = VectorXd::Zero(heldout.joints());
   for (int j = 0; j < heldout.joints(); ++j) {
-    std::vector<double> first, second;  // squares of all samples that count
+    std::vector<double> first, second;  // squared residuals of all samples that count
     for (std::size_t run = 0; run < heldout.runs.size(); ++run) {
       const std::vector<bool> counted = counted_samples(heldout.runs[run], j);
       for (Index k = 0; k < before[run].rows(); ++k) {

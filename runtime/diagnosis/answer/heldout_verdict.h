@@ -24,8 +24,8 @@ struct HeldoutKnowledge {
   bool away_from_stiction = false;  ///< samples near reversals of joints that stick are left out
 };
 
-/// (n) The mean over blocks of the logarithm of squares with the findings over those without, in
-/// standard deviations of that mean; 0 where they are lower.
+/// (n) The mean over blocks of the logarithm of the sum of squares with the findings over that
+/// without them, in standard deviations of this mean; 0 where it is lower.
 Eigen::VectorXd worsening(const EffectRecordings& heldout, const RunResiduals& before,
                           const RunResiduals& after);
 

@@ -22,7 +22,7 @@ struct Division {
 };
 
 /// A fifth of every recording is held out: the last in which all joints move about as much of the
-/// time as in the whole recording, since what stands still proves nothing.
+/// time as in the whole recording, since a joint at standstill proves nothing.
 Division divided(const std::vector<MotionSource>& recordings, const EquationRules& rules = {});
 
 }  // namespace dyngen::runtime

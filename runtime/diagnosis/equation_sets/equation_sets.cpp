@@ -19,14 +19,15 @@ using Eigen::VectorXd;
 
 constexpr double kBand = 0.9;  // of the cut-off: what is faster is damped in the joint state
 constexpr double kPass =
-    0.5;  // of the parallel filter: a short one, that standstill cuts less from
+    0.5;  // of the parallel filter: a short one, which loses less to standstill
 constexpr double kSlowBand =
     0.5;  // of the band: the cut-off is twice as fast as motion is seen to be
 constexpr double kHighest = 1.0 / 3;     // of the sampling frequency: a cut-off
 constexpr int kSteep = 8;                // order of that low-pass
 constexpr double kBesideJolts = 0.5;     // of its cut-off: what is slower is not damped at all
 constexpr double kBesideStiction = 0.4;  // of that of the joint state as it is
-constexpr double kWidened = 0.5;         // over the cut-off: what the low-pass makes of a rest
+constexpr double kWidened =
+    0.5;  // over the cut-off: how far the low-pass widens a stiction interval
 constexpr int kAverages =
     4;  // of the parallel filter beside stiction intervals, which is shorter still
 constexpr double kLongestSample = 1e-3;  // s, of a motion that is recorded faster
@@ -51,7 +52,7 @@ double quick_cutoff(const MotionSource& source, double highest, const EquationRu
                   std::min<double>(rules.jolt_bandwidth, highest / source.sample_time));
 }
 
-/// Recordings with the joint state of a view.
+/// Recordings with the joint state of an equation set.
 std::vector<MotionSource> seen(const std::vector<MotionSource>& sources,
                                const EquationSetOptions& options) {
   std::vector<MotionSource> result;
@@ -68,7 +69,7 @@ double median(std::vector<double> values) {
   return values.empty() ? 0 : values[values.size() / 2];
 }
 
-/// Joints that rest in one of the fitted recordings, or in any.
+/// Joints with stiction in one of the fitted recordings, or in any.
 constexpr int kAny = -1;
 std::vector<int> sticking_in(const EquationSetOptions& options, int recording) {
   std::vector<int> joints;
@@ -124,15 +125,15 @@ EffectRecordings without_stiction(EffectRecordings data, const VectorXd& still,
   return data;
 }
 
-/// Whether equations are made of more than a sample each: else none is both at a rest and beside
-/// it.
+/// Whether each equation is made of more than one sample: otherwise none is partly inside a
+/// stiction interval.
 bool is_filtered(const EffectRecordings& data) {
   return std::any_of(data.runs.begin(), data.runs.end(),
                      [](const EffectRun& run) { return run.decimator.factor > 1; });
 }
 
-/// With what is near stiction intervals, at which friction is not known. @param beta  that the
-/// others gave
+/// With the equations near stiction intervals, where friction is unknown. @param beta  estimate
+/// from the other equations
 EffectRecordings with_stiction(Fitted whole, const std::vector<MotionSource>& train,
                                const VectorXd& beta, const EquationSetOptions& options) {
   leave_as_at(whole.repeated, whole.own, beta);

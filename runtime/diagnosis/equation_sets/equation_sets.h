@@ -18,10 +18,10 @@ namespace dyngen::runtime {
 /// @param train  recordings that the model is fitted to  @param decimation  as in RowOptions
 RowOptions diagnosis_rows(const std::vector<MotionSource>& train, Eigen::Index decimation);
 
-/// What of recordings is looked at.
+/// Which equations of the recordings are used.
 struct EquationSetOptions {
   RowOptions rows;
-  /// Joints that rest for an instant where they turn, and have no equations there.
+  /// Joints with stiction at their reversals, which have no equations there.
   std::vector<StictionJoint> sticking{};
   /// Whether the joint state passes as quick a filter as can be.
   bool quick = false;
@@ -30,11 +30,12 @@ struct EquationSetOptions {
   EquationRules rules{};
 };
 
-/// The view of recordings whose joints, as was found, rest. Where friction holds a joint it has any
-/// torque up to its own: nothing is said of it there. What lets go jolts the arm, and of jolts a
-/// slow joint state is not the state: it passes a filter that is as quick as can be, and the
-/// equations one half as quick, up to which the first one damps nothing. Where periods show
-/// the same digits again the state stays slow: no other motion tells such rounding from physics.
+/// The equation set of recordings whose joints stick. In a stiction interval friction may take any
+/// value up to its breakaway level, so no equation judges it there. A joint that breaks away
+/// excites transients, which a slow low-pass filter distorts. The joint state therefore passes the
+/// quickest possible filter, and the equations one of half its bandwidth, in which the first one
+/// does not damp. Where the digits of periods repeat, the state stays slow: no other motion
+/// separates such rounding from physics.
 /// @param train  recordings that the model is fitted to
 EquationSetOptions beside_stiction(const EquationSetOptions& options,
                                    const std::vector<MotionSource>& train,
@@ -48,24 +49,23 @@ EffectRecordings away_from_stiction(EffectRecordings data, const std::vector<Mot
 /// (n) the part of each joint's equations that counts.
 Eigen::VectorXd counted_part(const EffectRecordings& data);
 
-/// Equations of recordings that are not fitted, without those of joints that stand still, or rest
-/// in any of the fitted ones.
+/// Equations of recordings that are not fitted, without those of joints at standstill, or in
+/// stiction in any of the fitted ones.
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
                               const EquationSetOptions& options);
 
-/// The recordings of a diagnosis as its competition reads them. Where the motion of fitted ones
-/// repeats, columns are made of the mean motion of the other periods, and held against what the
-/// model leaves at the own; where it does not, columns of the samples of even number and what is
-/// left of those of odd. Noise of positions is in what is left as well as in columns of the same
-/// samples, where it looks like physics (instrumental variables; Janot, Vandanjon and Gautier
-/// 2014).
+/// The equation sets of a diagnosis. Where the fitted motion repeats, the columns of a period are
+/// made from the mean motion of the other periods (instrument). Where it does not, columns come
+/// from samples of even number, and residuals from those of odd number. Columns and residuals of
+/// the same samples share the noise of positions, which looks like physics (instrumental variables;
+/// Janot, Vandanjon and Gautier 2014).
 ///
-/// Where joints rest, `train` has no equations of them near their stiction intervals, as far as
-/// filters reach. `beside` has them, and EffectRun::unknown says where friction is not known: most
-/// of what is seen near a rest is not friction's at rest.
+/// Where joints stick, `train` has none of their equations near stiction intervals, as far as
+/// filters reach. `beside` has them, and EffectRun::unknown marks the samples with unknown
+/// friction: most of the residual near a stiction interval is not stiction.
 struct EquationSets {
-  EffectRecordings train;                  ///< what fits are of, and noise
-  std::optional<EffectRecordings> beside;  ///< where joints rest and equations are filtered
+  EffectRecordings train;                  ///< for fits and for the noise
+  std::optional<EffectRecordings> beside;  ///< where joints stick and equations are filtered
   [[nodiscard]] const EffectRecordings& evidence() const { return beside ? *beside : train; }
   EffectRecordings heldout;  ///< EffectRun::recording is -1 less the place of the recording
   EffectRecordings proof;    ///< what is held out, where the fitted recordings have been

@@ -56,7 +56,7 @@ Index felt(const Decimator& decimator) {
   return reach;
 }
 
-/// Whether a joint turns or stops at a sample.
+/// Whether a joint reverses or stops at a sample.
 bool sticks_at(const Motion& motion, int joint, Index at, double still_speed) {
   const auto speed = motion.dq.col(joint);
   const bool turns = at > 0 && (speed[at] < 0) != (speed[at - 1] < 0);
@@ -84,7 +84,7 @@ void leave_out_stiction(EffectRun& run, const Eigen::VectorXd& still_speed,
                         const std::vector<int>& joints) {
   const Motion& motion = run.motion;
   const Index factor = run.decimator.factor, first = first_sample(run.decimator);
-  // the joint state's own filter widens a rest by about the time between equations
+  // the joint state's own filter widens a stiction interval by about the time between equations
   const Index reach = felt(run.decimator) + factor;
   const Index size = run.rows.Y.cols() / motion.joints();
   for (const int j : joints) {

@@ -9,34 +9,34 @@
 
 namespace dyngen::runtime {
 
-/// Takes out the equations of joints that stand: at rest friction holds any torque up to its own,
-/// which no law of sliding friction describes. A joint stands where it stays below the speed for a
-/// tenth of a second or more; passing through zero at a reversal is quicker, and stays in.
+/// Takes out the equations of joints at standstill: stiction takes any value up to its breakaway
+/// level there, which no law of sliding friction describes. Standstill is a time of at least a
+/// tenth of a second below the speed. A reversal is shorter, and stays in.
 /// @param run          its rows change
 /// @param still_speed  (n) rad/s or m/s
 void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed,
                           const EquationRules& rules = {});
 
-/// Takes out the equations of joints where they turn or stop, as far as the filters reach from
-/// there: for joints that friction holds there for an instant.
+/// Takes out the equations near the stiction intervals of joints, where they reverse or stop, as
+/// far as the filters reach.
 /// @param run          its rows change
 /// @param still_speed  (n) rad/s or m/s
 /// @param joints       from 0
 void leave_out_stiction(EffectRun& run, const Eigen::VectorXd& still_speed,
                         const std::vector<int>& joints);
 
-/// Adds to what is unknown of a run where joints turn or stop, and equations stay.
+/// Adds the stiction intervals of joints to the unknown samples of a run; its equations stay.
 /// @param run          its `unknown` grows
-/// @param motion       whose sticks they are, of the same samples
+/// @param motion       in which the joints stick, of the same samples
 /// @param still_speed  (n) rad/s or m/s
 /// @param joints       from 0
-/// @param around       s, before and after: what the joint state's filter makes of a rest
+/// @param around       s, before and after: how far the joint state's filter widens the interval
 void mark_stiction(EffectRun& run, const Motion& motion, const Eigen::VectorXd& still_speed,
                    const std::vector<int>& joints, double around);
 
-/// Takes out of held-out recordings the equations of joints that are where no fitted recording was:
-/// what a polynomial says there is no proof for or against it. A joint that is nearly always there
-/// keeps its equations.
+/// Takes out of held-out recordings the equations of joints outside of the positions of the fitted
+/// recordings: the extrapolation of a polynomial there is no proof for or against it. A joint that
+/// is nearly always outside keeps its equations.
 void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& train,
                          const EquationRules& rules = {});
 

@@ -15,7 +15,7 @@ namespace dyngen::runtime {
 /// @return  run by run, (N x n) N m or N
 RunResiduals raw_residuals(const EffectRecordings& data, const EffectPoint& point);
 
-/// Whether a joint has equations around a sample: where it stands still, friction may be anything.
+/// Whether a joint has equations around a sample: at standstill friction may take any value.
 /// @return  (N) of the run
 std::vector<bool> counted_samples(const EffectRun& run, int joint);
 

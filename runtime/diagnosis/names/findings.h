@@ -63,7 +63,7 @@ struct Finding {
   /// effects.
   bool since_reference = false;
   bool doubted = false;  ///< a bound holds the estimate, or a falsifier speaks against the name
-  double absorbed = 0;   ///< part of its squares that a refit of the model takes up
+  double absorbed = 0;   ///< part of its chi-square that a refit of the model absorbs
   EffectLocation where;
   Evidence evidence;
   std::vector<FalsifierOutcome> tests;

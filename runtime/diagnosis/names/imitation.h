@@ -5,8 +5,8 @@
 
 namespace dyngen::runtime {
 
-/// Squares of a torque that other columns cannot imitate beside the model, and all of it:
-/// lambda (1 - c^2) and lambda.
+/// The chi-square of a torque that other columns and the model cannot imitate, and its whole
+/// chi-square: lambda (1 - c^2) and lambda.
 struct Imitation {
   double left = 0, whole = 0;
 };

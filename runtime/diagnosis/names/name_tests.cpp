@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 using Kind = StructureVariable::Kind;
 
 constexpr double kAgree = 3.5;      // standard deviations between two sizes
-constexpr double kLeastShown = 12;  // squares of noise that a side must hold of the effect
+constexpr double kLeastShown = 12;  // chi-square of the effect that each side must have
 constexpr double kAway = 0.02;      // of a joint's range of positions: beyond, a reversal is over
 constexpr double kNear = 0.1;       // of it: within, something may still creep
 constexpr double kSlowPart = 0.25;  // of the speed that 90 % of the samples are below
@@ -58,7 +58,7 @@ double quantile(const ArrayXd& values, const ArrayXd& weights, double part) {
   return values.maxCoeff();
 }
 
-/// Above the value at which half of the effect's squares lie, and below it.
+/// Above and below the value that halves the effect's sum of squares.
 ArrayXd halves(const ArrayXd& values, const JointView& view) {
   const double middle = quantile(values, view.effect.square(), 0.5);
   return (values > middle).select(ArrayXd::Ones(values.size()), -ArrayXd::Ones(values.size()));

@@ -17,13 +17,13 @@
 namespace dyngen::runtime {
 namespace {
 
-/// Misfit of the noise model and of linearisation makes differences of squares wider than theory
-/// has it: the odds are those of squares this much smaller.
+/// Errors of the noise model and of the linearisation widen differences of chi-square beyond
+/// theory. Odds are computed from differences that are smaller by this factor.
 constexpr double kCaution = 2;
-constexpr double kEven = 0.5;  // squares that decide nothing
+constexpr double kEven = 0.5;  // of chi-square: less decides nothing
 
-/// What held-out recordings say for a rival against a winner: squares of their residuals, where
-/// these are more than noise in units of what they are.
+/// Evidence of held-out recordings for a rival against a winner: the difference of their held-out
+/// chi-squares, in units of the residual level where this exceeds the noise.
 double heldout_gain(const EffectRecordings& heldout, const TorqueNoiseModel& noise,
                     const EffectPoint& winner, const EffectPoint& rival) {
   const Eigen::VectorXd before = heldout_squares(heldout, winner, noise);
@@ -203,7 +203,7 @@ class Places {
   void put_in_place(std::size_t winner, const Rival& rival, const EffectFit& fit) {
     Winner& own = result_.winners[winner];
     own.hypothesis = rival.hypothesis;
-    own.trial = own.others[rival.hypothesis].best;  // squares beside those of its round
+    own.trial = own.others[rival.hypothesis].best;  // chi-square reduction within its round
     own.trial.effect = rival.trial.effect;
     result_.fit = fit;
     changed_ = true;

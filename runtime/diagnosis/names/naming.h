@@ -20,9 +20,9 @@ struct Naming {
   std::string unnamed;                ///< what has no name and comes nearest (UnnamedRival)
   double unnamed_distance = std::numeric_limits<double>::infinity();  ///< by which it is worse
   double probability = 0;  ///< of the winner's family, 0 .. 1
-  double lambda = 0;       ///< squares of the winner beside all else, less its degrees
+  double lambda = 0;       ///< chi-square reduction of the winner beside all else, less its degrees
   double delta_bic = 0;
-  double part_left = 0;  ///< of the winner's squares, after the refit of the model
+  double part_left = 0;  ///< of the winner's chi-square, after the refit of the model
   double selected = 0;   ///< share of the halves of the recordings in which it explains most
 
   /// The share of halves in which the winner or one of the families beside it explains most.
@@ -39,9 +39,9 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
 
 /// Names of all winners. Another effect of the same family that explains more by now takes the
 /// winner's place, unless held-out recordings say less for it. Where the nearest rival is no more
-/// than kApart squares worse, the model is fitted with it in the winner's place, and what held-out
-/// recordings say of the two is added to their distance; a rival that is better then takes the
-/// place.
+/// than kApart of chi-square worse, the model is fitted with it in the winner's place, and what
+/// held-out recordings say of the two is added to their distance; a rival that is better then takes
+/// the place.
 /// @param train   what evidence is of   @param fitted  what fits are of
 /// @param result  its winners and its fit, in place
 std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& fitted,

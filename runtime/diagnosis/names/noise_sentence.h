@@ -10,7 +10,7 @@
 
 namespace dyngen::runtime {
 
-/// How the noise is known, and what of joints that rest is not judged.
+/// How the noise is known, and which samples of joints in stiction are not judged.
 /// @param train     what StictionJoint::recordings counts
 /// @param left_out  joints whose equations at their reversals do not count
 /// @param impulses  joints that have an impulse at each reversal instead

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMostChanges = 3;
-constexpr double kTheorem = 1e-6;  // part of an effect's squares that the model leaves
+constexpr double kTheorem = 1e-6;  // part of an effect's chi-square that the model leaves
 
 EffectRecordings together(const EffectRecordings& reference, const EffectRecordings& train) {
   EffectRecordings all = reference;

@@ -12,8 +12,9 @@ namespace dyngen::runtime {
 /// Another effect in a winner's place.
 struct Rival {
   std::string family, name;
-  double distance = 0;  ///< by which it is worse, in squares net of prices
-  double apart = 0;     ///< squares of the winner that it cannot imitate: what is to be expected
+  double distance = 0;  ///< by which its chi-square reduction is smaller, net of penalties
+  double apart =
+      0;  ///< part of the winner's chi-square that it cannot imitate: the expected distance
   std::size_t hypothesis = 0;
   TrialScore trial;
   double selected = 0;  ///< share of the halves of the recordings in which it explains most

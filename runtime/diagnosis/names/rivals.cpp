@@ -12,7 +12,7 @@ namespace dyngen::runtime {
 namespace {
 
 constexpr std::size_t kCompared = 24;  // effects that are compared with a winner
-constexpr double kStrongEnough = 0.3;  // of the winner's squares in its round
+constexpr double kStrongEnough = 0.3;  // of the winner's chi-square reduction in its round
 
 /// Places of the strongest rivals of a winner in its round. An event is none of what always acts:
 /// held-out recordings, which do not have it, could not refuse it.

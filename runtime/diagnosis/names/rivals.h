@@ -10,10 +10,10 @@
 namespace dyngen::runtime {
 
 /// Winners are compared with all that was strong in their round, each beside the model with all
-/// other winners. For two effects of noncentrality lambda and likeness c the difference of squares
-/// has the mean lambda (1 - c^2) and four times that for its variance. A family joins the set if
-/// its best effect is worse by fewer than kApart squares, or if that mean is below kSeparable. What
-/// has no name takes its part of the probability too.
+/// other winners. For two effects of noncentrality lambda and correlation c, the difference of
+/// their chi-square reductions has the mean lambda (1 - c^2) and four times this as its variance. A
+/// family joins the set if the reduction of its best effect is smaller by less than kApart, or if
+/// that mean is below kSeparable. Structures without a name take their part of the probability too.
 inline constexpr double kApart = 9;
 inline constexpr double kSeparable = 20;
 
@@ -21,7 +21,7 @@ inline constexpr double kSeparable = 20;
 /// winners.
 struct RivalsOfWinner {
   TrialScore own;             ///< the winner
-  double net = 0;             ///< what it explains, less its price
+  double net = 0;             ///< its chi-square reduction, less its penalty
   std::vector<Rival> others;  ///< of other families; their distance is what they explain, net
   std::optional<Rival> kin;   ///< the best other one of its family, on its joint
   /// Of its family, the nearest of each other joint, where these data do not tell it apart. Of two

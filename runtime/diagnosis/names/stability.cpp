@@ -41,7 +41,7 @@ std::vector<StretchProducts> products_of(const EvidenceSystem& system,
   return all;
 }
 
-/// Squares that columns explain of some stretches.
+/// Chi-square reduction by columns over some stretches.
 double squares_of(const std::vector<StretchProducts>& all, const std::vector<std::size_t>& chosen) {
   MatrixXd own = all[chosen.front()].own;
   VectorXd rest = all[chosen.front()].rest;

@@ -9,7 +9,7 @@
 namespace dyngen::runtime {
 namespace {
 
-/// Below this part of its squares nothing is left of an effect but rounding and interpolation.
+/// Below this part of its chi-square only rounding and interpolation are left of an effect.
 constexpr double kNothingLeft = 1e-6;
 /// Columns that are made of the model's torque are its equations, but made at all samples: less
 /// than 5e-4 was left of them on simulated recordings.

@@ -15,9 +15,9 @@ namespace dyngen::runtime {
 namespace {
 
 constexpr std::size_t kTried = 4;   // of each kind
-constexpr double kSameForm = 0.01;  // of a curve's squares: what the winner cannot imitate
+constexpr double kSameForm = 0.01;  // of a curve's chi-square, which the winner cannot imitate
 
-/// The first few places of those with the largest squares, net.
+/// The first few places of those with the largest chi-square reduction, net.
 std::vector<std::size_t> largest(std::vector<std::pair<double, std::size_t>> nets) {
   std::stable_sort(nets.begin(), nets.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });

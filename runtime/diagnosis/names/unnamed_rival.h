@@ -14,11 +14,11 @@ struct UnnamedRival {
   /// "a function of qd1 and qd2, which is no effect of the catalogue", "the form of
   /// link_flexibility 2, no name here since ..."
   std::string what;
-  double net = -std::numeric_limits<double>::infinity();  ///< squares less their price
+  double net = -std::numeric_limits<double>::infinity();  ///< chi-square reduction less the penalty
 };
 
 /// Of what was strong in the winner's round, on one of its joints, what is best in its place.
-/// Joints that rest have none: what friction left there looks like much.
+/// Joints with stiction have none: the residual of stiction resembles many functions.
 /// A form that the winner imitates is none: it is the same curve.
 /// @param found   the winner, with its latest shapes   @param system  the model with all others
 UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,

@@ -39,8 +39,8 @@ struct GenericStructure {
     kFriction,  ///< the same times the sign of the joint's velocity
     kSpeeds,    ///< a function of the product of two velocities, or that product times a coarse
                 ///< function of a third variable
-    kImpulses,  ///< wherever the joint turns or stops: for that instant it is held by friction of
-                ///< any size up to its own, which no function of the motion is
+    kImpulses,  ///< stiction impulses: where the joint reverses or stops, stiction of any value up
+                ///< to its breakaway level, which is no function of the motion
     kLine,      ///< a sinusoid that goes on by itself, in every run with a phase of its own
     kWave,      ///< a sinusoid of a sum of two positions
     kRepeats    ///< whatever comes back in every period, up to some frequency

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 constexpr int kOrders = 1000;         // values of a scan that is one over orders
 constexpr int kScanned = 40;          // values of any other, at most
-constexpr double kShownPart = 1e-12;  // of an effect's squares: less is rounding
+constexpr double kShownPart = 1e-12;  // of an effect's sum of squares: less is rounding
 constexpr double kWide = 8;  // times the typical shape, both ways, where there are no bounds
 
 /// Linear parameters at which the effect has no torque: torque = C (p - nothing).

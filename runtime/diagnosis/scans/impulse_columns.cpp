@@ -84,7 +84,7 @@ std::vector<Index> impulses_of(const EffectRun& run, int joint, double still, In
   return middles;
 }
 
-/// The same, less those that no equation that counts feels: of a joint that stands for long.
+/// The same, without those that no counted equation contains, as during a longer standstill.
 std::vector<Index> felt_impulses_of(const EffectRun& run, int joint, double still) {
   const Index width = width_of(run);
   std::vector<Index> middles = impulses_of(run, joint, still, width);

@@ -6,9 +6,9 @@
 
 namespace dyngen::runtime {
 
-/// Impulses of torque where a joint turns or stops, short beside the filter of the equations:
-/// what friction may do there, whatever it is. Where it stands for long there are none: no equation
-/// of that time counts.
+/// Stiction impulses: torque columns of one instant each, where a joint reverses or stops. They are
+/// short compared with the filter of the equations and represent any friction at that instant. A
+/// longer standstill has none, since none of its equations counts.
 /// @return one column for each of them, 0 outside of its recording
 JointColumns impulse_columns(const EffectRecordings& data, int joint);
 

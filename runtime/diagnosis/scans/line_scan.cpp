@@ -28,7 +28,7 @@ Index quick_length(Index length) {
   }
 }
 
-/// Squares of the sinusoids of all frequencies k / duration.
+/// Chi-square reductions of the sinusoids of all frequencies k / duration.
 class Periodogram {
  public:
   Periodogram(double duration, Index lines) : duration_(duration), lines_(lines) {}

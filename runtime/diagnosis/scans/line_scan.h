@@ -8,7 +8,7 @@ namespace dyngen::runtime {
 /// Torque of a frequency of its own, whatever the motion does.
 struct LineScan {
   double frequency = 0;  ///< Hz, at which most is left
-  Score score;           ///< there; surrogates: the largest squares of noise over all frequencies
+  Score score;  ///< there; surrogates: the largest chi-square of noise over all frequencies
 };
 
 /// Periodograms of what the model leaves of a joint, whitened, each run with a phase of its own:

@@ -39,9 +39,9 @@ Extent extent_of(const EffectRecordings& data, int joint) {
   return extent;
 }
 
-/// Orders at which squares have their largest peaks.
+/// Orders at which the chi-square reduction has its largest peaks.
 std::vector<double> peaks_of(const std::vector<double>& squares, double first, double step) {
-  std::vector<std::pair<double, double>> found;  // squares, order
+  std::vector<std::pair<double, double>> found;  // chi-square reduction, order
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const bool peak = (i == 0 || squares[i] >= squares[i - 1]) &&
                       (i + 1 == squares.size() || squares[i] > squares[i + 1]);

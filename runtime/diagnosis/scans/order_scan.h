@@ -13,7 +13,7 @@ struct OrderScan {
   std::vector<double> peaks;  ///< times per turn of the joint, the strongest first; two at most
   /// The same of torque that grows with the square of the speed, as that of a position error does.
   std::vector<double> error_peaks;
-  Eigen::VectorXd surrogates;  ///< the largest squares of noise over all orders
+  Eigen::VectorXd surrogates;  ///< the largest chi-square reduction over all orders
   double highest = 0;          ///< order up to which was looked
 };
 

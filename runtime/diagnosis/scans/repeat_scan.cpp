@@ -36,7 +36,7 @@ Index harmonics_of(const EffectRun& run, double period, double frequency) {
   return static_cast<Index>(frequency * period * row_time(run));
 }
 
-/// Squares of the lines between the harmonics.
+/// Chi-square of the lines between the harmonics.
 struct Level {
   double squares = 0, degrees = 0;
   [[nodiscard]] double of_noise() const {

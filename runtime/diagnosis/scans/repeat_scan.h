@@ -11,8 +11,8 @@ namespace dyngen::runtime {
 /// All that comes back in every period of a run up to some frequency, whatever it depends on.
 struct RepeatScan {
   double frequency = 0;  ///< Hz, of the band that is the most above noise
-  /// Squares are over those, per degree of freedom, of the lines between the harmonics, where that
-  /// is more than 1: the level of the noise is measured beside them.
+  /// The chi-square reduction is divided by that of the lines between the harmonics, per degree of
+  /// freedom, where this is more than 1: these lines measure the noise.
   Score score;
   double worth = 0;  ///< degrees of freedom of that level
 };

@@ -14,23 +14,24 @@ namespace dyngen::runtime {
 struct NamedResult {
   std::size_t hypothesis = 0;  ///< its place
   TrialScore best;             ///< of those that are admissible; of all where none is
-  TrialScore freest;    ///< of all: more squares than the best where a condition holds that back
-  double surprise = 0;  ///< -ln p, at the best shape
+  TrialScore freest;           ///< of all: a larger chi-square reduction than the best one, which a
+                               ///< condition limits
+  double surprise = 0;         ///< -ln p, at the best shape
   double slow_noise =
-      1;               ///< of an event: times as many squares as white noise, WindowScan::elsewhere
-  double worth = 1e9;  ///< independent samples that the noise of its joints is known by
+      1;  ///< of an event: its chi-square relative to white noise, WindowScan::elsewhere
+  double worth = 1e9;         ///< independent samples that the noise of its joints is known by
   double typical_lambda = 0;  ///< noncentrality of the typical size, at the typical shapes
-  double part_left = 0;       ///< of the typical size's squares, after the refit of the model
+  double part_left = 0;       ///< of the typical size's chi-square, after the refit of the model
   Eigen::VectorXd typical;    ///< (linear) typical sizes
   bool seen = true;           ///< false: the motion does not excite it, or a signal is missing
 };
 
-/// Of its best trial; an event has as many squares from slow noise alone as windows elsewhere have.
+/// Of its best trial. Slow noise gives an event the chi-square that it gives other windows.
 double surprise_of(const NamedResult& named);
 
-/// Degrees of freedom of a trial whose shapes were found by refined(): each counts as one, or noise
-/// surrogates, whose squares are those of the grid's shapes, would be held against more than they
-/// are. (Davies 1987: a search along one parameter.)
+/// Degrees of freedom of a trial whose shapes were found by refined(): each shape counts as one.
+/// The noise surrogates have the chi-square of the grid's shapes only, and would understate the
+/// refined ones. (Davies 1987: a search along one parameter.)
 int degrees_of_refined(const NamedResult& named, const Hypothesis& hypothesis);
 
 /// The surprise with as many; not less than what it was at the grid's shapes.

@@ -132,8 +132,8 @@ Products beside(const Window& window, const Window& other) {
   return products;
 }
 
-/// Mean of the squares per degree of freedom in windows as long as the best one, end to end, of all
-/// recordings and beside it, less those that overlap it; 1 where white noise may have as many.
+/// Mean chi-square reduction per degree of freedom in adjacent windows as long as the best one, of
+/// all recordings, without those that overlap it; 1 where white noise may have as much.
 /// @param recording  the best one's place, -1: all
 double squares_elsewhere(const std::vector<Running>& recordings, int recording, const Window& best,
                          const ScanRules& rules) {

@@ -15,8 +15,8 @@ struct WindowScan {
   double begin = 0, end = 0;  ///< s, of the best window
   int recording = -1;         ///< in which alone it acts, as EffectRun::recording; -1: in all
   Score score;                ///< of the best window; surrogates: the largest over all windows
-  /// Squares per degree of freedom in other windows as long, 1 for noise that is white; at least 1.
-  /// Noise slower than its model knows (1/f) has more, and the best window has them too.
+  /// Chi-square reduction per degree of freedom in other windows as long: 1 for white noise; at
+  /// least 1. Noise that is slower than its model (1/f) has more, also in the best window.
   double elsewhere = 1;
   bool found = false;
 };

@@ -154,7 +154,7 @@ TEST(DiagnosisPage, HasEveryPartOfTheAnswer) {
                            "tell it from every",
                            "1. stribeck of joint 2",
                            "2. viscous_coupling of joint 3 with joint 2",
-                           "Friction that falls as a joint begins to slide",
+                           "Friction that falls with the speed (Stribeck)",
                            "torque = (Fs - Fc)*fall*sign(qd)",
                            "12.51 to 13.49",
                            "at its bound",

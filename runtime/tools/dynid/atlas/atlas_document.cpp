@@ -138,8 +138,8 @@ ReportSection absorbed_section(const AtlasReport& report) {
        {ReportText{
            "Each effect at its typical size, the most hidden first. ENR: rms over the noise, "
            "before "
-           "and after a refit of all base parameters. Lambda: whitened squares of what is left. "
-           "The "
+           "and after a refit of all base parameters. Lambda: whitened sum of squares after the "
+           "refit. The "
            "smallest size is found nine times in ten, at one false alarm in a hundred among 200 "
            "tests."}}});
   for (const int joint : joints_of(report)) {

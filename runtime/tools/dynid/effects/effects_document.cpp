@@ -46,7 +46,7 @@ std::string test_meaning(const std::string& test) {
   return {};
 }
 
-/// "name: why" of what the name must pass.
+/// "condition: reason" of all conditions on the name.
 std::vector<std::string> demands(const EffectFile& effect) {
   std::vector<std::string> lines;
   const auto condition = [](const ::dyngen::EffectCondition& own) {
@@ -73,8 +73,9 @@ std::string cell(std::string text) {
 }
 
 std::string markdown_of(const EffectFile& effect) {
-  std::string text = fmt::format("### {}\n\n{}. {}, of a {}; {}.\n", effect.name, effect.title,
-                                 kind_name(effect), scope_name(effect), where_it_runs(effect));
+  std::string text =
+      fmt::format("### {}\n\n{}. Kind: {}; scope: {}; {}.\n", effect.name, effect.title,
+                  kind_name(effect), scope_name(effect), where_it_runs(effect));
   if (!effect.source.empty()) text += effect.source + ".\n";
   text += "\n```\n";
   for (const std::string& line : equation_lines(effect)) text += line + "\n";
@@ -84,16 +85,15 @@ std::string markdown_of(const EffectFile& effect) {
                         role_name(parameter.role), unit_text(parameter.unit, JointUnits::kRevolute),
                         range_of(parameter), spell(parameter.typical), cell(parameter.meaning));
   }
-  text +=
-      "\n- What hides it: " + effect.hidden + "\n- What separates it: " + effect.separates + "\n";
+  text += "\n- Visibility: " + effect.hidden + "\n- Experiment: " + effect.separates + "\n";
   for (const auto& alias : effect.aliases) {
-    text += fmt::format("- Like {}: {}\n", alias.family == "base" ? "the base model" : alias.family,
-                        alias.text);
+    text += fmt::format("- Similar to {}: {}\n",
+                        alias.family == "base" ? "the base model" : alias.family, alias.text);
   }
   for (const auto& part : effect.contains) {
     text += fmt::format("- Contains {}: {}\n", part.family, part.text);
   }
-  for (const std::string& line : demands(effect)) text += "- Asked of the name: " + line + "\n";
+  for (const std::string& line : demands(effect)) text += "- Condition: " + line + "\n";
   return text + "\n";
 }
 
@@ -113,8 +113,8 @@ double value_of(const EffectLaw& law, const VectorXd& typical, const std::string
   return 0;
 }
 
-/// Samples that are drawn, of the second half, where states have forgotten how they began: what
-/// follows one reversal, a few periods of a ripple, or the whole of a slow signature.
+/// The drawn samples. They lie in the second half, where the initial states have decayed: one
+/// stretch after a reversal, a few periods of a ripple, or the whole of a slow signature.
 std::vector<Index> shown_samples(const EffectLaw& law, const VectorXd& typical,
                                  const std::string& over, const PendulumRun& run) {
   const Index end = run.time.size();
@@ -175,8 +175,8 @@ std::string effects_list(const EffectCatalogue& catalogue) {
 
 std::string effect_text(const EffectFile& effect) {
   std::string text =
-      fmt::format("{} ({}): {}\n{}, of a {}; {}\n", effect.name, effect.family, effect.title,
-                  kind_name(effect), scope_name(effect), where_it_runs(effect));
+      fmt::format("{} ({}): {}\nkind: {}; scope: {}; {}\n", effect.name, effect.family,
+                  effect.title, kind_name(effect), scope_name(effect), where_it_runs(effect));
   if (!effect.source.empty()) text += effect.source + "\n";
   text += "\n";
   for (const std::string& line : equation_lines(effect)) text += "  " + line + "\n";
@@ -186,28 +186,25 @@ std::string effect_text(const EffectFile& effect) {
                         role_name(parameter.role), unit_text(parameter.unit, JointUnits::kRevolute),
                         spell(parameter.typical), parameter.meaning);
   }
-  text += "\nwhat hides it: " + effect.hidden + "\nwhat separates it: " + effect.separates + "\n";
+  text += "\nvisibility: " + effect.hidden + "\nexperiment: " + effect.separates + "\n";
   for (const auto& alias : effect.aliases) {
-    text += fmt::format("like {}: {}\n", alias.family, alias.text);
+    text += fmt::format("similar to {}: {}\n", alias.family, alias.text);
   }
   for (const auto& part : effect.contains) {
     text += fmt::format("contains {}: {}\n", part.family, part.text);
   }
-  for (const std::string& line : demands(effect)) text += "asked of the name: " + line + "\n";
+  for (const std::string& line : demands(effect)) text += "condition: " + line + "\n";
   return text;
 }
 
 std::string effects_markdown(const EffectCatalogue& catalogue, const std::string& figures) {
   std::string text =
       "# Effects\n\n"
-      "Made from the files in `gen/effects` by `dynid effects --markdown`; what the rows mean is "
-      "in\n"
-      "[effect_file.md](effect_file.md). The pictures show the torque of each effect at its "
-      "typical\n"
-      "size, on a pendulum of 10 kg that swings in gravity: before any refit, which may take up "
-      "most\n"
-      "of it. How much is left on a robot's own motion says `dynid atlas` "
-      "([atlas.md](../explanation/atlas.md)).\n\n";
+      "`dynid effects --markdown` makes this page from the files in `gen/effects`. The\n"
+      "[effect file](effect_file.md) explains their rows. The pictures show the torque of each\n"
+      "effect at its typical size, on a pendulum of 10 kg that swings in gravity. A refit of the\n"
+      "base model may absorb most of this torque. `dynid atlas` computes the remainder for the\n"
+      "motion of a robot ([atlas](../explanation/atlas.md)).\n\n";
   std::string family;
   for (const auto& effect : catalogue.all()) {
     if (effect->family != family) {

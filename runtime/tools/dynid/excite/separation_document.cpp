@@ -52,7 +52,7 @@ ReportBars rival_bars(const SeparationReport& report) {
   for (const auto& [family, rival] : nearest_rivals(report.designed.separation)) {
     const auto before = random.find(family);
     bars.groups.push_back({family,
-                           "squares",
+                           "chi-square",
                            periods * rival.lambda >= kSeparated,
                            {{"random motion", Role::kFloor,
                              before == random.end() ? NAN : periods * before->second.lambda},
@@ -62,7 +62,7 @@ ReportBars rival_bars(const SeparationReport& report) {
 }
 
 ReportTable archetypes_of(const SeparationReport& report) {
-  ReportTable table{{"motion", "moves", "squares"}, {}, kRowsShown};
+  ReportTable table{{"motion", "moves", "chi-square"}, {}, kRowsShown};
   for (const ArchetypeScore& score : report.designed.scores) {
     table.rows.push_back({words_of(score.archetype).motion,
                           score.joint < 0 ? "all joints" : joint_words(score.joint),

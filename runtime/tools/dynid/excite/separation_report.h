@@ -17,7 +17,7 @@
 
 namespace dyngen::runtime {
 
-/// Squares of noise from which on names are apart (docs/reference/diagnosis.md).
+/// The chi-square from which on names are separable (docs/reference/diagnosis.md).
 inline constexpr double kSeparated = 20;
 
 /// Everything that `dynid excite --for` found, and what it was asked.
