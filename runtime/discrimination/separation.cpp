@@ -154,7 +154,7 @@ SeparationCriterion::SeparationCriterion(SeparationProblem problem, const Planne
     try {
       effect_columns(data, signals, rival.hypothesis.effect, wanted_columns(rival.hypothesis),
                      rival.hypothesis.held);
-    } catch (const std::invalid_argument& error) {
+    } catch (const MissingSignalError& error) {
       left_out_.push_back(fmt::format("{}: {}", short_name(effect), error.what()));
       continue;
     }

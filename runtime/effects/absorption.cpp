@@ -74,7 +74,7 @@ class Atlas {
     MatrixXd plain;
     try {
       plain = stack_.plain(signals_, effect);
-    } catch (const std::invalid_argument& error) {
+    } catch (const MissingSignalError& error) {
       entry.missing = error.what();
       return entry;
     }

@@ -52,6 +52,7 @@ class EffectFitter {
     for (std::size_t k = 0; k < written_.size(); ++k) point = started(std::move(point), k);
     SearchState state = EffectSearch(data_, signals_, triangles_, scales_, unknowns_, weights_)
                             .with_linear_solved(std::move(point));
+    refuse_infinite(state);
     hold_steps(state);
     free_initial_states(state);
     state = searched(std::move(state));
@@ -111,6 +112,17 @@ class EffectFitter {
       if (!best || state.cost < best->cost) best = std::move(state);
     }
     return best->point;
+  }
+
+  /// @throws NotFiniteError  if the search cannot begin
+  void refuse_infinite(const SearchState& state) const {
+    if (std::isfinite(state.cost)) return;
+    std::vector<std::string> names;
+    for (const EffectInstance& effect : state.point.effects) names.push_back(short_name(effect));
+    throw NotFiniteError(fmt::format(
+        "fit_effects(): the torque of the model with {} is not finite at the parameters "
+        "where the search begins: expected shapes at which it is",
+        names.empty() ? "no effects" : fmt::format("{}", fmt::join(names, ", "))));
   }
 
   /// A scanned parameter in which torque is made of steps (when something begins) has no

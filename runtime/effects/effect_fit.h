@@ -75,7 +75,9 @@ using EffectProgress = std::function<void(const std::string& what, double done)>
 /// estimate back, within it.
 /// @param effects  those of the robot with numbers or NaN
 /// @throws std::invalid_argument  if an effect does not fit the model, a given parameter has no
-/// number, or a recording lacks what an effect reads
+/// number
+/// @throws MissingSignalError  if a recording lacks what an effect reads
+/// @throws NotFiniteError  if the torque of the effects is not finite where the search begins
 /// Source: Golub and Pereyra, "The differentiation of pseudo-inverses and nonlinear least squares
 /// problems whose variables separate", SIAM J. Numer. Anal. 1973; Kaufman, "A variable projection
 /// method for solving separable nonlinear least squares problems", BIT 1975.

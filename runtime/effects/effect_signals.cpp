@@ -202,7 +202,7 @@ const MatrixXd& EffectSignals::filtered_rates(std::size_t run, int joint) {
 TangentColumns EffectSignals::tangents(std::size_t run, const TangentKey& wanted,
                                        double further) const {
   if (!data_.robot.tangents) {
-    throw std::invalid_argument(
+    throw MissingSignalError(
         fmt::format("effects: '{}' is a derivative of the rigid model, and this robot gives none",
                     wanted.first));
   }
@@ -266,7 +266,7 @@ VectorXd EffectSignals::signal(std::size_t run, const std::string& name,
   if (name == "t") return here.time;
   if (name == "temp") {
     if (motion.temperature.size() == 0) {
-      throw std::invalid_argument(fmt::format(
+      throw MissingSignalError(fmt::format(
           "effect {} reads the temperature of joint {}, and the recording has none: expected a "
           "column temp, or temp1 .. temp{}",
           effect.law.name, joint + 1, data_.joints()));

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,12 @@ namespace dyngen::runtime {
 struct ModelDerivative {
   std::vector<int> columns;  ///< places in beta, ascending
   Eigen::MatrixXd values;    ///< (N x columns)
+};
+
+/// A recording or a robot does not have a signal that an effect reads.
+class MissingSignalError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
 };
 
 /// The signals that variables of effects stand for, over the runs of recordings and for given
@@ -50,7 +57,8 @@ class EffectSignals {
   /// What EffectLaw::evaluate reads.
   /// @param target  the joint whose torque is asked for, where the effect acts on all; else unused
   /// @return        (N x nv)
-  /// @throws std::invalid_argument  if the recording or the robot does not have a signal
+  /// @throws MissingSignalError  if the recording or the robot does not have a signal
+  /// @throws std::invalid_argument  if there is no variable of such a name
   Eigen::MatrixXd variables(std::size_t run, const EffectInstance& effect, int target);
 
   /// d e / d beta through the variables; that of the rigid model's derivatives is left out.

@@ -3,7 +3,6 @@
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
-#include <stdexcept>
 
 namespace dyngen::runtime {
 
@@ -15,7 +14,7 @@ namespace {
 
 void check_finite(const MatrixXd& A) {
   if (A.allFinite()) return;
-  throw std::invalid_argument(
+  throw NotFiniteError(
       "numbers are too large to compute with: the squares of some torque or regressor exceed "
       "1e308");
 }

@@ -2,10 +2,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <stdexcept>
 
 namespace dyngen::runtime {
 
-// Matrices may be empty. Numbers that are not finite are refused: std::invalid_argument.
+/// Numbers that are not finite, or whose squares are not.
+class NotFiniteError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+// Matrices may be empty. Numbers that are not finite are refused: NotFiniteError.
 
 /// A = U diag(values) V', thin; values fall.
 struct SingularValues {

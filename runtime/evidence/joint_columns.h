@@ -28,7 +28,7 @@ JointColumns side_by_side(const std::vector<JointColumns>& sets);
 /// that do not count are 0. Columns: 1 + np, or only those of `wanted` (0: the torque, 1 + k: by
 /// parameter k).
 /// @param states_held  as of EffectWanted
-/// @throws std::invalid_argument  if a recording lacks what the effect reads
+/// @throws MissingSignalError  if a recording lacks what the effect reads
 JointColumns effect_columns(const EffectRecordings& data, EffectSignals& signals,
                             const EffectInstance& effect, const std::vector<int>& wanted,
                             bool states_held = false);

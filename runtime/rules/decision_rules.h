@@ -169,8 +169,9 @@ struct DecisionRules {
   AnswerRules answer;
 };
 
-/// All of them, in the order of their stages.
+/// All of them, in the order of their stages. They are those of `rules`, which outlives them.
 std::vector<const DecisionRule*> all_rules(const DecisionRules& rules);
+std::vector<const DecisionRule*> all_rules(const DecisionRules&& rules) = delete;
 
 /// Sets a rule by its name. @return false: there is none of that name
 bool set_rule(DecisionRules& rules, std::string_view name, double value);

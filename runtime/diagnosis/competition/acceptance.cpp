@@ -9,10 +9,11 @@ namespace dyngen::runtime {
 
 void Acceptance::begin_round() {
   at_bound_.reset();
-  if (options_.with_regressor) known_ = model_information(fitted_, result_.noise);
+  if (options_.with_regressor) known_ = model_information(data_.fit, result_.noise);
 }
 
-bool Acceptance::accept(Candidate candidate, const Screening& screening) {
+std::optional<Acceptance::Accepted> Acceptance::accept(Candidate candidate,
+                                                       const Screening& screening) {
   // a bound that holds the estimate, a falsifier, or a parameter that the data do not determine
   // speak against the name
   const int own = static_cast<int>(candidate.fit.point.effects.size()) - 1;
@@ -22,46 +23,49 @@ bool Acceptance::accept(Candidate candidate, const Screening& screening) {
     doubtful = true;
     only_bounds = only_bounds && remark.kind == EffectRemark::Kind::kAtBound;
   }
-  if (!doubtful) return keep(std::move(candidate), screening);
+  if (!doubtful) return judged(std::move(candidate), screening);
   if (only_bounds && !at_bound_) at_bound_ = std::move(candidate);
-  return false;
+  return std::nullopt;
 }
 
-bool Acceptance::accept_at_bound(const Screening& screening) {
-  return at_bound_ && keep(std::move(*at_bound_), screening);
+std::optional<Acceptance::Accepted> Acceptance::accept_at_bound(const Screening& screening) {
+  if (!at_bound_) return std::nullopt;
+  return judged(*std::exchange(at_bound_, std::nullopt), screening);
 }
 
 HeldoutProof Acceptance::proof_of(const EffectFit& next) const {
-  return heldout_proof(heldout_, result_.fit.point, next.point, result_.noise, known_);
+  return heldout_proof(data_.heldout, result_.fit.point, next.point, result_.noise, known_);
 }
 
-/// Whether its own columns in each period, or the half_band, ask for another size.
-bool Acceptance::refuted(const Candidate& candidate) {
-  const Hypothesis& hypothesis = hypotheses_[candidate.named.hypothesis];
+/// Whether its own columns in each period, or the half-band test, ask for another size.
+bool Acceptance::refuted(const Candidate& candidate) const {
+  const Hypothesis& hypothesis = sought_.hypotheses[candidate.named.hypothesis];
   if (result_.noise.from_periods) {
-    const EvidenceSystem system = system_beside(train_, signals_, hypotheses_, result_,
-                                                result_.fit.point, result_.noise, options_);
-    if (scatter_refutes(train_, signals_, system, hypothesis, candidate.named.best.effect)) {
+    const EvidenceSystem system =
+        system_beside(data_.evidence, data_.signals, sought_.hypotheses, result_, result_.fit.point,
+                      result_.noise, options_);
+    if (scatter_refutes(data_.evidence, data_.signals, system, hypothesis,
+                        candidate.named.best.effect)) {
       return true;
     }
   }
-  return half_band_.contradicts(hypotheses_, result_, hypothesis, candidate.fit.point, options_);
+  return data_.half_band.contradicts(sought_.hypotheses, result_, hypothesis, candidate.fit.point,
+                                     options_);
 }
 
 /// Whether held-out recordings speak for it, or, of one beyond doubt, agree with it; an event is
 /// not in them and must only not harm them.
 bool Acceptance::proved(const Candidate& candidate, HeldoutProof proof) const {
-  const Hypothesis& hypothesis = hypotheses_[candidate.named.hypothesis];
-  proof.parameters = static_cast<double>(hypothesis.linear.size() + hypothesis.shapes.size());
+  const Hypothesis& hypothesis = sought_.hypotheses[candidate.named.hypothesis];
+  proof.parameters = static_cast<double>(sought_.parameters(candidate.named.hypothesis));
   proof.fitted = candidate.named.best.score.delta_chi2;
   if (hypothesis.windowed) return !proof.harms();
   return proof.helps() || (candidate.beyond_doubt && proof.agrees());
 }
 
-bool Acceptance::keep(Candidate candidate, const Screening& screening) {
-  if (refuted(candidate)) return false;
-  const HeldoutProof proof = proof_of(candidate.fit);
-  if (!proved(candidate, proof)) return false;
+std::optional<Acceptance::Accepted> Acceptance::judged(Candidate candidate,
+                                                       const Screening& screening) const {
+  if (refuted(candidate) || !proved(candidate, proof_of(candidate.fit))) return std::nullopt;
   Winner winner;
   winner.hypothesis = candidate.named.hypothesis;
   winner.trial = std::move(candidate.named.best);
@@ -69,9 +73,7 @@ bool Acceptance::keep(Candidate candidate, const Screening& screening) {
   winner.at_stiction = candidate.at_stiction;
   winner.others = screening.named;
   winner.generic = screening.generic;
-  result_.winners.push_back(std::move(winner));
-  result_.fit = std::move(candidate.fit);
-  return true;
+  return Accepted{std::move(winner), std::move(candidate.fit)};
 }
 
 }  // namespace dyngen::runtime

@@ -2,7 +2,6 @@
 #include "runtime/diagnosis/competition/competition.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <set>
 
@@ -27,42 +26,26 @@ using Eigen::VectorXd;
 constexpr std::size_t kRefined = 12;  // candidates whose shapes are refined in a round
 constexpr double kLeastAsGood = 0.5;  // of the winner's squares: rivals that are tried with it
 constexpr std::size_t kAttempts = 4;  // effects that are fitted in a round before it gives up
-constexpr double kTie = 0.5;          // squares that decide nothing
 constexpr std::size_t kRivals = 5;    // that are compared again once the winner is fitted
 
 /// One competition's data and what was found so far.
 class Competition {
  public:
-  Competition(const EffectRecordings& train, const EffectRecordings& fitted,
-              HalfBandTest& half_band, const EffectRecordings& heldout,
-              const std::vector<Hypothesis>& hypotheses, const CompetitionOptions& options,
-              const CompetitionProgress& progress)
-      : train_(train),
-        fitted_(fitted),
-        heldout_(heldout),
-        hypotheses_(hypotheses),
-        structures_(generic_structures(train.joints())),
+  Competition(const CompetitionData& data, const std::vector<Hypothesis>& hypotheses,
+              const CompetitionOptions& options, const CompetitionProgress& progress)
+      : data_(data),
+        sought_(sought_in(data.evidence, hypotheses)),
         options_(options),
         progress_(progress),
-        scales_(train),
-        signals_(train),
-        screening_data_(train),
-        repeats_(repeats_of(fitted)),
-        half_band_(half_band),
-        stiction_(train_, signals_, structures_, result_.sticking, options_.false_alarm),
-        conditions_(train_, signals_, hypotheses_, structures_, stiction_, result_),
-        nameless_(train_, signals_, heldout_, hypotheses_, structures_, stiction_, half_band_,
-                  system_options(), options_.false_alarm, result_),
-        likely_(train_, screening_data_, hypotheses_, scales_, result_,
+        screening_data_(data.evidence),
+        repeats_(repeats_of(data.fit)),
+        stiction_(data_, sought_, result_.sticking, options_.false_alarm),
+        conditions_(data_, sought_, stiction_, result_),
+        nameless_(data_, sought_, stiction_, system_options(), options_.false_alarm, result_),
+        likely_(data_, sought_, screening_data_, result_,
                 [this](const EffectInstance& effect) { return fit(effects_and(effect)); }),
-        pairs_(train_, signals_, hypotheses_, stiction_, conditions_, options_.false_alarm, result_,
-               {[this](const std::vector<EffectInstance>& all) {
-                  tell("pairs of effects", 0);
-                  return fit(all);
-                },
-                [this](std::size_t wanted) { return next_beside(wanted); }}),
-        acceptance_(train_, signals_, fitted_, heldout_, hypotheses_, half_band_, system_options(),
-                    result_) {}
+        pairs_(data_, sought_, stiction_, conditions_, options_.false_alarm, result_),
+        acceptance_(data_, sought_, system_options(), result_) {}
 
   CompetitionResult run() {
     tell("the model alone", 0);
@@ -83,14 +66,14 @@ class Competition {
       if (exhausted("further effects")) break;
       const bool found = result_.noise.from_periods
                              ? next_winner(system, screening) || next_pair(system, screening) ||
-                                   nameless_.next(system, screening)
+                                   take(nameless_.next(system, screening))
                              : next_likely(system, screening);
       if (!found) break;
       if (options_.until_stiction && !result_.sticking.empty()) return std::move(result_);
     }
     drop_superfluous();
     if (!result_.winners.empty() && !exhausted("frequencies of what was found") &&
-        scan_again(train_, signals_, hypotheses_, scales_, system_options(), result_)) {
+        scan_again(data_, sought_, system_options(), result_)) {
       result_.fit = fit(effects());
     }
     return std::move(result_);
@@ -103,7 +86,9 @@ class Competition {
 
   /// Whether the work that may be done is done; then a search is left out, and named.
   bool exhausted(const std::string& search) {
-    if (options_.effort <= 0 || !train_.work || train_.work->done() < options_.effort) return false;
+    if (options_.effort <= 0 || !data_.evidence.work ||
+        data_.evidence.work->done() < options_.effort)
+      return false;
     std::vector<std::string>& names = result_.cut_off;
     if (std::find(names.begin(), names.end(), search) == names.end()) names.push_back(search);
     return true;
@@ -121,23 +106,23 @@ class Competition {
     settings.most_rounds = 2;
     settings.most_steps = 15;
     settings.tolerance = 1e-6;
-    return fit_effects(fitted_, effects, settings);
+    return fit_effects(data_.fit, effects, settings);
   }
 
   /// Effects of all winners, with their latest estimates.
   [[nodiscard]] std::vector<EffectInstance> effects() const { return result_.fit.point.effects; }
 
   void measure_noise() {
-    const RunResiduals residuals = residuals_of(fitted_, result_.fit.point);
-    result_.noise = torque_noise_model(fitted_, residuals, repeats_, options_.with_regressor,
+    const RunResiduals residuals = residuals_of(data_.fit, result_.fit.point);
+    result_.noise = torque_noise_model(data_.fit, residuals, repeats_, options_.with_regressor,
                                        options_.rules.noise);
     if (result_.noise.from_periods || result_.nameless.empty()) return;
     // noise is what the model leaves: structure that was found is none of it
-    EffectSignals signals(fitted_);
+    EffectSignals signals(data_.fit);
     const EvidenceSystem white =
-        beside_white_noise(fitted_, signals, hypotheses_, result_, system_options());
-    result_.noise = torque_noise_model(fitted_, rests_of(fitted_, white, result_.fit.rms), repeats_,
-                                       options_.with_regressor, options_.rules.noise);
+        beside_white_noise(data_.fit, signals, sought_.hypotheses, result_, system_options());
+    result_.noise = torque_noise_model(data_.fit, rests_of(data_.fit, white, result_.fit.rms),
+                                       repeats_, options_.with_regressor, options_.rules.noise);
   }
 
   [[nodiscard]] EvidenceSystem::Options system_options() const {
@@ -157,15 +142,15 @@ class Competition {
   /// Structures alone, and which joints rest by them.
   std::vector<GenericResult> screen_structures(const EvidenceSystem& system) {
     Screening structure =
-        screen(screening_data_, system, scales_, result_.fit.point.beta, {}, structures_, nullptr,
-               [&](double done) { tell("joints that stick", done); });
+        screen(screening_data_, system, sought_.scales, result_.fit.point.beta, {},
+               sought_.structures, nullptr, [&](double done) { tell("joints that stick", done); });
     result_.sticking = stiction_.strongest(system, structure);
     return std::move(structure.generic);
   }
 
   EvidenceSystem model_system() {
-    return system_beside(train_, signals_, hypotheses_, result_, result_.fit.point, result_.noise,
-                         system_options());
+    return system_beside(data_.evidence, data_.signals, sought_.hypotheses, result_,
+                         result_.fit.point, result_.noise, system_options());
   }
 
   /// @param first  the whole grid of shapes is tried
@@ -175,21 +160,13 @@ class Competition {
     const std::string stage =
         first ? "structure beside the model" : "structure beside the model and what was found";
     return screen(
-        screening_data_, system, scales_, result_.fit.point.beta, hypotheses_, structures_,
-        first ? nullptr : &result_.first, [&](double done) { tell(stage, done); }, known);
+        screening_data_, system, sought_.scales, result_.fit.point.beta, sought_.hypotheses,
+        sought_.structures, first ? nullptr : &result_.first,
+        [&](double done) { tell(stage, done); }, known);
   }
 
   [[nodiscard]] double net(const NamedResult& result) const {
-    return net_of(hypotheses_[result.hypothesis], result.best, result_.noise);
-  }
-
-  [[nodiscard]] std::size_t size_of(std::size_t hypothesis) const {
-    return hypotheses_[hypothesis].linear.size() + hypotheses_[hypothesis].shapes.size();
-  }
-
-  /// Joints on which the columns of a hypothesis act.
-  [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const {
-    return joints_of(hypotheses_[place].effect, train_.joints());
+    return sought_.net(result, result_.noise);
   }
 
   /// Shapes of some effects between those of the grid.
@@ -198,9 +175,10 @@ class Competition {
     const auto refine_one = [&](std::size_t piece, std::size_t thread) {
       NamedResult& named = screening.named[places[piece]];
       if (screening.family_wise(named.surprise) > 0.5) return;
-      const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
-      named.best = refined(train_, screening_data_.readers()[thread].whole, system, hypothesis,
-                           named.best, scales_.of(result_.fit.point.beta, hypothesis.effect));
+      const Hypothesis& hypothesis = sought_.hypotheses[named.hypothesis];
+      named.best =
+          refined(data_.evidence, screening_data_.readers()[thread].whole, system, hypothesis,
+                  named.best, sought_.scales.of(result_.fit.point.beta, hypothesis.effect));
       named.surprise = surprise_of_refined(named, hypothesis);
     };
     in_parallel(places.size(), screening_data_.readers().size(), refine_one,
@@ -209,7 +187,7 @@ class Competition {
 
   /// What may be a remnant of what was found has to be beyond doubt.
   [[nodiscard]] bool is_remnant(const NamedResult& named, const Screening& screening) const {
-    return may_be_remnant(result_, hypotheses_, named.hypothesis) &&
+    return may_be_remnant(result_, sought_.hypotheses, named.hypothesis) &&
            !nameless_.sure(screening, named.surprise);
   }
 
@@ -220,12 +198,9 @@ class Competition {
         order.push_back(named.hypothesis);
       }
     }
-    // of effects that are as good as one another the one with fewer parameters, then the first
     const auto best_first = [&](std::size_t a, std::size_t b) {
-      const double first = std::floor(net(screening.named[a]) / kTie);
-      const double second = std::floor(net(screening.named[b]) / kTie);
-      if (first != second) return first > second;
-      return size_of(a) < size_of(b);
+      return comes_before(sought_.standing(screening.named[a], result_.noise),
+                          sought_.standing(screening.named[b], result_.noise));
     };
     std::stable_sort(order.begin(), order.end(), best_first);
     std::set<std::size_t> attempted;  // fitted and turned down
@@ -234,7 +209,8 @@ class Competition {
     refine(order, system, screening);
     for (const std::size_t place : order) {
       const NamedResult& named = screening.named[place];
-      if (within_rounding(train_, hypotheses_[place], named.best.effect)) stopped.insert(place);
+      if (within_rounding(data_.evidence, sought_.hypotheses[place], named.best.effect))
+        stopped.insert(place);
     }
     std::stable_sort(order.begin(), order.end(), best_first);
     std::optional<std::size_t> costly;
@@ -251,7 +227,7 @@ class Competition {
       if (conditions_.outdone(named, system, screening)) continue;
       if (attempted.contains(place)) continue;
       const StictionImpulses::Part stiction =
-          stiction_.part_in(system, screening, hypotheses_[place], named);
+          stiction_.part_in(system, screening, sought_.hypotheses[place], named);
       if (stiction == StictionImpulses::Part::kAll || conditions_.is_no_event(system, named) ||
           is_remnant(named, screening)) {
         stopped.insert(place);
@@ -262,13 +238,59 @@ class Competition {
       attempted.insert(best.hypothesis);
       if (accept(best, screening, stiction == StictionImpulses::Part::kBecause)) return true;
     }
-    if (acceptance_.accept_at_bound(screening)) return true;
+    if (take(acceptance_.accept_at_bound(screening))) return true;
     return costly && keep_without_name(*costly, system, screening);
   }
 
+  /// What was found becomes part of the result. @return whether anything was found
+  bool take(std::optional<Acceptance::Accepted> accepted) {
+    if (!accepted) return false;
+    result_.winners.push_back(std::move(accepted->winner));
+    result_.fit = std::move(accepted->fit);
+    return true;
+  }
+  bool take(std::optional<Nameless> nameless) {
+    if (!nameless) return false;
+    result_.nameless.push_back(std::move(*nameless));
+    return true;
+  }
+  bool take(FoundStructure found) {
+    if (found.sticking.empty()) return take(std::move(found.nameless));
+    result_.sticking.insert(result_.sticking.end(), found.sticking.begin(), found.sticking.end());
+    return true;
+  }
+
+  /// Two effects of which neither is found while the other is left out.
   bool next_pair(const EvidenceSystem& system, const Screening& screening) {
-    return static_cast<int>(result_.winners.size()) + 2 <= options_.most_winners &&
-           !exhausted("pairs of effects") && pairs_.next(system, screening);
+    if (static_cast<int>(result_.winners.size()) + 2 > options_.most_winners) return false;
+    if (exhausted("pairs of effects")) return false;
+    for (const EffectPair& pair : pairs_.strongest(system, screening)) {
+      if (exhausted("pairs of effects")) return false;
+      if (pairs_.promising(pair, system, screening) && find_both(pair, screening)) return true;
+    }
+    return false;
+  }
+
+  /// Each of a pair has to be found beside the other. @return whether both are in the result now;
+  /// else the result is what it was
+  bool find_both(const EffectPair& pair, const Screening& screening) {
+    const auto fit_pair = [&](const std::vector<EffectInstance>& all) {
+      tell("pairs of effects", 0);
+      return fit(all);
+    };
+    const std::size_t found = result_.winners.size();
+    CompetitionResult before = result_;
+    // one stands in until the other is found, then it has to be found itself
+    result_.winners.emplace_back().hypothesis = pair.weaker;
+    result_.fit = fit_pair(effects_and(screening.named[pair.weaker].freest.effect));
+    if (next_beside(found + 2)) {
+      result_.winners.erase(result_.winners.begin() + static_cast<std::ptrdiff_t>(found));
+      result_.fit = fit_pair(without(result_.fit.point, found).effects);
+      if (next_beside(found + 2)) return true;
+    }
+    before.cut_off = std::move(result_.cut_off);
+    result_ = std::move(before);
+    return false;
   }
 
   /// One winner more beside those that there are. @param wanted  how many there are to be
@@ -286,11 +308,11 @@ class Competition {
     const NamedResult& named = screening.named[place];
     const std::string name = short_name(named.best.effect);
     if (!nameless_.sure(screening, named.surprise) || nameless_.is_costly(name)) return false;
-    if (stiction_.explain(system, screening, hypotheses_[place], named)) return false;
+    if (stiction_.explain(system, screening, sought_.hypotheses[place], named)) return false;
     const GenericResult* nearest = nullptr;
-    for (const int joint : joints_of_hypothesis(place)) {
+    for (const int joint : sought_.joints(place)) {
       for (const GenericResult& generic : screening.generic) {
-        const GenericStructure& structure = structures_[generic.structure];
+        const GenericStructure& structure = sought_.structures[generic.structure];
         if (structure.joint != joint || !structure.is_specific() ||
             structure.form == GenericStructure::Form::kImpulses || has_nameless(result_, joint))
           continue;
@@ -298,31 +320,31 @@ class Competition {
       }
     }
     if (!nearest || !acceptance_.proof_of(with(named.best.effect)).helps()) return false;
-    return nameless_.describe(*nearest, system, name);
+    return take(nameless_.described(*nearest, system, name));
   }
 
   /// Where no motion repeats: see LikelySearch and likeliest_structure().
   bool next_likely(const EvidenceSystem& system, const Screening& screening) {
     tell("likelihoods", 0);
-    const EvidenceSystem white =
-        beside_white_noise(train_, signals_, hypotheses_, result_, system_options());
-    const Screening beside = screen(screening_data_, white, scales_, result_.fit.point.beta,
-                                    hypotheses_, structures_, &result_.first);
+    const EvidenceSystem white = beside_white_noise(data_.evidence, data_.signals,
+                                                    sought_.hypotheses, result_, system_options());
+    const Screening beside = screen(screening_data_, white, sought_.scales, result_.fit.point.beta,
+                                    sought_.hypotheses, sought_.structures, &result_.first);
     const ModelSide plain{white, beside};
-    const auto take = [&](const LikelyEffect& likely) {
+    const auto accepts = [&](const LikelyEffect& likely) {
       if (screening.family_wise(likely.named.surprise) > options_.false_alarm) return false;
-      if (likely.net < stiction_.unseen_on(joints_of_hypothesis(likely.named.hypothesis))) {
+      if (likely.net < stiction_.unseen_on(sought_.joints(likely.named.hypothesis))) {
         return false;
       }
-      const StictionImpulses::Part stiction =
-          stiction_.part_in(white, beside, hypotheses_[likely.named.hypothesis], likely.named);
+      const StictionImpulses::Part stiction = stiction_.part_in(
+          white, beside, sought_.hypotheses[likely.named.hypothesis], likely.named);
       if (stiction == StictionImpulses::Part::kAll || conditions_.is_no_event(white, likely.named))
         return false;
       return accept(likely.named, screening, stiction == StictionImpulses::Part::kBecause,
                     likely.fit);
     };
-    return likely_.next({system, screening}, plain, take) || nameless_.next(system, screening) ||
-           nameless_.next_likely(plain);
+    return likely_.next({system, screening}, plain, accepts) ||
+           take(nameless_.next(system, screening)) || take(nameless_.next_likely(plain));
   }
 
   /// What effects read of the model (the load on a gear) is wrong as long as the model has taken up
@@ -339,8 +361,8 @@ class Competition {
     const EffectPoint beside = without(fit(all).point, all.size() - 1);
     EvidenceSystem::Options options = system_options();
     options.surrogates = 0;
-    const EvidenceSystem system =
-        system_beside(train_, signals_, hypotheses_, result_, beside, result_.noise, options);
+    const EvidenceSystem system = system_beside(data_.evidence, data_.signals, sought_.hypotheses,
+                                                result_, beside, result_.noise, options);
     NamedResult best = named;
     bool first = true;
     std::size_t tried = 0;
@@ -349,19 +371,20 @@ class Competition {
       const NamedResult& rival = screening.named[place];
       if (refused.contains(place)) continue;
       if (rival.best.score.delta_chi2 < kLeastAsGood * named.best.score.delta_chi2) continue;
-      const Hypothesis& hypothesis = hypotheses_[place];
-      const EffectScales scales = scales_.of(beside.beta, hypothesis.effect);
+      const Hypothesis& hypothesis = sought_.hypotheses[place];
+      const EffectScales scales = sought_.scales.of(beside.beta, hypothesis.effect);
       EffectInstance start = rival.best.effect;
       for (const int p : hypothesis.linear) start.parameters[p] = hypothesis.effect.parameters[p];
       NamedResult again = rival;
       again.best = refined(
-          train_, signals_, system, hypothesis,
-          try_hypothesis(train_, signals_, system, hypothesis, start, scales, false), scales);
+          data_.evidence, data_.signals, system, hypothesis,
+          try_hypothesis(data_.evidence, data_.signals, system, hypothesis, start, scales, false),
+          scales);
       if (!again.best.admissible) continue;
       again.surprise = surprise_of_refined(again, hypothesis);
       const double gain = net(again) - net(best);
-      const bool better =
-          gain > kTie || (gain > -kTie && size_of(place) < size_of(best.hypothesis));
+      const bool better = gain > kTie || (gain > -kTie && sought_.parameters(place) <
+                                                              sought_.parameters(best.hypothesis));
       if (first || better) best = std::move(again);
       first = false;
     }
@@ -376,7 +399,7 @@ class Competition {
   bool accept(const NamedResult& named, const Screening& screening, bool at_stiction,
               EffectFit fit) {
     const bool beyond_doubt = nameless_.sure(screening, named.surprise);
-    return acceptance_.accept({named, std::move(fit), beyond_doubt, at_stiction}, screening);
+    return take(acceptance_.accept({named, std::move(fit), beyond_doubt, at_stiction}, screening));
   }
 
   EffectFit with(const EffectInstance& effect) {
@@ -387,12 +410,12 @@ class Competition {
   /// A winner that the others made superfluous leaves.
   void drop_superfluous() {
     for (std::size_t i = 0; i < result_.winners.size();) {
-      const EvidenceSystem system =
-          system_without(train_, signals_, hypotheses_, result_, i, system_options());
-      const Hypothesis& hypothesis = hypotheses_[result_.winners[i].hypothesis];
-      const TrialScore again =
-          try_hypothesis(train_, signals_, system, hypothesis, result_.fit.point.effects[i],
-                         scales_.of(result_.fit.point.beta, hypothesis.effect), false);
+      const EvidenceSystem system = system_without(
+          data_.evidence, data_.signals, sought_.hypotheses, result_, i, system_options());
+      const Hypothesis& hypothesis = sought_.hypotheses[result_.winners[i].hypothesis];
+      const TrialScore again = try_hypothesis(
+          data_.evidence, data_.signals, system, hypothesis, result_.fit.point.effects[i],
+          sought_.scales.of(result_.fit.point.beta, hypothesis.effect), false);
       const double surprise = surprise_of(again.score.delta_chi2, again.score.degrees);
       if (result_.last.family_wise(surprise) <= options_.false_alarm) {
         ++i;
@@ -405,18 +428,12 @@ class Competition {
     }
   }
 
-  const EffectRecordings& train_;
-  const EffectRecordings& fitted_;
-  const EffectRecordings& heldout_;
-  const std::vector<Hypothesis>& hypotheses_;
-  std::vector<GenericStructure> structures_;
+  CompetitionData data_;
+  Sought sought_;
   CompetitionOptions options_;
   const CompetitionProgress& progress_;
-  ScaleTable scales_;
-  EffectSignals signals_;
   ScreeningData screening_data_;
   std::vector<double> repeats_;
-  HalfBandTest& half_band_;
   CompetitionResult result_;
   StictionImpulses stiction_;
   EffectConditions conditions_;
@@ -428,11 +445,9 @@ class Competition {
 
 }  // namespace
 
-CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
-                          HalfBandTest& half_band, const EffectRecordings& heldout,
-                          const std::vector<Hypothesis>& hypotheses,
+CompetitionResult compete(const CompetitionData& data, const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options, const CompetitionProgress& progress) {
-  return Competition(train, fitted, half_band, heldout, hypotheses, options, progress).run();
+  return Competition(data, hypotheses, options, progress).run();
 }
 
 }  // namespace dyngen::runtime

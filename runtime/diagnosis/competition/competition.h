@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/diagnosis/competition/competition_data.h"
 #include "runtime/diagnosis/competition/competition_result.h"
-#include "runtime/diagnosis/competition/half_band_test.h"
 
 namespace dyngen::runtime {
 
@@ -29,15 +29,9 @@ using CompetitionProgress = std::function<void(const std::string& stage, double 
 
 /// Round by round: everything is tested beside the model with what was found before; the best
 /// effect is fitted together with all of it and stays if noise alone would hardly have given it, it
-/// is proved on held-out recordings and the half_band does not contradict it. At the end each
+/// is proved on held-out recordings and the half-band test does not contradict it. At the end each
 /// winner is tested again beside all others.
-/// @param train    what evidence is of
-/// @param fitted   the same equations, without those near stiction intervals: what fits are of, and
-/// noise
-/// @param half_band  of the same recordings
-CompetitionResult compete(const EffectRecordings& train, const EffectRecordings& fitted,
-                          HalfBandTest& half_band, const EffectRecordings& heldout,
-                          const std::vector<Hypothesis>& hypotheses,
+CompetitionResult compete(const CompetitionData& data, const std::vector<Hypothesis>& hypotheses,
                           const CompetitionOptions& options,
                           const CompetitionProgress& progress = {});
 

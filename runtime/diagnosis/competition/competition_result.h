@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/diagnosis/competition/stiction_impulses.h"
+#include "runtime/diagnosis/equation_sets/stiction_joint.h"
 #include "runtime/diagnosis/scans/screening.h"
 #include "runtime/effects/effect_fit.h"
 

@@ -16,21 +16,13 @@ constexpr double kShortestCondition = 3;  // equations that an event lasts
 
 }  // namespace
 
-double EffectConditions::net(const NamedResult& result) const {
-  return net_of(hypotheses_[result.hypothesis], result.best, result_.noise);
-}
-
-std::vector<int> EffectConditions::joints_of_hypothesis(std::size_t place) const {
-  return joints_of(hypotheses_[place].effect, data_.joints());
-}
-
 /// What generic structure there is on a joint: squares less their expectation under noise.
 /// Impulses at reversals count where they are far more than noise: then nothing else is to be
 /// believed of that joint before it is said to rest.
 double EffectConditions::structure_of(const Screening& screening, int joint) const {
   double most = 0;
   for (const GenericResult& generic : screening.generic) {
-    const GenericStructure& structure = structures_[generic.structure];
+    const GenericStructure& structure = sought_.structures[generic.structure];
     if (structure.joint != joint) continue;
     if (!structure.is_specific()) continue;
     if (structure.form == GenericStructure::Form::kImpulses &&
@@ -44,28 +36,30 @@ double EffectConditions::structure_of(const Screening& screening, int joint) con
 }
 
 double EffectConditions::least_squares(const NamedResult& named, const Screening& screening) const {
-  const std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
+  const std::vector<int> joints = sought_.joints(named.hypothesis);
   double structure = 0;
   for (const int joint : joints) structure = std::max(structure, structure_of(screening, joint));
   return std::max(kLeastExplained * structure, stiction_.unseen_on(joints));
 }
 
 bool EffectConditions::is_no_event(const EvidenceSystem& system, const NamedResult& named) const {
-  const Hypothesis& hypothesis = hypotheses_[named.hypothesis];
+  const Hypothesis& hypothesis = sought_.hypotheses[named.hypothesis];
   if (!hypothesis.windowed) return false;
   const double slow = named.best.score.delta_chi2 * (1 - 1 / named.slow_noise);
-  if (net(named) - slow < kEventNet) return true;
+  if (sought_.net(named, result_.noise) - slow < kEventNet) return true;
   if (hypothesis.shapes.size() > 1) {  // it begins, and ends
     const Eigen::VectorXd& p = named.best.effect.parameters;
     const double duration = p[hypothesis.shapes[1]] - p[hypothesis.shapes[0]];
-    if (duration < kShortestCondition * data_.row_time) return true;
+    if (duration < kShortestCondition * data_.evidence.row_time) return true;
   }
-  return is_jolt(system, system.whitened(effect_columns(data_, signals_, named.best.effect, {0})));
+  return is_jolt(system, system.whitened(effect_columns(data_.evidence, data_.signals,
+                                                        named.best.effect, {0})));
 }
 
 bool EffectConditions::outdone(const NamedResult& named, const EvidenceSystem& system,
                                const Screening& screening) const {
-  return outdone(net(named), joints_of_hypothesis(named.hypothesis), system, screening);
+  return outdone(sought_.net(named, result_.noise), sought_.joints(named.hypothesis), system,
+                 screening);
 }
 
 bool EffectConditions::outdone(double explained, const std::vector<int>& own,
@@ -79,15 +73,15 @@ bool EffectConditions::outdone(double explained, const std::vector<int>& own,
       std::any_of(screening.named.begin(), screening.named.end(), [&](const NamedResult& each) {
         if (!each.seen || each.freest.admissible) return false;
         const NamedResult other = without_conditions(each);
-        if (much >= net(other)) return false;
-        const std::vector<int> joints = joints_of_hypothesis(other.hypothesis);
+        if (much >= sought_.net(other, result_.noise)) return false;
+        const std::vector<int> joints = sought_.joints(other.hypothesis);
         return std::any_of(joints.begin(), joints.end(), is_own) &&
-               !stiction_.hide(system, screening, hypotheses_[other.hypothesis], other);
+               !stiction_.hide(system, screening, sought_.hypotheses[other.hypothesis], other);
       });
   if (by_form) return true;
   return std::any_of(
       screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
-        const GenericStructure& structure = structures_[generic.structure];
+        const GenericStructure& structure = sought_.structures[generic.structure];
         return structure.is_specific() && structure.form != GenericStructure::Form::kImpulses &&
                is_own(structure.joint) && !stiction_.sticks(structure.joint) &&
                net_of(structure, generic.score, result_.noise) > much;

@@ -12,16 +12,10 @@ namespace dyngen::runtime {
 class EffectConditions {
  public:
   /// All of them have to outlive it.
-  EffectConditions(const EffectRecordings& data, EffectSignals& signals,
-                   const std::vector<Hypothesis>& hypotheses,
-                   const std::vector<GenericStructure>& structures,
+  /// @param result  what was found so far
+  EffectConditions(const CompetitionData& data, const Sought& sought,
                    const StictionImpulses& stiction, const CompetitionResult& result)
-      : data_(data),
-        signals_(signals),
-        hypotheses_(hypotheses),
-        structures_(structures),
-        stiction_(stiction),
-        result_(result) {}
+      : data_(data), sought_(sought), stiction_(stiction), result_(result) {}
 
   /// The squares that an effect has to explain: most of the structure of its joints, and more than
   /// sticks leave there.
@@ -39,14 +33,10 @@ class EffectConditions {
                              const EvidenceSystem& system, const Screening& screening) const;
 
  private:
-  [[nodiscard]] double net(const NamedResult& result) const;
-  [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
   [[nodiscard]] double structure_of(const Screening& screening, int joint) const;
 
-  const EffectRecordings& data_;
-  EffectSignals& signals_;
-  const std::vector<Hypothesis>& hypotheses_;
-  const std::vector<GenericStructure>& structures_;
+  const CompetitionData& data_;
+  const Sought& sought_;
   const StictionImpulses& stiction_;
   const CompetitionResult& result_;
 };

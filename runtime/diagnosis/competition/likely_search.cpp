@@ -2,14 +2,15 @@
 #include "runtime/diagnosis/competition/likely_search.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/scans/in_parallel.h"
+#include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -25,19 +26,19 @@ bool meet(const std::vector<int>& a, const std::vector<int>& b) {
 
 bool LikelySearch::next(const ModelSide& side, const ModelSide& plain,
                         const std::function<bool(const LikelyEffect&)>& take) {
-  const LikelihoodRatio ratio(data_, residuals_of(data_, result_.fit.point));
+  const LikelihoodRatio ratio(data_.evidence, residuals_of(data_.evidence, result_.fit.point));
   for (auto& [place, likely] : likely_) likely.fresh = false;
   std::vector<std::pair<std::size_t, const ModelSide*>> asked;
   std::set<std::size_t> places;
   const auto ask = [&](std::size_t place, const ModelSide& of) {
     if (!likely_.contains(place) && places.insert(place).second) asked.emplace_back(place, &of);
   };
-  for (int joint = 0; joint < data_.joints(); ++joint) {
+  for (int joint = 0; joint < data_.evidence.joints(); ++joint) {
     for (const std::size_t place : strongest_of(side.screening, joint)) {
       ask(place, side);
     }
     for (const std::size_t place : strongest_of(plain.screening, joint)) {
-      if (hypotheses_[place].windowed) continue;  // what is slow has a window that fits it
+      if (sought_.hypotheses[place].windowed) continue;  // what is slow has a window that fits it
       ask(place, plain);
       break;
     }
@@ -51,8 +52,9 @@ bool LikelySearch::next(const ModelSide& side, const ModelSide& plain,
   // what an earlier round said of other joints orders them; the best is asked again
   for (;;) {
     const auto best =
-        std::max_element(likely_.begin(), likely_.end(),
-                         [](const auto& a, const auto& b) { return a.second.net < b.second.net; });
+        std::min_element(likely_.begin(), likely_.end(), [&](const auto& a, const auto& b) {
+          return comes_before(standing(a.second), standing(b.second));
+        });
     if (best == likely_.end() || best->second.net <= 0) return false;
     if (!best->second.fresh) {
       best->second = compared(best->first, ratio, side, screened_.readers().front().whole);
@@ -61,10 +63,9 @@ bool LikelySearch::next(const ModelSide& side, const ModelSide& plain,
     const LikelyEffect likely = best->second;
     likely_.erase(best);
     if (!take(likely)) continue;
-    const std::vector<int> joints = joints_of_hypothesis(likely.named.hypothesis);
-    std::erase_if(likely_, [&](const auto& entry) {
-      return meet(joints_of_hypothesis(entry.first), joints);
-    });
+    const std::vector<int> joints = sought_.joints(likely.named.hypothesis);
+    std::erase_if(likely_,
+                  [&](const auto& entry) { return meet(sought_.joints(entry.first), joints); });
     return true;
   }
 }
@@ -73,22 +74,24 @@ LikelyEffect LikelySearch::compared(std::size_t place, const LikelihoodRatio& ra
                                     const ModelSide& side, EffectSignals& signals) const {
   LikelyEffect likely{side.screening.named[place], {}};
   NamedResult& named = likely.named;
-  const Hypothesis& hypothesis = hypotheses_[place];
-  named.best = refined(data_, signals, side.system, hypothesis, named.best,
-                       scales_.of(result_.fit.point.beta, hypothesis.effect));
+  const Hypothesis& hypothesis = sought_.hypotheses[place];
+  named.best = refined(data_.evidence, signals, side.system, hypothesis, named.best,
+                       sought_.scales.of(result_.fit.point.beta, hypothesis.effect));
   try {
     likely.fit = with_(named.best.effect);
-  } catch (const std::invalid_argument&) {
-    return likely;  // no finite torque at the shapes that were tried
+  } catch (const NotFiniteError&) {
+    return likely;  // there is no such fit
   }
-  const double squares = ratio.of(residuals_of(data_, likely.fit.point));
+  const double squares = ratio.of(residuals_of(data_.evidence, likely.fit.point));
   named.surprise = surprise_of(squares, degrees_of_refined(named, hypothesis));
   likely.net = squares - price_of(hypothesis, named.best, result_.noise);
   return likely;
 }
 
-std::vector<int> LikelySearch::joints_of_hypothesis(std::size_t place) const {
-  return joints_of(hypotheses_[place].effect, data_.joints());
+/// What does not pay for its parameters, or has no fit, stands behind all that does.
+Standing LikelySearch::standing(const LikelyEffect& likely) const {
+  constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  return {likely.net > 0 ? likely.net : kNothing, sought_.parameters(likely.named.hypothesis)};
 }
 
 /// Admissible effects on a joint with the largest score, a few, one of each family.
@@ -96,10 +99,10 @@ std::vector<std::size_t> LikelySearch::strongest_of(const Screening& screening, 
   std::vector<std::size_t> places;
   for (const NamedResult& named : screening.named) {
     if (!named.seen || !named.best.admissible || is_winner(result_, named.hypothesis)) continue;
-    if (meet(joints_of_hypothesis(named.hypothesis), {joint})) places.push_back(named.hypothesis);
+    if (meet(sought_.joints(named.hypothesis), {joint})) places.push_back(named.hypothesis);
   }
   const auto net = [&](std::size_t place) {
-    return net_of(hypotheses_[place], screening.named[place].best, result_.noise);
+    return net_of(sought_.hypotheses[place], screening.named[place].best, result_.noise);
   };
   std::stable_sort(places.begin(), places.end(),
                    [&](std::size_t a, std::size_t b) { return net(a) > net(b); });
@@ -107,7 +110,7 @@ std::vector<std::size_t> LikelySearch::strongest_of(const Screening& screening, 
   std::vector<std::size_t> few;
   for (const std::size_t place : places) {
     if (few.size() == kFamilies) break;
-    if (families.insert(hypotheses_[place].effect.law.family).second) few.push_back(place);
+    if (families.insert(sought_.hypotheses[place].effect.law.family).second) few.push_back(place);
   }
   return few;
 }

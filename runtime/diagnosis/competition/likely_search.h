@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition/beside_white_noise.h"
+#include "runtime/diagnosis/competition/competition_data.h"
 #include "runtime/diagnosis/competition/competition_result.h"
 #include "runtime/diagnosis/competition/likelihood.h"
-#include "runtime/diagnosis/scans/screening.h"
+#include "runtime/diagnosis/competition/sought.h"
 
 namespace dyngen::runtime {
 
@@ -26,20 +27,20 @@ struct LikelyEffect {
 /// and compared by their likelihoods, each with a noise of its own.
 class LikelySearch {
  public:
-  /// All must outlive it. @param screened  of the same data
-  /// @param with  fits the model and what was found with one effect more; from several threads
-  LikelySearch(const EffectRecordings& data, ScreeningData& screened,
-               const std::vector<Hypothesis>& hypotheses, const ScaleTable& scales,
+  /// All must outlive it. @param screened  of the same evidence
+  /// @param result  what was found so far
+  /// @param with    fits the model and what was found with one effect more; from several threads
+  LikelySearch(const CompetitionData& data, const Sought& sought, ScreeningData& screened,
                const CompetitionResult& result,
                std::function<EffectFit(const EffectInstance&)> with)
       : data_(data),
+        sought_(sought),
         screened_(screened),
-        hypotheses_(hypotheses),
-        scales_(scales),
         result_(result),
         with_(std::move(with)) {}
 
-  /// Offers the likeliest of all, then the next, until one is taken.
+  /// Offers the likeliest of all by the tie rule (comes_before()), then the next, until one is
+  /// taken.
   /// @param plain  beside white noise: noise that has slow structure in it hides that structure, so
   ///               each joint's best of it is compared too
   /// @param take   keeps what it is offered, or refuses. @return whether one was taken
@@ -49,13 +50,12 @@ class LikelySearch {
  private:
   LikelyEffect compared(std::size_t place, const LikelihoodRatio& ratio, const ModelSide& side,
                         EffectSignals& signals) const;
-  [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
+  [[nodiscard]] Standing standing(const LikelyEffect& likely) const;
   [[nodiscard]] std::vector<std::size_t> strongest_of(const Screening& screening, int joint) const;
 
-  const EffectRecordings& data_;
+  const CompetitionData& data_;
+  const Sought& sought_;
   ScreeningData& screened_;
-  const std::vector<Hypothesis>& hypotheses_;
-  const ScaleTable& scales_;
   const CompetitionResult& result_;
   std::function<EffectFit(const EffectInstance&)> with_;
   std::map<std::size_t, LikelyEffect> likely_;  // by hypothesis; of this round or an earlier one

@@ -20,20 +20,18 @@ bool is_provable(const Nameless& nameless) {
                       });
 }
 
-HeldoutProof nameless_proof(const EffectRecordings& train, EffectSignals& signals,
-                            const EffectRecordings& heldout,
-                            const std::vector<Hypothesis>& hypotheses,
-                            const CompetitionResult& result, const Nameless& nameless,
-                            EvidenceSystem::Options options) {
+HeldoutProof nameless_proof(const CompetitionData& data, const std::vector<Hypothesis>& hypotheses,
+                            const CompetitionResult& result, const TorqueNoiseModel& noise,
+                            const Nameless& nameless, EvidenceSystem::Options options) {
   options.surrogates = 0;
   EffectPoint point = result.fit.point;
   point.initial.clear();
-  EffectSignals own(heldout);
+  EffectSignals own(data.heldout);
   const EvidenceSystem system =
-      system_beside(heldout, own, hypotheses, result, point, result.noise, options);
-  const StructureKnots knots = structure_knots(train, signals, nameless.structure);
+      system_beside(data.heldout, own, hypotheses, result, point, noise, options);
+  const StructureKnots knots = structure_knots(data.evidence, data.signals, nameless.structure);
   const Products products = system.products(
-      system.whitened(generic_columns(heldout, own, nameless.structure, knots)), false);
+      system.whitened(generic_columns(data.heldout, own, nameless.structure, knots)), false);
   const VectorXd& size = nameless.score.coefficients;
   HeldoutProof proof;
   proof.change = size.dot(products.left * size);

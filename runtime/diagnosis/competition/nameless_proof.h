@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
+#include "runtime/diagnosis/competition/competition_data.h"
 #include "runtime/diagnosis/competition/competition_result.h"
 #include "runtime/diagnosis/competition/heldout.h"
 
@@ -12,12 +15,10 @@ bool is_provable(const Nameless& nameless);
 
 /// What they say of it, with the functions and the size that it has in the fitted ones: squares of
 /// what a refit of the model, and of all else that was found, leaves of them.
-/// @param signals  of the fitted recordings
-HeldoutProof nameless_proof(const EffectRecordings& train, EffectSignals& signals,
-                            const EffectRecordings& heldout,
-                            const std::vector<Hypothesis>& hypotheses,
-                            const CompetitionResult& result, const Nameless& nameless,
-                            EvidenceSystem::Options options);
+/// @param noise  of the torque, which need not be that of the result
+HeldoutProof nameless_proof(const CompetitionData& data, const std::vector<Hypothesis>& hypotheses,
+                            const CompetitionResult& result, const TorqueNoiseModel& noise,
+                            const Nameless& nameless, EvidenceSystem::Options options);
 
 /// Whether that is enough to say it. They have to have it too; of what is beyond doubt in the
 /// fitted ones they must not speak against it. A form without a name is a sketch: where they have

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <utility>
 
+#include "runtime/diagnosis/competition/half_band_test.h"
 #include "runtime/diagnosis/competition/likely_structure.h"
 #include "runtime/diagnosis/competition/nameless_proof.h"
 #include "runtime/diagnosis/competition/sandwich_test.h"
@@ -27,7 +27,7 @@ constexpr double kRuledOutNet = 15;  // squares, net: a form that cannot be is n
 std::vector<const GenericResult*> NamelessSearch::candidates(const Screening& screening) const {
   std::vector<const GenericResult*> strongest;
   for (const GenericResult& generic : screening.generic) {
-    const GenericStructure& structure = structures_[generic.structure];
+    const GenericStructure& structure = sought_.structures[generic.structure];
     const bool known =
         structure.form == GenericStructure::Form::kImpulses && stiction_.sticks(structure.joint);
     const double squares = generic.score.delta_chi2 - generic.score.degrees;
@@ -36,58 +36,60 @@ std::vector<const GenericResult*> NamelessSearch::candidates(const Screening& sc
   }
   std::stable_sort(strongest.begin(), strongest.end(),
                    [&](const GenericResult* a, const GenericResult* b) {
-                     const bool first = structures_[a->structure].is_specific();
-                     const bool second = structures_[b->structure].is_specific();
+                     const bool first = sought_.structures[a->structure].is_specific();
+                     const bool second = sought_.structures[b->structure].is_specific();
                      return first != second ? first : a->surprise > b->surprise;
                    });
-  const auto repeating = std::find_if(
-      strongest.begin(), strongest.end(),
-      [&](const GenericResult* generic) { return !structures_[generic->structure].is_specific(); });
+  const auto repeating =
+      std::find_if(strongest.begin(), strongest.end(), [&](const GenericResult* generic) {
+        return !sought_.structures[generic->structure].is_specific();
+      });
   if (repeating - strongest.begin() > kCandidates) {
     strongest.erase(strongest.begin() + kCandidates, repeating);
   }
   return strongest;
 }
 
-bool NamelessSearch::next(const EvidenceSystem& system, const Screening& screening) {
+FoundStructure NamelessSearch::next(const EvidenceSystem& system,
+                                    const Screening& screening) const {
+  FoundStructure found;
   const std::vector<const GenericResult*> strongest = candidates(screening);
   if (!strongest.empty()) {
-    std::vector<StictionJoint> sticking =
-        stiction_.sticking(system, screening, structures_[strongest.front()->structure]);
+    found.sticking =
+        stiction_.sticking(system, screening, sought_.structures[strongest.front()->structure]);
     // what sticks elsewhere jolts the whole arm: it is asked before anything is said without a name
-    if (sticking.empty()) sticking = stiction_.strongest(system, screening);
-    if (!sticking.empty()) {
-      result_.sticking.insert(result_.sticking.end(), sticking.begin(), sticking.end());
-      return true;
-    }
+    if (found.sticking.empty()) found.sticking = stiction_.strongest(system, screening);
+    if (!found.sticking.empty()) return found;
   }
-  if (next_ruled_out(system, screening)) return true;
+  found.nameless = next_ruled_out(system, screening);
+  if (found.nameless) return found;
   bool specific = true;  // the strongest of them may still be said
   for (const GenericResult* generic : strongest) {
-    const GenericStructure& structure = structures_[generic->structure];
+    const GenericStructure& structure = sought_.structures[generic->structure];
     if (structure.is_specific() && !specific) continue;
     if (has_nameless(result_, structure.joint)) {
       specific = false;
       continue;
     }
-    if (describe(*generic, system, "", !sure(screening, generic->surprise))) return true;
+    found.nameless = confirmed(nameless_of(*generic, ""), system, result_.noise,
+                               !sure(screening, generic->surprise));
+    if (found.nameless) return found;
   }
-  return false;
+  return found;
 }
 
-bool NamelessSearch::next_likely(const ModelSide& plain) {
+std::optional<Nameless> NamelessSearch::next_likely(const ModelSide& plain) const {
   const std::optional<LikelyStructure> likely =
-      likeliest_structure(data_, signals_, structures_, result_, plain);
-  if (!likely || plain.screening.family_wise(likely->generic.surprise) > false_alarm_) return false;
-  const std::vector<double> no_repeats(data_.runs.size(), 0.0);
-  TorqueNoiseModel noise = torque_noise_model(data_, likely->residuals, no_repeats,
-                                              options_.with_regressor, options_.rules.noise);
-  std::swap(result_.noise, noise);
-  const EvidenceSystem system = system_beside(data_, signals_, hypotheses_, result_,
-                                              result_.fit.point, result_.noise, options_);
-  if (describe(likely->generic, system, "", true)) return true;
-  std::swap(result_.noise, noise);
-  return false;
+      likeliest_structure(data_.evidence, data_.signals, sought_.structures, result_, plain);
+  if (!likely || plain.screening.family_wise(likely->generic.surprise) > false_alarm_) {
+    return std::nullopt;
+  }
+  const std::vector<double> no_repeats(data_.evidence.runs.size(), 0.0);
+  const TorqueNoiseModel noise = torque_noise_model(data_.evidence, likely->residuals, no_repeats,
+                                                    options_.with_regressor, options_.rules.noise);
+  const EvidenceSystem system = system_beside(data_.evidence, data_.signals, sought_.hypotheses,
+                                              result_, result_.fit.point, noise, options_);
+  return confirmed(nameless_of(likely->generic, ""), system, noise, true);
 }
 
 bool NamelessSearch::sure(const Screening& screening, double surprise) const {
@@ -101,17 +103,13 @@ bool NamelessSearch::is_costly(const std::string& effect) const {
                      [&](const Nameless& nameless) { return nameless.costly == effect; });
 }
 
-std::vector<int> NamelessSearch::joints_of_hypothesis(std::size_t place) const {
-  return joints_of(hypotheses_[place].effect, data_.joints());
-}
-
 /// The largest surprise of generic structure on some joints.
 double NamelessSearch::structure_surprise(const Screening& screening,
                                           const std::vector<int>& joints) const {
   double most = 0;
   for (const GenericResult& generic : screening.generic) {
-    const int joint = structures_[generic.structure].joint;
-    if (!structures_[generic.structure].is_specific()) continue;
+    const int joint = sought_.structures[generic.structure].joint;
+    if (!sought_.structures[generic.structure].is_specific()) continue;
     if (std::find(joints.begin(), joints.end(), joint) == joints.end()) continue;
     most = std::max(most, generic.surprise);
   }
@@ -120,18 +118,19 @@ double NamelessSearch::structure_surprise(const Screening& screening,
 
 /// The strongest effect that a bound or a falsifier rules out, if it is more than any other
 /// structure there: it is of that form.
-bool NamelessSearch::next_ruled_out(const EvidenceSystem& system, const Screening& screening) {
+std::optional<Nameless> NamelessSearch::next_ruled_out(const EvidenceSystem& system,
+                                                       const Screening& screening) const {
   const std::vector<RuledOut> candidates = ruled_out(screening);
   const RuledOut* strongest = strongest_apart_from_stiction(candidates, system, screening);
   if (!strongest || strongest->named.surprise < structure_surprise(screening, strongest->joints)) {
-    return false;
+    return std::nullopt;
   }
   Nameless nameless;
   nameless.structure.joint = strongest->joints.front();
   nameless.surprise = strongest->named.surprise;
   nameless.ruled_out = strongest->named.best.effect;
   nameless.objection = strongest->named.best.objection;
-  return add(std::move(nameless), system);
+  return confirmed(std::move(nameless), system, result_.noise, false);
 }
 
 /// Effects that a bound or a falsifier rules out and that are beyond doubt, the strongest first.
@@ -140,9 +139,9 @@ std::vector<NamelessSearch::RuledOut> NamelessSearch::ruled_out(const Screening&
   for (const NamedResult& each : screening.named) {
     if (!each.seen || each.freest.admissible) continue;
     NamedResult named = without_conditions(each);
-    const double net = net_of(hypotheses_[named.hypothesis], named.best, result_.noise);
+    const double net = net_of(sought_.hypotheses[named.hypothesis], named.best, result_.noise);
     if (net <= kRuledOutNet || !sure(screening, named.surprise)) continue;
-    std::vector<int> joints = joints_of_hypothesis(named.hypothesis);
+    std::vector<int> joints = sought_.joints(named.hypothesis);
     // beside a joint that sticks, what friction left of the stops looks like friction that cannot
     // be
     if (std::any_of(joints.begin(), joints.end(), [&](int joint) {
@@ -171,7 +170,7 @@ const NamelessSearch::RuledOut* NamelessSearch::strongest_apart_from_stiction(
     for (const RuledOut& candidate : candidates) {
       if (strongest && candidate.net <= strongest->net) break;
       if (candidate.joints != first.joints) continue;
-      const Hypothesis& hypothesis = hypotheses_[candidate.named.hypothesis];
+      const Hypothesis& hypothesis = sought_.hypotheses[candidate.named.hypothesis];
       if (!stiction_.nothing_left_in(beside, screening, hypothesis, candidate.named)) {
         strongest = &candidate;
       }
@@ -180,37 +179,41 @@ const NamelessSearch::RuledOut* NamelessSearch::strongest_apart_from_stiction(
   return strongest;
 }
 
-bool NamelessSearch::describe(const GenericResult& generic, const EvidenceSystem& system,
-                              const std::string& costly, bool needs_proof) {
+Nameless NamelessSearch::nameless_of(const GenericResult& generic,
+                                     const std::string& costly) const {
   Nameless nameless;
-  nameless.structure = structures_[generic.structure];
+  nameless.structure = sought_.structures[generic.structure];
   nameless.structure.frequency = generic.frequency;
   nameless.surprise = generic.surprise;
   nameless.costly = costly;
-  return add(std::move(nameless), system, needs_proof);
+  return nameless;
 }
 
 /// Whether held-out recordings let it be said.
-bool NamelessSearch::is_proved(const Nameless& nameless, bool needs_proof) {
+bool NamelessSearch::is_proved(const Nameless& nameless, const TorqueNoiseModel& noise,
+                               bool needs_proof) const {
   if (!is_provable(nameless)) return !needs_proof;
-  return is_supported(
-      nameless_proof(data_, signals_, heldout_, hypotheses_, result_, nameless, options_),
-      !needs_proof);
+  return is_supported(nameless_proof(data_, sought_.hypotheses, result_, noise, nameless, options_),
+                      !needs_proof);
 }
 
+/// With its score beside the model, unless something contradicts it.
+/// @param noise        of the system
 /// @param needs_proof  that held-out recordings have it too
-bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system, bool needs_proof) {
+std::optional<Nameless> NamelessSearch::confirmed(Nameless nameless, const EvidenceSystem& system,
+                                                  const TorqueNoiseModel& noise,
+                                                  bool needs_proof) const {
   const int joint = nameless.structure.joint;
-  const JointColumns plain = nameless_columns(data_, signals_, nameless);
+  const JointColumns plain = nameless_columns(data_.evidence, data_.signals, nameless);
   const JointColumns white = system.whitened(plain);
   nameless.score = score_of(system.products(white, false), false);
-  if (!is_proved(nameless, needs_proof)) return false;
+  if (!is_proved(nameless, noise, needs_proof)) return std::nullopt;
   const auto own = std::find(plain.joints.begin(), plain.joints.end(), joint);
   const auto place = static_cast<std::size_t>(own - plain.joints.begin());
-  if (half_band_.contradicts(hypotheses_, result_, nameless, options_)) return false;
-  if (result_.noise.from_periods &&
-      sandwich_test(system, white, nameless.score.coefficients).refutes()) {
-    return false;
+  if (data_.half_band.contradicts(sought_.hypotheses, result_, nameless, options_))
+    return std::nullopt;
+  if (noise.from_periods && sandwich_test(system, white, nameless.score.coefficients).refutes()) {
+    return std::nullopt;
   }
   const VectorXd& size = nameless.score.coefficients;
   // of the torque as much as the model does not absorb of its whitened squares
@@ -219,8 +222,7 @@ bool NamelessSearch::add(Nameless nameless, const EvidenceSystem& system, bool n
   const double mean =
       (plain.parts[place] * size).squaredNorm() / static_cast<double>(plain.parts[place].rows());
   nameless.rms = std::sqrt(whole > 0 ? mean * left / whole : 0);
-  result_.nameless.push_back(std::move(nameless));
-  return true;
+  return nameless;
 }
 
 }  // namespace dyngen::runtime

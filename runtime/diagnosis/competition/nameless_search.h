@@ -1,52 +1,55 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "runtime/diagnosis/competition/beside_white_noise.h"
+#include "runtime/diagnosis/competition/competition_data.h"
 #include "runtime/diagnosis/competition/competition_result.h"
-#include "runtime/diagnosis/competition/half_band_test.h"
+#include "runtime/diagnosis/competition/sought.h"
 #include "runtime/diagnosis/competition/stiction_impulses.h"
 
 namespace dyngen::runtime {
+
+/// What a round found besides effects that have a name: joints that begin to rest, or structure
+/// without a name; at most one of the two.
+struct FoundStructure {
+  std::vector<StictionJoint> sticking;
+  std::optional<Nameless> nameless;
+};
 
 /// Structure that no effect of the catalogue explains. What is found becomes part of the model, so
 /// that effects are looked for beside it.
 class NamelessSearch {
  public:
-  /// All must outlive it.
-  /// @param heldout  what was found in the others is held against them
-  /// @param result   what was found so far; grows
-  NamelessSearch(const EffectRecordings& data, EffectSignals& signals,
-                 const EffectRecordings& heldout, const std::vector<Hypothesis>& hypotheses,
-                 const std::vector<GenericStructure>& structures, const StictionImpulses& stiction,
-                 HalfBandTest& half_band, const EvidenceSystem::Options& options,
-                 double false_alarm, CompetitionResult& result)
+  /// All but the options must outlive it. @param false_alarm  as in CompetitionOptions
+  /// @param result  what was found so far
+  NamelessSearch(const CompetitionData& data, const Sought& sought,
+                 const StictionImpulses& stiction, const EvidenceSystem::Options& options,
+                 double false_alarm, const CompetitionResult& result)
       : data_(data),
-        signals_(signals),
-        heldout_(heldout),
-        hypotheses_(hypotheses),
-        structures_(structures),
+        sought_(sought),
         stiction_(stiction),
-        half_band_(half_band),
         options_(options),
         false_alarm_(false_alarm),
         result_(result) {}
 
   /// The strongest structure of a round: a joint that sticks, the form of an effect that a bound or
-  /// a falsifier rules out, or any function of the motion. @return whether there is any
-  bool next(const EvidenceSystem& system, const Screening& screening);
+  /// a falsifier rules out, or any function of the motion.
+  [[nodiscard]] FoundStructure next(const EvidenceSystem& system, const Screening& screening) const;
 
   /// Where no motion repeats: the likeliest function of the motion, if held-out recordings have it
-  /// too, beside noise that is known without it. @return whether there is one
-  bool next_likely(const ModelSide& plain);
+  /// too, beside noise that is known without it.
+  [[nodiscard]] std::optional<Nameless> next_likely(const ModelSide& plain) const;
 
   /// Generic structure that `costly` would explain, for more parameters than the data pay for.
-  /// @return false if the half_band contradicts it
-  bool describe(const GenericResult& generic, const EvidenceSystem& system,
-                const std::string& costly) {
-    return describe(generic, system, costly, false);
+  /// @return nothing if held-out recordings, the half-band test or its own residual contradict it
+  [[nodiscard]] std::optional<Nameless> described(const GenericResult& generic,
+                                                  const EvidenceSystem& system,
+                                                  const std::string& costly) const {
+    return confirmed(nameless_of(generic, costly), system, result_.noise, false);
   }
 
   /// Whether structure may be said to be there although nothing that is held out speaks for it.
@@ -61,30 +64,28 @@ class NamelessSearch {
     double net;               ///< net_of()
   };
 
-  bool next_ruled_out(const EvidenceSystem& system, const Screening& screening);
+  [[nodiscard]] std::optional<Nameless> next_ruled_out(const EvidenceSystem& system,
+                                                       const Screening& screening) const;
   [[nodiscard]] std::vector<RuledOut> ruled_out(const Screening& screening) const;
   [[nodiscard]] const RuledOut* strongest_apart_from_stiction(
       const std::vector<RuledOut>& candidates, const EvidenceSystem& system,
       const Screening& screening) const;
   [[nodiscard]] double structure_surprise(const Screening& screening,
                                           const std::vector<int>& joints) const;
-  [[nodiscard]] std::vector<int> joints_of_hypothesis(std::size_t place) const;
   [[nodiscard]] std::vector<const GenericResult*> candidates(const Screening& screening) const;
-  bool describe(const GenericResult& generic, const EvidenceSystem& system,
-                const std::string& costly, bool needs_proof);
-  bool is_proved(const Nameless& nameless, bool needs_proof);
-  bool add(Nameless nameless, const EvidenceSystem& system, bool needs_proof = false);
+  [[nodiscard]] Nameless nameless_of(const GenericResult& generic, const std::string& costly) const;
+  [[nodiscard]] bool is_proved(const Nameless& nameless, const TorqueNoiseModel& noise,
+                               bool needs_proof) const;
+  [[nodiscard]] std::optional<Nameless> confirmed(Nameless nameless, const EvidenceSystem& system,
+                                                  const TorqueNoiseModel& noise,
+                                                  bool needs_proof) const;
 
-  const EffectRecordings& data_;
-  EffectSignals& signals_;
-  const EffectRecordings& heldout_;
-  const std::vector<Hypothesis>& hypotheses_;
-  const std::vector<GenericStructure>& structures_;
+  const CompetitionData& data_;
+  const Sought& sought_;
   const StictionImpulses& stiction_;
-  HalfBandTest& half_band_;
   EvidenceSystem::Options options_;
   double false_alarm_;
-  CompetitionResult& result_;
+  const CompetitionResult& result_;
 };
 
 }  // namespace dyngen::runtime

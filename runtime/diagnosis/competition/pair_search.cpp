@@ -99,46 +99,27 @@ std::vector<EffectPair> strongest_pairs(const EffectRecordings& data, EffectSign
   return pairs;
 }
 
-bool PairSearch::next(const EvidenceSystem& system, const Screening& screening) {
-  if (!stiction_.strongest(system, screening).empty()) return false;
-  std::size_t tried = 0;
-  for (const EffectPair& pair :
-       strongest_pairs(data_, signals_, system, hypotheses_, screening, result_)) {
-    if (tried++ == kTriedPairs) break;
-    if (promising(pair, system, screening) && find(pair, screening)) return true;
-  }
-  return false;
+std::vector<EffectPair> PairSearch::strongest(const EvidenceSystem& system,
+                                              const Screening& screening) const {
+  if (!stiction_.strongest(system, screening).empty()) return {};
+  std::vector<EffectPair> pairs = strongest_pairs(data_.evidence, data_.signals, system,
+                                                  sought_.hypotheses, screening, result_);
+  pairs.resize(std::min(pairs.size(), kTriedPairs));
+  return pairs;
 }
 
 bool PairSearch::promising(const EffectPair& pair, const EvidenceSystem& system,
                            const Screening& screening) const {
   if (pair.net <= 0 || screening.family_wise(pair.surprise) > false_alarm_) return false;
-  std::vector<int> joints = joints_of(hypotheses_[pair.stronger].effect, data_.joints());
-  const std::vector<int> others = joints_of(hypotheses_[pair.weaker].effect, data_.joints());
+  std::vector<int> joints = sought_.joints(pair.stronger);
+  const std::vector<int> others = sought_.joints(pair.weaker);
   joints.insert(joints.end(), others.begin(), others.end());
   if (conditions_.outdone(pair.net, joints, system, screening)) return false;
   const auto stopped = [&](std::size_t place) {
-    return stiction_.explain(system, screening, hypotheses_[place],
+    return stiction_.explain(system, screening, sought_.hypotheses[place],
                              without_conditions(screening.named[place]));
   };
   return !stopped(pair.weaker) && !stopped(pair.stronger);
-}
-
-bool PairSearch::find(const EffectPair& pair, const Screening& screening) {
-  const std::size_t found = result_.winners.size();
-  const CompetitionResult before = result_;
-  // one stands in until the other is found, then it has to be found itself
-  result_.winners.emplace_back().hypothesis = pair.weaker;
-  std::vector<EffectInstance> effects = result_.fit.point.effects;
-  effects.push_back(screening.named[pair.weaker].freest.effect);
-  result_.fit = steps_.fit(effects);
-  if (steps_.next_beside(found + 2)) {
-    result_.winners.erase(result_.winners.begin() + static_cast<std::ptrdiff_t>(found));
-    result_.fit = steps_.fit(without(result_.fit.point, found).effects);
-    if (steps_.next_beside(found + 2)) return true;
-  }
-  result_ = before;
-  return false;
 }
 
 }  // namespace dyngen::runtime

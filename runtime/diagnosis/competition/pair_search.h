@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <utility>
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition_result.h"
@@ -32,47 +30,36 @@ std::vector<EffectPair> strongest_pairs(const EffectRecordings& data, EffectSign
                                         const Screening& screening,
                                         const CompetitionResult& result);
 
-/// Two effects of which neither is found while the other is left out: each has to be found beside
-/// the other.
+/// Which pairs are worth a fit, where neither effect is found while the other is left out.
 class PairSearch {
  public:
-  /// How a competition fits, and finds.
-  struct Steps {
-    std::function<EffectFit(const std::vector<EffectInstance>&)> fit;  ///< the model with effects
-    /// One winner more, by a round of its own. @param wanted  how many there are to be
-    std::function<bool(std::size_t wanted)> next_beside;
-  };
-
   /// All must outlive it. @param false_alarm  as in CompetitionOptions
-  PairSearch(const EffectRecordings& data, EffectSignals& signals,
-             const std::vector<Hypothesis>& hypotheses, const StictionImpulses& stiction,
-             const EffectConditions& conditions, double false_alarm, CompetitionResult& result,
-             Steps steps)
+  /// @param result  what was found so far
+  PairSearch(const CompetitionData& data, const Sought& sought, const StictionImpulses& stiction,
+             const EffectConditions& conditions, double false_alarm,
+             const CompetitionResult& result)
       : data_(data),
-        signals_(signals),
-        hypotheses_(hypotheses),
+        sought_(sought),
         stiction_(stiction),
         conditions_(conditions),
         false_alarm_(false_alarm),
-        result_(result),
-        steps_(std::move(steps)) {}
+        result_(result) {}
 
-  /// Tries the strongest pairs. @return whether two winners more are in the result
-  bool next(const EvidenceSystem& system, const Screening& screening);
-
- private:
+  /// The first few of strongest_pairs(); none while a joint begins to rest.
+  [[nodiscard]] std::vector<EffectPair> strongest(const EvidenceSystem& system,
+                                                  const Screening& screening) const;
+  /// Whether both together are more than noise, pay for their parameters, and are neither outdone
+  /// by what has no name nor explained by stops.
   [[nodiscard]] bool promising(const EffectPair& pair, const EvidenceSystem& system,
                                const Screening& screening) const;
-  bool find(const EffectPair& pair, const Screening& screening);
 
-  const EffectRecordings& data_;
-  EffectSignals& signals_;
-  const std::vector<Hypothesis>& hypotheses_;
+ private:
+  const CompetitionData& data_;
+  const Sought& sought_;
   const StictionImpulses& stiction_;
   const EffectConditions& conditions_;
   double false_alarm_;
-  CompetitionResult& result_;
-  Steps steps_;
+  const CompetitionResult& result_;
 };
 
 }  // namespace dyngen::runtime

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "runtime/diagnosis/competition/half_band_test.h"
+
 namespace dyngen::runtime {
 namespace {
 
@@ -46,9 +48,14 @@ void Search::compete(CompetitionOptions options, const CompetitionProgress& prog
   }
   options.until_stiction = true;
   for (;;) {
-    HalfBandTest slow(sets_.slow);
-    result_ = runtime::compete(sets_.evidence(), sets_.train, slow, sets_.proof, hypotheses_,
-                               options, progress);
+    EffectSignals signals(sets_.evidence());
+    HalfBandTest half_band(sets_.slow);
+    const CompetitionData data{.evidence = sets_.evidence(),
+                               .signals = signals,
+                               .fit = sets_.train,
+                               .half_band = half_band,
+                               .heldout = sets_.proof};
+    result_ = runtime::compete(data, hypotheses_, options, progress);
     if (!options.until_stiction || result_.sticking.empty()) return;
     // where that would leave too little, impulses at their reversals are left out instead
     options.until_stiction = look_beside(result_.sticking);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace dyngen::runtime {
 namespace {
@@ -18,16 +19,16 @@ bool is_scanned(const Hypothesis& hypothesis) {
 
 }  // namespace
 
-bool scan_again(const EffectRecordings& data, EffectSignals& signals,
-                const std::vector<Hypothesis>& hypotheses, const ScaleTable& scales,
-                EvidenceSystem::Options options, CompetitionResult& result) {
+bool scan_again(const CompetitionData& data, const Sought& sought, EvidenceSystem::Options options,
+                CompetitionResult& result) {
   options.surrogates = 0;
   bool moved = false;
   for (std::size_t i = 0; i < result.winners.size(); ++i) {
-    const Hypothesis& hypothesis = hypotheses[result.winners[i].hypothesis];
+    const Hypothesis& hypothesis = sought.hypotheses[result.winners[i].hypothesis];
     if (!is_scanned(hypothesis)) continue;
-    const EvidenceSystem system = system_without(data, signals, hypotheses, result, i, options);
-    const EffectScales here = scales.of(result.fit.point.beta, hypothesis.effect);
+    const EvidenceSystem system =
+        system_without(data.evidence, data.signals, sought.hypotheses, result, i, options);
+    const EffectScales here = sought.scales.of(result.fit.point.beta, hypothesis.effect);
     std::vector<EffectInstance> trials = {result.fit.point.effects[i]};
     for (const int p : hypothesis.linear) {
       trials.front().parameters[p] = hypothesis.effect.parameters[p];
@@ -39,12 +40,12 @@ bool scan_again(const EffectRecordings& data, EffectSignals& signals,
     }
     std::optional<TrialScore> best;
     for (const TrialScore& trial :
-         try_shapes(data, signals, system, hypothesis, trials, here, false)) {
+         try_shapes(data.evidence, data.signals, system, hypothesis, trials, here, false)) {
       if (trial.admissible && (!best || trial.score.delta_chi2 > best->score.delta_chi2))
         best = trial;
     }
     if (!best) continue;
-    best = refined(data, signals, system, hypothesis, *best, here);
+    best = refined(data.evidence, data.signals, system, hypothesis, *best, here);
     result.fit.point.effects[i] = best->effect;
     result.winners[i].trial = std::move(*best);
     moved = true;

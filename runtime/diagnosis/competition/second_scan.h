@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
+#include "runtime/diagnosis/competition/competition_data.h"
 #include "runtime/diagnosis/competition/competition_result.h"
+#include "runtime/diagnosis/competition/sought.h"
 
 namespace dyngen::runtime {
 
@@ -11,8 +11,7 @@ namespace dyngen::runtime {
 /// other winners, and by noise that held them: it is chosen again beside all of them. The winners
 /// and their places in the fit get the new values; the fit itself has to be made again.
 /// @return  whether anything was scanned
-bool scan_again(const EffectRecordings& data, EffectSignals& signals,
-                const std::vector<Hypothesis>& hypotheses, const ScaleTable& scales,
-                EvidenceSystem::Options options, CompetitionResult& result);
+bool scan_again(const CompetitionData& data, const Sought& sought, EvidenceSystem::Options options,
+                CompetitionResult& result);
 
 }  // namespace dyngen::runtime

@@ -67,7 +67,7 @@ bool StictionImpulses::significant(double surprise) { return std::exp(-surprise)
 
 const GenericResult* StictionImpulses::impulses_at(const Screening& screening, int joint) const {
   for (const GenericResult& generic : screening.generic) {
-    const GenericStructure& structure = structures_[generic.structure];
+    const GenericStructure& structure = sought_.structures[generic.structure];
     if (structure.form == GenericStructure::Form::kImpulses && structure.joint == joint)
       return &generic;
   }
@@ -91,12 +91,12 @@ StictionImpulses::Part StictionImpulses::part_in(const EvidenceSystem& system,
   bool any = false, much_left = false;
   double squares = 0, degrees = 0, beside_it = 0;  // of the impulses
   const auto white_beside = [&](const EvidenceSystem& model) {
-    return hypothesis_columns(data_, signals_, model, hypothesis, named.best.effect);
+    return hypothesis_columns(data_.evidence, data_.signals, model, hypothesis, named.best.effect);
   };
-  for (const int joint : joints_of(hypothesis.effect, data_.joints())) {
+  for (const int joint : joints_of(hypothesis.effect, data_.evidence.joints())) {
     if (sticks(joint) || !significant(impulses_of(screening, joint))) continue;
-    const JointColumns impulses =
-        system.whitened(generic_columns(data_, signals_, impulses_at_reversals(joint)));
+    const JointColumns impulses = system.whitened(
+        generic_columns(data_.evidence, data_.signals, impulses_at_reversals(joint)));
     if (!any) beside_effect.add(white_beside(system));
     any = true;
     const Score& alone = impulses_at(screening, joint)->score;
@@ -128,8 +128,8 @@ EvidenceSystem StictionImpulses::beside_reversals(const EvidenceSystem& system,
   EvidenceSystem beside = system;
   for (const int joint : joints) {
     if (sticks(joint)) continue;
-    beside.leave_out(
-        system.whitened(generic_columns(data_, signals_, impulses_at_reversals(joint))));
+    beside.leave_out(system.whitened(
+        generic_columns(data_.evidence, data_.signals, impulses_at_reversals(joint))));
   }
   return beside;
 }
@@ -138,8 +138,9 @@ bool StictionImpulses::nothing_left_in(const EvidenceSystem& beside, const Scree
                                        const Hypothesis& hypothesis,
                                        const NamedResult& named) const {
   const Score left = score_of(
-      beside.products(hypothesis_columns(data_, signals_, beside, hypothesis, named.best.effect),
-                      false),
+      beside.products(
+          hypothesis_columns(data_.evidence, data_.signals, beside, hypothesis, named.best.effect),
+          false),
       false);
   return screening.family_wise(surprise_of(left.delta_chi2, left.degrees)) > false_alarm_;
 }
@@ -147,7 +148,7 @@ bool StictionImpulses::nothing_left_in(const EvidenceSystem& beside, const Scree
 bool StictionImpulses::hide(const EvidenceSystem& system, const Screening& screening,
                             const Hypothesis& hypothesis, const NamedResult& named) const {
   const EvidenceSystem beside =
-      beside_reversals(system, joints_of(hypothesis.effect, data_.joints()));
+      beside_reversals(system, joints_of(hypothesis.effect, data_.evidence.joints()));
   return nothing_left_in(beside, screening, hypothesis, named);
 }
 
@@ -162,7 +163,7 @@ std::vector<StictionJoint> StictionImpulses::sticking(const EvidenceSystem& syst
   if (structure.form != GenericStructure::Form::kImpulses && !long_stiction) {
     EvidenceSystem beside = system;
     const auto white = [&](const GenericStructure& own) {
-      return beside.whitened(generic_columns(data_, signals_, own));
+      return beside.whitened(generic_columns(data_.evidence, data_.signals, own));
     };
     beside.leave_out(white(impulses_at_reversals(structure.joint)));
     const Score left = score_of(beside.products(white(structure), false), false);
@@ -179,12 +180,12 @@ std::vector<StictionJoint> StictionImpulses::sticking(const EvidenceSystem& syst
 std::vector<StictionJoint> StictionImpulses::strongest(const EvidenceSystem& system,
                                                        const Screening& screening) const {
   std::vector<StictionJoint> joints;
-  for (int j = 0; j < data_.joints(); ++j) {
+  for (int j = 0; j < data_.evidence.joints(); ++j) {
     const double impulses = impulses_of(screening, j);
     if (sticks(j) || screening.family_wise(impulses) > kLevel) continue;
     const bool strongest = std::all_of(
         screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
-          const GenericStructure& structure = structures_[generic.structure];
+          const GenericStructure& structure = sought_.structures[generic.structure];
           return structure.joint != j || !structure.is_specific() || generic.surprise <= impulses;
         });
     if (strongest) joints.push_back(found(system, screening, j));
@@ -195,9 +196,11 @@ std::vector<StictionJoint> StictionImpulses::strongest(const EvidenceSystem& sys
 StictionJoint StictionImpulses::found(const EvidenceSystem& system, const Screening& screening,
                                       int joint) const {
   StictionJoint sticking{joint, impulses_at(screening, joint)->score.delta_chi2, {}};
-  const JointColumns impulses = generic_columns(data_, signals_, impulses_at_reversals(joint));
+  const JointColumns impulses =
+      generic_columns(data_.evidence, data_.signals, impulses_at_reversals(joint));
   const Products products = system.products(system.whitened(impulses), false);
-  const std::vector<std::vector<Index>> own = columns_of_recordings(data_, impulses.parts[0]);
+  const std::vector<std::vector<Index>> own =
+      columns_of_recordings(data_.evidence, impulses.parts[0]);
   for (std::size_t recording = 0; recording < own.size(); ++recording) {
     const Products part{products.whole(own[recording], own[recording]),
                         products.left(own[recording], own[recording]),

@@ -3,8 +3,9 @@
 
 #include <vector>
 
+#include "runtime/diagnosis/competition/competition_data.h"
+#include "runtime/diagnosis/competition/sought.h"
 #include "runtime/diagnosis/equation_sets/stiction_joint.h"
-#include "runtime/diagnosis/scans/screening.h"
 
 namespace dyngen::runtime {
 
@@ -17,14 +18,9 @@ inline constexpr double kHardlyMoreThanNoise = 2;
 class StictionImpulses {
  public:
   /// All must outlive it. @param sticking  as they are found
-  StictionImpulses(const EffectRecordings& data, EffectSignals& signals,
-                   const std::vector<GenericStructure>& structures,
+  StictionImpulses(const CompetitionData& data, const Sought& sought,
                    const std::vector<StictionJoint>& sticking, double false_alarm)
-      : data_(data),
-        signals_(signals),
-        structures_(structures),
-        sticking_(sticking),
-        false_alarm_(false_alarm) {}
+      : data_(data), sought_(sought), sticking_(sticking), false_alarm_(false_alarm) {}
 
   /// Whether a joint was found to rest.
   [[nodiscard]] bool sticks(int joint) const;
@@ -77,9 +73,8 @@ class StictionImpulses {
                                     int joint) const;
   [[nodiscard]] static bool significant(double surprise);
 
-  const EffectRecordings& data_;
-  EffectSignals& signals_;
-  const std::vector<GenericStructure>& structures_;
+  const CompetitionData& data_;
+  const Sought& sought_;
   const std::vector<StictionJoint>& sticking_;
   double false_alarm_;
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "runtime/diagnosis/competition/heldout.h"
@@ -13,6 +12,7 @@
 #include "runtime/diagnosis/names/stability.h"
 #include "runtime/diagnosis/names/unnamed_rival.h"
 #include "runtime/diagnosis/scans/in_parallel.h"
+#include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -38,7 +38,7 @@ double heldout_gain(const EffectRecordings& heldout, const TorqueNoiseModel& noi
 }
 
 /// The model with a rival in the place of a winner; nothing if a bound, a falsifier or a parameter
-/// that the data do not determine speaks against it.
+/// that the data do not determine speaks against it, or its torque is not finite.
 std::optional<EffectFit> with_rival(const EffectRecordings& fitted, const CompetitionResult& result,
                                     std::size_t place, const Rival& rival) {
   std::vector<EffectInstance> effects = result.fit.point.effects;
@@ -49,8 +49,8 @@ std::optional<EffectFit> with_rival(const EffectRecordings& fitted, const Compet
       if (fit.objects(remark, static_cast<int>(place))) return std::nullopt;
     }
     return fit;
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;  // no finite torque at the shapes that were tried
+  } catch (const NotFiniteError&) {
+    return std::nullopt;
   }
 }
 
@@ -140,12 +140,12 @@ namespace {
 /// Who stands in a winner's place once everything is found: what its round chose, or another.
 class Places {
  public:
-  Places(const EffectRecordings& train, const EffectRecordings& fitted,
+  Places(const EffectRecordings& evidence, const EffectRecordings& fit,
          const EffectRecordings& heldout, EffectSignals& signals,
          const std::vector<Hypothesis>& hypotheses, CompetitionResult& result,
          const EvidenceSystem::Options& options)
-      : train_(train),
-        fitted_(fitted),
+      : evidence_(evidence),
+        fit_(fit),
         heldout_(heldout),
         signals_(signals),
         hypotheses_(hypotheses),
@@ -182,17 +182,17 @@ class Places {
   };
 
   [[nodiscard]] Naming name(std::size_t winner) {
-    return name_winner(train_, signals_, hypotheses_, result_, winner, options_);
+    return name_winner(evidence_, signals_, hypotheses_, result_, winner, options_);
   }
 
   Challenge challenged(std::size_t winner, const Rival& rival) {
     const bool refuted =
         result_.noise.from_periods &&
-        scatter_refutes(train_, signals_,
-                        system_without(train_, signals_, hypotheses_, result_, winner, options_),
+        scatter_refutes(evidence_, signals_,
+                        system_without(evidence_, signals_, hypotheses_, result_, winner, options_),
                         hypotheses_[rival.hypothesis], rival.trial.effect);
     Challenge challenge;
-    if (!refuted) challenge.fit = with_rival(fitted_, result_, winner, rival);
+    if (!refuted) challenge.fit = with_rival(fit_, result_, winner, rival);
     if (challenge.fit) {
       challenge.gain =
           heldout_gain(heldout_, result_.noise, result_.fit.point, challenge.fit->point);
@@ -228,8 +228,8 @@ class Places {
     }
   }
 
-  const EffectRecordings& train_;
-  const EffectRecordings& fitted_;
+  const EffectRecordings& evidence_;
+  const EffectRecordings& fit_;
   const EffectRecordings& heldout_;
   EffectSignals& signals_;
   const std::vector<Hypothesis>& hypotheses_;
@@ -247,7 +247,7 @@ struct NamedPlace {
 
 }  // namespace
 
-std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& fitted,
+std::vector<Naming> settle_names(const EffectRecordings& evidence, const EffectRecordings& fit,
                                  const EffectRecordings& heldout, EffectSignals& signals,
                                  const std::vector<Hypothesis>& hypotheses,
                                  CompetitionResult& result, const EvidenceSystem::Options& options,
@@ -255,7 +255,7 @@ std::vector<Naming> settle_names(const EffectRecordings& train, const EffectReco
   std::vector<Naming> namings;
   const std::size_t count = result.winners.size();
   const std::size_t threads = std::min(working_threads(), count);
-  std::vector<EffectSignals> others(threads > 0 ? threads - 1 : 0, EffectSignals(train));
+  std::vector<EffectSignals> others(threads > 0 ? threads - 1 : 0, EffectSignals(evidence));
   while (namings.size() < count) {
     const std::size_t first = namings.size();
     if (progress) progress("names", static_cast<double>(first) / static_cast<double>(count));
@@ -265,7 +265,7 @@ std::vector<Naming> settle_names(const EffectRecordings& train, const EffectReco
       NamedPlace& own = named[i];
       own.result = result;
       EffectSignals& reader = thread == 0 ? signals : others[thread - 1];
-      Places places(train, fitted, heldout, reader, hypotheses, own.result, options);
+      Places places(evidence, fit, heldout, reader, hypotheses, own.result, options);
       own.naming = places.named(first + i);
       own.changed = places.changed();
     });

@@ -42,9 +42,9 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
 /// than kApart of chi-square worse, the model is fitted with it in the winner's place, and what
 /// held-out recordings say of the two is added to their distance; a rival that is better then takes
 /// the place.
-/// @param train   what evidence is of   @param fitted  what fits are of
-/// @param result  its winners and its fit, in place
-std::vector<Naming> settle_names(const EffectRecordings& train, const EffectRecordings& fitted,
+/// @param evidence  this and the next two: of CompetitionData   @param signals  of `evidence`
+/// @param result    its winners and its fit, in place
+std::vector<Naming> settle_names(const EffectRecordings& evidence, const EffectRecordings& fit,
                                  const EffectRecordings& heldout, EffectSignals& signals,
                                  const std::vector<Hypothesis>& hypotheses,
                                  CompetitionResult& result, const EvidenceSystem::Options& options,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "runtime/diagnosis/names/imitation.h"
@@ -53,19 +52,15 @@ std::vector<Rival> nearest_of_joints(std::vector<Rival> elsewhere,
   return all;
 }
 
-/// The best shapes beside a system; nothing where none gives a finite torque.
+/// The best shapes beside a system.
 /// @param trial  where the search begins
-std::optional<TrialScore> refined_beside(const EffectRecordings& data, EffectSignals& signals,
-                                         const EvidenceSystem& system, const Hypothesis& hypothesis,
-                                         const TrialScore& trial, const EffectScales& scales) {
-  try {
-    EffectInstance start = trial.effect;
-    for (const int p : hypothesis.linear) start.parameters[p] = hypothesis.effect.parameters[p];
-    return refined(data, signals, system, hypothesis,
-                   try_hypothesis(data, signals, system, hypothesis, start, scales, false), scales);
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;
-  }
+TrialScore refined_beside(const EffectRecordings& data, EffectSignals& signals,
+                          const EvidenceSystem& system, const Hypothesis& hypothesis,
+                          const TrialScore& trial, const EffectScales& scales) {
+  EffectInstance start = trial.effect;
+  for (const int p : hypothesis.linear) start.parameters[p] = hypothesis.effect.parameters[p];
+  return refined(data, signals, system, hypothesis,
+                 try_hypothesis(data, signals, system, hypothesis, start, scales, false), scales);
 }
 
 }  // namespace
@@ -81,19 +76,19 @@ RivalsOfWinner rivals_of(const EffectRecordings& data, EffectSignals& signals,
                           scales.of(result.fit.point.beta, hypothesis.effect));
   };
   RivalsOfWinner rivals;
-  rivals.own = at_its_best(winning, own.trial).value_or(own.trial);
+  rivals.own = at_its_best(winning, own.trial);
   rivals.net = net_of(winning, rivals.own, result.noise);
   for (const std::size_t place : strongest_of_round(own, hypotheses)) {
     const Hypothesis& hypothesis = hypotheses[place];
-    std::optional<TrialScore> trial = at_its_best(hypothesis, own.others[place].best);
-    if (!trial || !trial->admissible) continue;
-    const double net = net_of(hypothesis, *trial, result.noise);
+    TrialScore trial = at_its_best(hypothesis, own.others[place].best);
+    if (!trial.admissible) continue;
+    const double net = net_of(hypothesis, trial, result.noise);
     Rival rival{hypothesis.effect.law.family,
                 short_name(hypothesis.effect),
                 net,
                 0,
                 place,
-                std::move(*trial),
+                std::move(trial),
                 0};
     if (rival.family != winning.effect.law.family) {
       rivals.others.push_back(std::move(rival));

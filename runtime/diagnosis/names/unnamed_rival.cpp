@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -79,22 +78,17 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
       hypothesis_columns(data, signals, system, hypotheses[winner.hypothesis], found);
   for (const std::size_t place : largest(std::move(nets))) {
     const Hypothesis& hypothesis = hypotheses[place];
-    try {
-      const TrialScore trial =
-          try_hypothesis(data, signals, system, hypothesis, winner.others[place].freest.effect,
-                         scales.of(result.fit.point.beta, hypothesis.effect), false);
-      if (trial.admissible) continue;
-      JointColumns curve = hypothesis_columns(data, signals, system, hypothesis, trial.effect);
-      for (Eigen::MatrixXd& part : curve.parts) part = part * trial.score.coefficients;
-      const Imitation by_winner = imitation(system, curve, own);
-      if (by_winner.left < kSameForm * by_winner.whole)
-        continue;  // the same curve, which has a name
-      consider(net_of(hypothesis, trial, result.noise),
-               fmt::format("the form of {}, no name here since {}", short_name(trial.effect),
-                           trial.objection));
-    } catch (const std::invalid_argument&) {
-      continue;  // no finite torque there
-    }
+    const TrialScore trial =
+        try_hypothesis(data, signals, system, hypothesis, winner.others[place].freest.effect,
+                       scales.of(result.fit.point.beta, hypothesis.effect), false);
+    if (trial.admissible) continue;
+    JointColumns curve = hypothesis_columns(data, signals, system, hypothesis, trial.effect);
+    for (Eigen::MatrixXd& part : curve.parts) part = part * trial.score.coefficients;
+    const Imitation by_winner = imitation(system, curve, own);
+    if (by_winner.left < kSameForm * by_winner.whole) continue;  // the same curve, which has a name
+    consider(net_of(hypothesis, trial, result.noise),
+             fmt::format("the form of {}, no name here since {}", short_name(trial.effect),
+                         trial.objection));
   }
   return best;
 }

@@ -57,7 +57,7 @@ JointColumns hypothesis_columns(const EffectRecordings& data, EffectSignals& sig
                                 const EffectInstance& trial);
 
 /// @param surrogates  whether the score has those
-/// @throws std::invalid_argument  if a recording lacks what the effect reads
+/// @throws MissingSignalError  if a recording lacks what the effect reads
 TrialScore try_hypothesis(const EffectRecordings& data, EffectSignals& signals,
                           const EvidenceSystem& system, const Hypothesis& hypothesis,
                           const EffectInstance& trial, const EffectScales& scales, bool surrogates);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "runtime/diagnosis/scans/in_parallel.h"
@@ -201,8 +200,8 @@ class Screener {
         }
       }
       result.seen = std::isfinite(result.best.score.delta_chi2) && result.best.score.degrees > 0;
-    } catch (const std::invalid_argument&) {
-      result.seen = false;  // a signal is missing
+    } catch (const MissingSignalError&) {
+      result.seen = false;
     }
     for (const int joint : joints_of(hypothesis.effect, data_.whole().joints())) {
       result.worth = std::min(result.worth, system_.worth(joint));
