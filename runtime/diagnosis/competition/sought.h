@@ -29,5 +29,7 @@ struct Sought {
 
 /// @param evidence  recordings whose motion gives the scales; its model outlives the result
 Sought sought_in(const EffectRecordings& evidence, const std::vector<Hypothesis>& hypotheses);
+Sought sought_in(const EffectRecordings& evidence,
+                 const std::vector<Hypothesis>&& hypotheses) = delete;
 
 }  // namespace dyngen::runtime

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "runtime/diagnosis/competition/half_band_test.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
@@ -51,10 +52,10 @@ Trial trial(double fitted, double heldout, unsigned seed) {
   trial.nameless.score = score_of(system.products(columns, false), false);
   CompetitionResult result;
   result.fit.point.beta = test::planar_arm_values();
-  result.noise = test::arm_noise();
-  trial.proof =
-      nameless_proof(train, signals, heldout_recordings({drag_of_the_other(heldout)}, seed + 1000),
-                     {}, result, trial.nameless, {});
+  const EffectRecordings other = heldout_recordings({drag_of_the_other(heldout)}, seed + 1000);
+  HalfBandTest half_band(train);
+  const CompetitionData data{train, signals, train, half_band, other};
+  trial.proof = nameless_proof(data, {}, result, test::arm_noise(), trial.nameless, {});
   return trial;
 }
 

@@ -56,6 +56,23 @@ TEST_F(ScreeningTest, TakesOverWhatIsKnownOfStructures) {
   }
 }
 
+TEST_F(ScreeningTest, DoesNotSeeWhatReadsASignalThatIsMissing) {
+  const auto reading = [&](const char* variable) {
+    const EffectInstance effect = test::unknown(
+        test::algebraic_law(
+            variable, {variable}, {{"k", EffectRole::kLinear, -1, 1, 0, 1}},
+            [](const Eigen::VectorXd& v, const Eigen::VectorXd& p) { return p[0] * v[0]; }),
+        1);
+    return hypothesis_of(effect, scales_.of(test::planar_arm_values(), effect));
+  };
+  structures_.clear();
+  const Screening seen = screening({reading("q"), reading("temp")});
+  EXPECT_TRUE(seen.named[0].seen);
+  EXPECT_FALSE(seen.named[1].seen);
+  // a name that no recording can have is an error of the caller
+  EXPECT_THROW(screening({reading("no_such")}), std::invalid_argument);
+}
+
 TEST_F(ScreeningTest, GroupsHoldEveryStructureOnce) {
   std::set<std::size_t> seen;
   std::size_t shared = 0;

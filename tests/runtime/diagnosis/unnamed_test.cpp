@@ -10,6 +10,7 @@
 #include "runtime/diagnosis/scans/generic_columns.h"
 #include "runtime/diagnosis/scans/screening.h"
 #include "runtime/diagnosis/scans/wave_scan.h"
+#include "tests/runtime/diagnosis/arm_competition.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {
@@ -159,19 +160,17 @@ TEST(Naming, WhatHasNoNameTakesItsPartOfTheProbability) {
 
 /// What a rest does lasts longer than an impulse does: friction goes with the way since then.
 TEST(StictionImpulses, AJointRestsWhereFrictionGoesWithTheWaySinceItTurned) {
-  const std::vector<GenericStructure> structures = generic_structures(2);
+  const std::vector<Hypothesis> no_names;
   const std::vector<StictionJoint> none;
   const auto sticking = [&](const std::vector<EffectInstance>& effects,
                             const GenericStructure& structure) {
-    const EffectRecordings data = test::arm_recordings(test::two_recordings(effects, 4));
-    EffectSignals signals(data);
-    signals.set_beta(test::planar_arm_values());
-    const EvidenceSystem system = test::arm_system(data);
-    ScreeningData screened(data);
-    const Screening screening = screen(screened, system, ScaleTable(data),
-                                       test::planar_arm_values(), {}, structures, nullptr);
-    return StictionImpulses(data, signals, structures, none, 0.01)
-        .sticking(system, screening, structure);
+    test::ArmCompetition arm(test::everywhere(effects), 4);
+    const Sought sought = sought_in(arm.evidence, no_names);
+    const EvidenceSystem system = test::arm_system(arm.evidence);
+    ScreeningData screened(arm.evidence);
+    const Screening screening = screen(screened, system, sought.scales, test::planar_arm_values(),
+                                       no_names, sought.structures, nullptr);
+    return StictionImpulses(arm.data, sought, none, 0.01).sticking(system, screening, structure);
   };
   const GenericStructure since{1, {{Kind::kDistance, 1}}, Form::kFriction};
   const GenericStructure by_load{1, {{Kind::kLoad, 1}}, Form::kFriction};
@@ -187,11 +186,11 @@ TEST(StictionImpulses, AJointRestsWhereFrictionGoesWithTheWaySinceItTurned) {
 }
 
 TEST(StictionImpulses, LittleIsNothingOnAJointThatRests) {
-  const EffectRecordings data = test::arm_recordings(test::two_recordings({}, 1));
-  EffectSignals signals(data);
-  const std::vector<GenericStructure> structures;
+  const test::ArmCompetition arm({});
+  const std::vector<Hypothesis> no_names;
+  const Sought sought = sought_in(arm.evidence, no_names);
   std::vector<StictionJoint> sticking;
-  const StictionImpulses stiction(data, signals, structures, sticking, 0.01);
+  const StictionImpulses stiction(arm.data, sought, sticking, 0.01);
   EXPECT_EQ(stiction.unseen_on({0, 1}), 0);
   sticking = {{1, 500, {}}};
   EXPECT_NEAR(stiction.unseen_on({0}), 1, 1e-12);  // through the arm

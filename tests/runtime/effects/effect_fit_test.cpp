@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "runtime/estimation/decompositions.h"
 #include "tests/runtime/effects/effect_arm.h"
 
 namespace dyngen::runtime {
@@ -194,6 +195,15 @@ TEST(EffectFit, AParameterThatIsNotSeenDoesNotObjectBesideOneThatIs) {
   ASSERT_FALSE(nothing.remarks.empty());
   EXPECT_TRUE(nothing.objects(nothing.remarks[0], 0));
   EXPECT_FALSE(nothing.objects(nothing.remarks[0], 1));
+}
+
+TEST(EffectFit, TorqueThatIsNotFiniteIsRefused) {
+  const EffectLaw root = test::algebraic_law(
+      "root", {"q"},
+      {{"k", EffectRole::kLinear, -10, 10, 0, 1}, {"x", EffectRole::kShape, 0, 9, 1, 1}},
+      [](const VectorXd& v, const VectorXd& p) { return p[0] * std::sqrt(v[0] - p[1]); });
+  const auto sources = test::measured(two_runs(), test::planar_arm_values(), {}, 0.1, 0, 1);
+  EXPECT_THROW(fit(sources, {known(root, 0, {1, 1})}), NotFiniteError);
 }
 
 TEST(EffectFit, ABoundBeyondWhichNothingChangesIsNoRemark) {

@@ -140,13 +140,19 @@ TEST(EffectSignals, WhatARecordingLacksIsSaid) {
   const EffectRecordings data = recordings(moving());
   EffectSignals signals(data);
   signals.set_beta(test::planar_arm_values());
-  EXPECT_THROW(signals.variables(0, reading({"temp"}, 0), -1), std::invalid_argument);
-  EXPECT_THROW(signals.variables(0, reading({"no_such"}, 0), -1), std::invalid_argument);
+  EXPECT_THROW(signals.variables(0, reading({"temp"}, 0), -1), MissingSignalError);
+  try {
+    signals.variables(0, reading({"no_such"}, 0), -1);
+    ADD_FAILURE() << "there is no such variable";
+  } catch (const MissingSignalError&) {
+    ADD_FAILURE() << "a name that no recording can have is the caller's error";
+  } catch (const std::invalid_argument&) {
+  }
   EffectRecordings without = data;
   without.robot.tangents = nullptr;
   EffectSignals bare(without);
   bare.set_beta(test::planar_arm_values());
-  EXPECT_THROW(bare.variables(0, reading({"d_gx"}, 0), 0), std::invalid_argument);
+  EXPECT_THROW(bare.variables(0, reading({"d_gx"}, 0), 0), MissingSignalError);
 }
 
 TEST(EffectSignals, ATemperatureOfEachJointIsFound) {
