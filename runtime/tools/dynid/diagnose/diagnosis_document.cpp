@@ -257,6 +257,18 @@ void add_noise(const DiagnosisReport& report, std::vector<ReportSection>& sectio
   sections.push_back(section_of("noise", "Noise floor", std::move(blocks)));
 }
 
+void add_cut_off(const Diagnosis& diagnosis, std::vector<ReportSection>& sections) {
+  const EffortUsed& effort = diagnosis.effort;
+  if (effort.cut_off.empty()) return;
+  sections.push_back(
+      section_of("not-searched", "Not searched",
+                 {ReportText{fmt::format(
+                      "The search ended at an effort of {:.3g}; the limit is {:.3g}. It cut "
+                      "off:",
+                      effort.done, effort.most)},
+                  ReportList{effort.cut_off}}));
+}
+
 void add_condition(const DiagnosisReport& report, std::vector<ReportSection>& sections) {
   ReportSection section{
       "condition", "Condition of the recordings", ReportSection::Kind::kPlain, {}};
@@ -319,6 +331,7 @@ ReportDocument diagnosis_document(const DiagnosisReport& report) {
   add_next(report, document.sections);
   add_certificate(report, document.sections);
   add_undecidable(diagnosis, document.sections);
+  add_cut_off(diagnosis, document.sections);
   add_base(diagnosis, document.sections);
   add_structure(diagnosis, document.sections);
   add_condition(report, document.sections);
