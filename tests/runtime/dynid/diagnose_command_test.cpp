@@ -198,6 +198,20 @@ TEST_F(Diagnose, FindsWhatChangedSinceTheReference) {
   EXPECT_NE(page.find("a sample every 5 ms (200 Hz)"), std::string::npos);
 }
 
+TEST_F(Diagnose, SaysWhatWasNotSearchedWhereItsEffortIsBounded) {
+  const Outcome run = diagnose(record("a.csv", "", 10, 12) + " --effort 0.001");
+  EXPECT_EQ(run.exit_code, 3) << run.out;
+  EXPECT_NE(run.out.find("not searched, since the effort was spent:\n  further effects"),
+            std::string::npos)
+      << run.out;
+  EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
+  EXPECT_EQ(json()["verdict"], "insufficient_data");
+  EXPECT_EQ(json()["effort"]["limit"], 0.001);
+  EXPECT_EQ(json()["effort"]["not_searched"], Json({"further effects"}));
+  EXPECT_NE(content(path("d.html")).find("Not searched"), std::string::npos);
+  EXPECT_EQ(diagnose(path("a.csv") + " --effort -1").exit_code, 2);
+}
+
 TEST_F(Diagnose, SaysWhatIsWrong) {
   const std::string train = record("a.csv", "", 6, 3);
   const auto expect = [](const Outcome& outcome, int code, const std::string& words) {

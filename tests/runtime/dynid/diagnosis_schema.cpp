@@ -124,6 +124,7 @@ Check schema() {
                            {"rms_before", array_of(number)},
                            {"rms_after", array_of(number)},
                            {"noise_floor", array_of(number)}})},
+       {"effort", object({{"done", number}, {"limit", number}, {"not_searched", array_of(text)}})},
        {"next_experiment", object({{"purpose", kind("s0")}, {"trajectory", kind("s0")}})}});
 }
 
