@@ -207,7 +207,7 @@ TEST_F(Diagnose, SaysWhatWasNotSearchedWhereItsEffortIsBounded) {
   EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
   EXPECT_EQ(json()["verdict"], "insufficient_data");
   EXPECT_EQ(json()["effort"]["limit"], 0.001);
-  EXPECT_EQ(json()["effort"]["not_searched"], Json({"further effects"}));
+  EXPECT_EQ(json()["effort"]["not_searched"], Json::array({"further effects"}));
   EXPECT_NE(content(path("d.html")).find("Not searched"), std::string::npos);
   EXPECT_EQ(diagnose(path("a.csv") + " --effort -1").exit_code, 2);
 }
