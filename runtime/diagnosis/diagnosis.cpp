@@ -81,9 +81,12 @@ class Diagnostician {
     answer_.before = tests_of(result().first);
     answer_.after = tests_of(result().last);
     if (found_nothing(result())) {
-      answer_.sentence =
-          too_little.empty() ? why_too_slow(result(), options_.rules.noise) : too_little;
+      // what was not searched may be all that makes the residual slow
+      answer_.sentence = too_little;
       if (answer_.sentence.empty()) answer_.sentence = why_cut_off(result());
+      if (answer_.sentence.empty()) {
+        answer_.sentence = why_too_slow(result(), options_.rules.noise);
+      }
     }
     if (!answer_.sentence.empty()) return std::move(answer_);
     answer_.findings = found_effects(search_, settings, progress_);
