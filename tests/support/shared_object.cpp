@@ -58,7 +58,8 @@ SharedObject::SharedObject(const std::map<std::string, std::string>& files,
         name + ".o");
     parts += " " + folder_ + "/" + name + ".o";
   }
-  run(compiler + options + " -shared" + parts + " -o " + object + " -lm");
+  // objects are no sources of the language that a compiler may have been told
+  run(compiler + options + " -shared -x none" + parts + " -o " + object + " -lm");
   library_ = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library_ == nullptr) throw std::runtime_error(dlerror());
 }
