@@ -67,7 +67,8 @@ ConsistencyPrior complete_prior(const ConsistencyProblem& problem,
       double& value = prior.chi[first + kind];
       if (!std::isfinite(value)) value = 0;
       if (is_nonnegative(kind) && value < 0) {
-        negative.push_back(fmt::format("{}{}", kActuatorNames[kind - kRotorInertia], link + 1));
+        negative.push_back(fmt::format(
+            "{}{}", kActuatorNames[static_cast<std::size_t>(kind - kRotorInertia)], link + 1));
         value = 0;
       }
       if (value != 0) prior.scale[first + kind] = std::abs(value);
