@@ -8,6 +8,7 @@
 
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/competition/sandwich_test.h"
+#include "runtime/diagnosis/competition/tie_rule.h"
 #include "runtime/diagnosis/names/rivals.h"
 #include "runtime/diagnosis/names/stability.h"
 #include "runtime/diagnosis/names/unnamed_rival.h"
@@ -20,7 +21,6 @@ namespace {
 /// Errors of the noise model and of the linearisation widen differences of chi-square beyond
 /// theory. Odds are computed from differences that are smaller by this factor.
 constexpr double kCaution = 2;
-constexpr double kEven = 0.5;  // of chi-square: less decides nothing
 
 /// Evidence of held-out recordings for a rival against a winner: the difference of their held-out
 /// chi-squares, in units of the residual level where this exceeds the noise.
@@ -158,10 +158,10 @@ class Places {
   Naming named(std::size_t winner) {
     Naming naming = name(winner);
     // another form of the same effect, beside all that was found since
-    if (naming.kin && naming.kin->distance < -kEven) {
+    if (naming.kin && naming.kin->distance < -kTie) {
       const Rival kin = *naming.kin;
       const Challenge challenge = challenged(winner, kin);
-      if (challenge.fit && kin.distance - challenge.gain < -kEven) {
+      if (challenge.fit && kin.distance - challenge.gain < -kTie) {
         put_in_place(winner, kin, *challenge.fit);
         naming = name(winner);
       }
@@ -219,7 +219,7 @@ class Places {
       return;
     }
     nearest.distance -= challenge.gain;
-    if (nearest.distance > -kEven) return;
+    if (nearest.distance > -kTie) return;
     const std::string family = hypotheses_[result_.winners[winner].hypothesis].effect.law.family;
     put_in_place(winner, Rival(nearest), *challenge.fit);
     naming = name(winner);

@@ -72,6 +72,11 @@ std::string cell(std::string text) {
   return text;
 }
 
+/// An entry of a list, with its full stop.
+std::string entry(const std::string& text) {
+  return "- " + text + (text.ends_with('.') ? "\n" : ".\n");
+}
+
 std::string markdown_of(const EffectFile& effect) {
   std::string text =
       fmt::format("### {}\n\n{}. Kind: {}; scope: {}; {}.\n", effect.name, effect.title,
@@ -85,15 +90,15 @@ std::string markdown_of(const EffectFile& effect) {
                         role_name(parameter.role), unit_text(parameter.unit, JointUnits::kRevolute),
                         range_of(parameter), spell(parameter.typical), cell(parameter.meaning));
   }
-  text += "\n- Visibility: " + effect.hidden + "\n- Experiment: " + effect.separates + "\n";
+  text += "\n" + entry("Visibility: " + effect.hidden) + entry("Experiment: " + effect.separates);
   for (const auto& alias : effect.aliases) {
-    text += fmt::format("- Similar to {}: {}\n",
-                        alias.family == "base" ? "the base model" : alias.family, alias.text);
+    const std::string family = alias.family == "base" ? "the base model" : alias.family;
+    text += entry("Similar to " + family + ": " + alias.text);
   }
   for (const auto& part : effect.contains) {
-    text += fmt::format("- Contains {}: {}\n", part.family, part.text);
+    text += entry("Contains " + part.family + ": " + part.text);
   }
-  for (const std::string& line : demands(effect)) text += "- Condition: " + line + "\n";
+  for (const std::string& line : demands(effect)) text += entry("Condition: " + line);
   return text + "\n";
 }
 
