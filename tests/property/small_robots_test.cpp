@@ -208,9 +208,9 @@ class Judged {
       for (const MotionSample& sample : samples_) {
         const Vector gradient = call("base_regressor_gradient", sample, output);
         for (std::size_t i = 0; i < gradient.size(); ++i) {
-          error.add(gradient[i], slope([&](double step) {
+          error.add(gradient[i], slope([&, varied = input](double step) {
                       MotionSample at = sample;
-                      (at.*input)[i] += step;
+                      (at.*varied)[i] += step;
                       return dot(call("base_regressor", at), sample.weights);
                     }));
         }

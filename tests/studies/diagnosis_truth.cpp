@@ -141,7 +141,7 @@ std::optional<TrueEffect> scaled(const Bench& bench, const StrengthMeter& meter,
   const runtime::EffectSizes sizes = drawn.law.sizes(scales);
   const std::optional<VectorXd> nothing = where_it_vanishes(bench, drawn, sizes);
   if (!nothing) return std::nullopt;
-  TrueEffect result{drawn, 0, 0, only, 0, ""};
+  TrueEffect result{drawn, 0, 0, only, {}};
   double scale = 1;
   for (int round = 0; round < 6; ++round) {
     result.effect.parameters = *nothing + scale * (drawn.parameters - *nothing);

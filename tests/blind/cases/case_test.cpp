@@ -133,7 +133,7 @@ TEST(Simulation, LatenessShowsMostlyInJolts) {
 
 // Arms that come to rest under a noisy encoder let go and hold on again.
 TEST(Simulation, FrictionNeverPushes) {
-  for (const std::uint64_t seed : {2605200, 4, 5}) {
+  for (const std::uint64_t seed : {2605200U, 4U, 5U}) {
     CaseOptions options;
     options.arm = "twisted4";
     options.seed = seed;

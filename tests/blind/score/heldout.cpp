@@ -5,7 +5,11 @@
 
 namespace blind {
 
+namespace {
+
 using Json = nlohmann::json;
+
+}  // namespace
 
 std::vector<double> in_suite_measure(const Json& truth, const Json& base, const Json& rms) {
   std::vector<double> result;

@@ -109,7 +109,7 @@ TEST(DiagnosisJson, OfNothingIsNull) {
 TEST(DiagnosisJson, HoldsOutNamesThatAreNotUtf8) {
   DiagnosisReport report = made_report();
   report.robot = "arm\xff";
-  EXPECT_NO_THROW(Json::parse(diagnosis_json(report)));
+  EXPECT_NO_THROW(static_cast<void>(Json::parse(diagnosis_json(report))));
 }
 
 std::string page_of(const DiagnosisReport& report) {
@@ -197,7 +197,7 @@ std::vector<std::string> steps_of(const Json& section) {
 TEST(DiagnosisPage, TellsAFindingInTheOrderOfItsQuestions) {
   const Json json = test::page_document(page_of(made_report()));
   EXPECT_EQ(json["sections"][0]["kind"], "first");
-  for (const int finding : {1, 2}) {
+  for (const std::size_t finding : {1U, 2U}) {
     EXPECT_EQ(json["sections"][finding]["kind"], "finding");
     EXPECT_EQ(steps_of(json["sections"][finding]),
               (std::vector<std::string>{"Where", "What", "How much", "Model", "Proof",

@@ -78,8 +78,8 @@ TEST(HeldNumbers, HaveStandardDeviations) {
   const RobotModel model = test::parse_model(kHalfKnownArm);
   EXPECT_EQ(held_numbers(model, {"all"}).deviations.size(), 0);
   const HeldNumbers held = held_numbers(model, {"links=1+-10%", "mX2+-0.02", "Fs2"});
-  const auto deviation = [&](Chi kind, int link) {
-    return held.deviations[static_cast<Eigen::Index>(index(kind) + kChiCount * (link - 1U))];
+  const auto deviation = [&](Chi kind, std::size_t link) {
+    return held.deviations[static_cast<Eigen::Index>(index(kind) + kChiCount * (link - 1))];
   };
   EXPECT_DOUBLE_EQ(deviation(Chi::kM, 1), 0.1);
   EXPECT_DOUBLE_EQ(deviation(Chi::kMX, 1), 0.05);
