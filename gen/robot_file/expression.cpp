@@ -190,7 +190,11 @@ class ValueParser {
               std::string(kNumberForms)};
     }
     if (token.kind == TokenKind::kEnd) {
-      const Token& before = tokens_[next_ - 1];  // a word is not empty
+      if (next_ == 0) {  // of a list in another format: {1,,3}
+        return {token.offset, 1, fmt::format("expected a value in '{}', found nothing", row_),
+                std::string(kNumberForms)};
+      }
+      const Token& before = tokens_[next_ - 1];
       return {before.offset, 1,
               fmt::format("expected a value after '{}' in '{}'", before.text, row_),
               std::string(kNoBlanks), true};

@@ -92,6 +92,11 @@ TEST(Symoro, WhatIsNotModelledIsRefusedByName) {
   EXPECT_NE(par_error(with_replaced(kTree, "d = {0,0.3,0.1}", "d = {0,0.3,0.1}\neta = {0,1,0}"))
                 .find("eta is 1: an elastic joint"),
             std::string::npos);
+  for (const char* empty : {"{0,,0.1}", "{,0,0.1}", "{0,0.1,}"}) {
+    EXPECT_NE(par_error(with_replaced(kTree, "{0,0.3,0.1}", empty)).find("found nothing"),
+              std::string::npos)
+        << par_error(with_replaced(kTree, "{0,0.3,0.1}", empty));
+  }
   EXPECT_NE(par_error(kTree + "(* no end"), "");
   EXPECT_NE(par_error("NL = 3\nant = {0,1,5}\n").find("antecedent of link 3"), std::string::npos);
   EXPECT_NE(par_error("NL = x\n"), "");
