@@ -87,6 +87,11 @@ std::string cleaned(std::string_view piece, int max_characters) {
   return out;
 }
 
+/// What a file holds may stand in a message: no byte of it ends the line or moves the cursor.
+std::string one_line(std::string_view text) {
+  return cleaned(text, std::numeric_limits<int>::max());
+}
+
 std::string_view spelled(Severity severity) {
   return severity == Severity::kError ? "error" : "warning";
 }
@@ -100,16 +105,16 @@ std::string left_out(std::string_view file_name, std::size_t count, std::string_
 Diagnostics::Diagnostics(std::string file_name, std::string text)
     : file_name_(std::move(file_name)), text_(std::move(text)) {}
 
-void Diagnostics::error(SourcePosition position, int length, std::string message,
-                        std::string hint) {
+void Diagnostics::error(SourcePosition position, int length, const std::string& message,
+                        const std::string& hint) {
   if (++error_count_ > kMaxErrors) return;
-  all_.push_back({Severity::kError, position, length, std::move(message), std::move(hint)});
+  all_.push_back({Severity::kError, position, length, one_line(message), one_line(hint)});
 }
 
-void Diagnostics::warning(SourcePosition position, int length, std::string message,
-                          std::string hint) {
+void Diagnostics::warning(SourcePosition position, int length, const std::string& message,
+                          const std::string& hint) {
   if (++warning_count_ > kMaxErrors) return;
-  all_.push_back({Severity::kWarning, position, length, std::move(message), std::move(hint)});
+  all_.push_back({Severity::kWarning, position, length, one_line(message), one_line(hint)});
 }
 
 std::string Diagnostics::render() const {
@@ -120,7 +125,7 @@ std::string Diagnostics::render() const {
   });
   const std::vector<std::string_view> lines = split_lines(text_);
   // A file name is shown whole: tools find the file by it.
-  const std::string name = cleaned(file_name_, std::numeric_limits<int>::max());
+  const std::string name = one_line(file_name_);
   std::string out;
   auto to = std::back_inserter(out);
   for (const Diagnostic& d : sorted) {

@@ -40,8 +40,10 @@ class Diagnostics {
 
   Diagnostics(std::string file_name, std::string text);
 
-  void error(SourcePosition position, int length, std::string message, std::string hint = {});
-  void warning(SourcePosition position, int length, std::string message, std::string hint = {});
+  void error(SourcePosition position, int length, const std::string& message,
+             const std::string& hint = {});
+  void warning(SourcePosition position, int length, const std::string& message,
+               const std::string& hint = {});
 
   [[nodiscard]] bool has_errors() const { return error_count_ > 0; }
   [[nodiscard]] bool full() const { return error_count_ >= kMaxErrors; }

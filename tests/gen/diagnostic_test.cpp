@@ -56,6 +56,12 @@ TEST(Diagnostics, ShowUnprintableCharactersAsQuestionMarks) {
   EXPECT_EQ(diagnostics.render(), "f:1:6: error: m\n    1 | a???\xc3\xa9z\n      |      ^\n");
 }
 
+TEST(Diagnostics, KeepAMessageInItsLine) {
+  Diagnostics diagnostics("f", "x");
+  diagnostics.error({1, 1}, 1, std::string("not '\0\n\xff'", 9), "write \t1");
+  EXPECT_EQ(diagnostics.render(), "f:1:1: error: not '??\?'\n    1 | x\n      | ^ write ?1\n");
+}
+
 TEST(Diagnostics, ClipALongLineAroundTheCaret) {
   const std::string line = std::string(500000, 'a') + "X" + std::string(500000, 'b');
   Diagnostics diagnostics("f", line);
