@@ -147,7 +147,7 @@ EffectPrograms effect_programs(const EffectFile& effect) {
 
   const Symbols middle(effect, "m");
   const std::vector<ex> after = states_after(effect, middle.values(), middle.step());
-  programs.step = program_of(middle, "z", after);
+  programs.step = split_ahead_of(program_of(middle, "z", after), "z");
   Writer step_slopes(middle);
   step_slopes.output("by_z", slopes(after, middle.states()));
   step_slopes.output("by_p", slopes(after, middle.parameters()));

@@ -19,7 +19,7 @@ struct EffectPrograms {
   Program by_linear;     ///< the same of parameters of role kLinear alone
   Program by_variable;   ///< v p z -> slope, by variables
   Program by_state;      ///< v p z -> slope, by states
-  Program step;          ///< m p z h -> z
+  SplitProgram step;     ///< m p z h -> z, ahead of z and with it
   /// m p z h -> by_z (states x states), by_p (states x np), by_m (states x nv): of the states after
   /// the step
   Program step_slopes;

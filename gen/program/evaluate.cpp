@@ -5,14 +5,22 @@
 #include <string>
 #include <vector>
 
+#include "gen/program/block_functions.h"
 #include "gen/program/program.h"
 #include "gen/program/scalar_functions.h"
 
 namespace dyngen {
 namespace {
 
-constexpr std::size_t kBlock =
-    64;  // samples at once: registers of a 7-joint program stay in the cache
+constexpr std::size_t kCache = 24 * 1024;  // bytes of registers that stay in the first cache
+constexpr std::size_t kLeastBlock = 16, kMostBlock = 256;  // samples at once
+
+/// How many samples are evaluated at once, a multiple of 16.
+std::size_t block_of(const Program& program) {
+  const std::size_t of_sample = sizeof(double) * static_cast<std::size_t>(program.register_count);
+  const std::size_t fit = kCache / std::max<std::size_t>(of_sample, 1) / kLeastBlock * kLeastBlock;
+  return std::clamp(fit, kLeastBlock, kMostBlock);
+}
 
 template <class Array>
 const Array& find_array(const std::vector<Array>& arrays, const std::string& name,
@@ -50,39 +58,64 @@ Places find_places(const Program& program, std::size_t samples,
   return places;
 }
 
-void run(const Instruction& instruction, double* registers, std::size_t count) {
-  using Op = Instruction::Op;
-  double* target = registers + static_cast<std::size_t>(instruction.target) * kBlock;
-  const double* a = registers + static_cast<std::size_t>(instruction.a) * kBlock;
-  const double* b = registers + static_cast<std::size_t>(instruction.b) * kBlock;
-  // what a processor does to several numbers at once; a target may be an operand of its own
-  const auto together = [&](auto operation) {
+/// What a processor does to several numbers at once; a target may be an operand of its own.
+template <typename Operation>
+inline void together(double* target, const double* a, const double* b, std::size_t count,
+                     Operation operation) {
 #pragma omp simd
-    for (std::size_t k = 0; k < count; ++k) target[k] = operation(a[k], b[k]);
-  };
-  switch (instruction.op) {
-    case Op::kAdd:
-      together([](double x, double y) { return x + y; });
-      break;
-    case Op::kSubtract:
-      together([](double x, double y) { return x - y; });
-      break;
-    case Op::kMultiply:
-      together([](double x, double y) { return x * y; });
-      break;
-    case Op::kDivide:
-      together([](double x, double y) { return x / y; });
-      break;
-    case Op::kNegate:
-      together([](double x, double) { return -x; });
-      break;
-    case Op::kAbs:
-      together([](double x, double) { return std::abs(x); });
-      break;
-    default:
-      for (std::size_t k = 0; k < count; ++k) {
-        target[k] = scalar::called(instruction.op, a[k], b[k]);
-      }
+  for (std::size_t k = 0; k < count; ++k) target[k] = operation(a[k], b[k]);
+}
+
+/// All instructions over one block. @param width  from one register to the next
+DYNGEN_WIDE void run(const Instruction* instruction, const Instruction* end, double* registers,
+                     std::size_t width, std::size_t count) {
+  using Op = Instruction::Op;
+  for (; instruction != end; ++instruction) {
+    double* target = registers + static_cast<std::size_t>(instruction->target) * width;
+    const double* a = registers + static_cast<std::size_t>(instruction->a) * width;
+    const double* b = registers + static_cast<std::size_t>(instruction->b) * width;
+    switch (instruction->op) {
+      case Op::kAdd:
+        together(target, a, b, count, [](double x, double y) { return x + y; });
+        break;
+      case Op::kSubtract:
+        together(target, a, b, count, [](double x, double y) { return x - y; });
+        break;
+      case Op::kMultiply:
+        together(target, a, b, count, [](double x, double y) { return x * y; });
+        break;
+      case Op::kDivide:
+        together(target, a, b, count, [](double x, double y) { return x / y; });
+        break;
+      case Op::kNegate:
+        together(target, a, b, count, [](double x, double) { return -x; });
+        break;
+      case Op::kAbs:
+        together(target, a, b, count, [](double x, double) { return std::abs(x); });
+        break;
+      case Op::kSign:
+        together(target, a, b, count, [](double x, double) { return scalar::sign(x); });
+        break;
+      case Op::kMin:
+        together(target, a, b, count, [](double x, double y) { return scalar::min(x, y); });
+        break;
+      case Op::kMax:
+        together(target, a, b, count, [](double x, double y) { return scalar::max(x, y); });
+        break;
+      case Op::kSqrt:
+        together(target, a, b, count, [](double x, double) { return std::sqrt(x); });
+        break;
+      case Op::kSin:
+        block::sines(a, target, count);
+        break;
+      case Op::kCos:
+        block::cosines(a, target, count);
+        break;
+      default:
+        for (std::size_t k = 0; k < count; ++k) {
+          target[k] = scalar::called(instruction->op, a[k], b[k]);
+        }
+    }
   }
 }
 
@@ -91,15 +124,14 @@ void run(const Instruction& instruction, double* registers, std::size_t count) {
 void evaluate(const Program& program, std::size_t samples, const std::vector<InputArray>& inputs,
               const std::vector<OutputArray>& outputs) {
   const Places places = find_places(program, samples, inputs, outputs);
-  std::vector<double> registers(static_cast<std::size_t>(program.register_count) * kBlock, 0.0);
-  const auto at = [&](int reg) {
-    return registers.data() + static_cast<std::size_t>(reg) * kBlock;
-  };
+  const std::size_t width = block_of(program);
+  std::vector<double> registers(static_cast<std::size_t>(program.register_count) * width, 0.0);
+  const auto at = [&](int reg) { return registers.data() + static_cast<std::size_t>(reg) * width; };
   for (const Program::Constant& constant : program.constants) {
-    std::fill_n(at(constant.reg), kBlock, constant.value);
+    std::fill_n(at(constant.reg), width, constant.value);
   }
-  for (std::size_t start = 0; start < samples; start += kBlock) {
-    const std::size_t count = std::min(kBlock, samples - start);
+  for (std::size_t start = 0; start < samples; start += width) {
+    const std::size_t count = std::min(width, samples - start);
     for (std::size_t i = 0; i < program.inputs.size(); ++i) {
       double* reg = at(program.inputs[i].reg);
       if (program.inputs[i].shared) {
@@ -108,9 +140,8 @@ void evaluate(const Program& program, std::size_t samples, const std::vector<Inp
         std::copy_n(places.inputs[i] + start, count, reg);
       }
     }
-    for (const Instruction& instruction : program.instructions) {
-      run(instruction, registers.data(), count);
-    }
+    run(program.instructions.data(), program.instructions.data() + program.instructions.size(),
+        registers.data(), width, count);
     for (std::size_t i = 0; i < program.results.size(); ++i) {
       std::copy_n(at(program.results[i].reg), count, places.results[i] + start);
     }

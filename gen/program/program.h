@@ -87,6 +87,18 @@ Program lower(const Trace& trace);
 Program with_results(const Program& program,
                      const std::function<bool(const Program::Result&)>& wanted);
 
+/// A program in two: what does not depend on one of its inputs, for all samples at once, and the
+/// rest.
+struct SplitProgram {
+  Program ahead;   ///< -> "ahead", `carried` values
+  Program rest;    ///< the same results; reads the inputs that it needs, and "ahead"
+  int carried = 0;
+};
+
+/// Both together round as the whole does.
+/// @param array  what the part ahead does not read: of a recursion the state
+SplitProgram split_ahead_of(const Program& program, std::string_view array);
+
 /// An input array: values[e * samples + k] is element e of sample k; values[e] of what all samples
 /// share (chi, gravity, payload).
 struct InputArray {

@@ -141,6 +141,12 @@ class RunRows {
     wanted.by_parameter = true;
     wanted.by_variable = std::any_of(law.variables.begin(), law.variables.end(), depends_on_model);
     wanted.by_initial = unknowns_.initial[run_][k] >= 0;
+    wanted.linear_only = true;
+    for (std::size_t p = 0; p < law.parameters.size(); ++p) {
+      const bool unknown = unknowns_.parameters[k][p] >= 0;
+      if (unknown && law.parameters[p].role != EffectRole::kLinear) wanted.linear_only = false;
+    }
+    wanted.states_held = wanted.linear_only && !wanted.by_variable && !wanted.by_initial;
     for (const Application& application : applications(effect, data_.joints())) {
       const MatrixXd variables = signals_.variables(run_, effect, application.target);
       VectorXd state = point_.initial[run_][k] + first_states(law, variables);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "runtime/estimation/inequalities.h"
 
@@ -13,6 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr int kPasses = 5;  // over linear unknowns, where effects read the model
 constexpr double kSearchRounding = 1e-12;  // of the cost: two that differ by less are alike
 
 /// Solution over some of the unknowns, the others held.
@@ -33,6 +36,32 @@ ConstrainedSolution solve_over(const std::vector<int>& chosen, const std::vector
   }
   const VectorXd rest = tau - W(Eigen::all, held) * fixed;
   return constrained_least_squares(W(Eigen::all, chosen), rest, of_chosen, x(chosen));
+}
+
+bool is_linear(const EffectInstance& effect, std::size_t parameter) {
+  return effect.law.kind != EffectKind::kAlignment &&
+         effect.law.parameters[parameter].role == EffectRole::kLinear;
+}
+
+/// Of unknowns those in which the equations are linear.
+EffectUnknowns linear_among(const EffectUnknowns& unknowns, const EffectPoint& point) {
+  EffectUnknowns linear = base_unknowns(point);
+  for (std::size_t k = 0; k < point.effects.size(); ++k) {
+    for (std::size_t p = 0; p < unknowns.parameters[k].size(); ++p) {
+      if (unknowns.parameters[k][p] < 0 || !is_linear(point.effects[k], p)) continue;
+      linear.parameters[k][p] = linear.size++;
+    }
+  }
+  return linear;
+}
+
+/// Whether the equations are linear in linear unknowns however far these go: no effect reads a
+/// number of the model, or where its own number takes it.
+bool exactly_linear(const EffectPoint& point) {
+  return std::none_of(point.effects.begin(), point.effects.end(), [](const EffectInstance& effect) {
+    const auto& names = effect.law.variables;
+    return effect.law.midpoint >= 0 || std::any_of(names.begin(), names.end(), depends_on_model);
+  });
 }
 
 }  // namespace
@@ -60,9 +89,10 @@ std::vector<VectorXd> reach_of_states(const EffectRecordings& data, EffectSignal
   return reach;
 }
 
-EffectConstraints EffectSearch::constraints(const EffectPoint& point) const {
+EffectConstraints EffectSearch::constraints(const EffectPoint& point,
+                                            const EffectUnknowns& unknowns) const {
   std::vector<VectorXd> reach;
-  const bool any = std::any_of(unknowns_.initial.begin(), unknowns_.initial.end(), [](auto& run) {
+  const bool any = std::any_of(unknowns.initial.begin(), unknowns.initial.end(), [](auto& run) {
     return std::any_of(run.begin(), run.end(), [](int place) { return place >= 0; });
   });
   if (any) {
@@ -70,51 +100,51 @@ EffectConstraints EffectSearch::constraints(const EffectPoint& point) const {
   } else {
     reach.resize(point.effects.size());
   }
-  return constraints_at(scales_, point, unknowns_, reach);
+  return constraints_at(scales_, point, unknowns, reach);
 }
 
 std::vector<int> EffectSearch::places(const EffectPoint& point, bool linear) const {
-  std::vector<bool> is_linear(static_cast<std::size_t>(unknowns_.size), false);
-  std::fill_n(is_linear.begin(), unknowns_.base, true);
+  std::vector<bool> of_linear(static_cast<std::size_t>(unknowns_.size), false);
+  std::fill_n(of_linear.begin(), unknowns_.base, true);
   for (std::size_t k = 0; k < point.effects.size(); ++k) {
     for (std::size_t p = 0; p < unknowns_.parameters[k].size(); ++p) {
       const int place = unknowns_.parameters[k][p];
       if (place < 0) continue;
-      is_linear[static_cast<std::size_t>(place)] =
-          point.effects[k].law.kind != EffectKind::kAlignment &&
-          point.effects[k].law.parameters[p].role == EffectRole::kLinear;
+      of_linear[static_cast<std::size_t>(place)] = is_linear(point.effects[k], p);
     }
   }
   std::vector<int> result;
   for (int i = 0; i < unknowns_.size; ++i) {
-    if (is_linear[static_cast<std::size_t>(i)] == linear) result.push_back(i);
+    if (of_linear[static_cast<std::size_t>(i)] == linear) result.push_back(i);
   }
   return result;
 }
 
-SearchState EffectSearch::evaluated(EffectPoint point) const {
+SearchState EffectSearch::evaluated(EffectPoint point, const EffectUnknowns& unknowns) const {
   SearchState state;
-  data_.count_work(data_.equations() * data_.joints(), unknowns_.size, unknowns_.size);
-  state.factor = triangles_.at(signals_, point, unknowns_);
-  state.cost =
-      residual_squares(state.factor, values_of(point, unknowns_)).dot(weights_.cwiseAbs2());
+  data_.count_work(data_.equations() * data_.joints(), unknowns.size, unknowns.size);
+  state.factor = triangles_.at(signals_, point, unknowns);
+  state.cost = residual_squares(state.factor, values_of(point, unknowns)).dot(weights_.cwiseAbs2());
   if (!std::isfinite(state.cost)) state.cost = std::numeric_limits<double>::infinity();
   state.point = std::move(point);
   return state;
 }
 
-SearchState EffectSearch::with_linear_solved(EffectPoint point) const {
-  constexpr int kPasses = 5;
-  const std::vector<int> linear = places(point, true), held = places(point, false);
-  SearchState best = evaluated(std::move(point));
+EffectSearch::Trial EffectSearch::tried(EffectPoint point) const {
+  const EffectUnknowns linear = linear_among(unknowns_, point);
+  std::vector<int> all(static_cast<std::size_t>(linear.size));
+  std::iota(all.begin(), all.end(), 0);
+  const bool exact = exactly_linear(point);
+  SearchState best = evaluated(std::move(point), linear);
   bool first = true;
   for (int pass = 0; pass < kPasses && std::isfinite(best.cost); ++pass) {
     const StackedRows rows = stacked(best.factor, weights_);
-    VectorXd x = values_of(best.point, unknowns_);
-    x(linear) =
-        solve_over(linear, held, rows.W, rows.tau, constraints(best.point).inequalities, x).x;
-    SearchState next = evaluated(with_values(best.point, unknowns_, x));
+    VectorXd x = values_of(best.point, linear);
+    x = solve_over(all, {}, rows.W, rows.tau, constraints(best.point, linear).inequalities, x).x;
     const double promised = (rows.W * x - rows.tau).squaredNorm();
+    EffectPoint solved = with_values(best.point, linear, x);
+    if (exact) return {std::move(solved), promised};
+    SearchState next = evaluated(std::move(solved), linear);
     const bool as_promised = std::abs(next.cost - promised) <= 1e-10 * promised + 1e-300;
     // the first solution also brings an infeasible start within its constraints: it may cost more
     if (!first && next.cost > best.cost) break;
@@ -123,7 +153,11 @@ SearchState EffectSearch::with_linear_solved(EffectPoint point) const {
     if (as_promised || (!first && gain <= 1e-10 * best.cost)) break;
     first = false;
   }
-  return best;
+  return {std::move(best.point), best.cost};
+}
+
+SearchState EffectSearch::with_linear_solved(EffectPoint point) const {
+  return evaluated(tried(std::move(point)).point, unknowns_);
 }
 
 SearchState EffectSearch::run(EffectPoint start, const SearchOptions& options) const {
@@ -139,7 +173,7 @@ SearchState EffectSearch::run(EffectPoint start, const SearchOptions& options) c
   while (steps < options.most_steps) {
     const VectorXd x = values_of(state.point, unknowns_);
     const StackedRows rows = stacked(state.factor, weights_);
-    const Inequalities inequalities = constraints(state.point).inequalities;
+    const Inequalities inequalities = constraints(state.point, unknowns_).inequalities;
     bool better = false;
     for (; !better && damping < kMostDamping && steps < options.most_steps; ++steps) {
       const Index count = static_cast<Index>(shapes.size());
@@ -154,8 +188,8 @@ SearchState EffectSearch::run(EffectPoint start, const SearchOptions& options) c
         b[rows.W.rows() + i] = size * x[place];
       }
       const VectorXd step = solve_over(everything, {}, A, b, inequalities, x).x - x;
-      SearchState next = with_linear_solved(
-          within_bounds(scales_, with_values(state.point, unknowns_, x + step), unknowns_));
+      Trial next =
+          tried(within_bounds(scales_, with_values(state.point, unknowns_, x + step), unknowns_));
       const double gain = state.cost - next.cost;
       if (gain > -kSearchRounding * state.cost) {
         better = true;
@@ -163,7 +197,7 @@ SearchState EffectSearch::run(EffectPoint start, const SearchOptions& options) c
         state.converged = gain <= options.tolerance * state.cost;
         if (gain > 0) {
           const bool converged = state.converged;
-          state = std::move(next);
+          state = evaluated(std::move(next.point), unknowns_);
           state.converged = converged;
         }
       } else {
@@ -182,7 +216,7 @@ EffectSearch::Held EffectSearch::held_at(const SearchState& state) const {
   constexpr double kAt = 1e-7;     // relative: an inequality that the point stands at
   constexpr double kHolds = 1e-6;  // of the gradient: what is less is rounding
   Held held;
-  held.constraints = constraints(state.point);
+  held.constraints = constraints(state.point, unknowns_);
   const Inequalities& inequalities = held.constraints.inequalities;
   const StackedRows rows = stacked(state.factor, weights_);
   const VectorXd x = values_of(state.point, unknowns_);

@@ -60,8 +60,17 @@ class EffectSearch {
   [[nodiscard]] const Eigen::VectorXd& weights() const { return weights_; }
 
  private:
-  [[nodiscard]] SearchState evaluated(EffectPoint point) const;
-  [[nodiscard]] EffectConstraints constraints(const EffectPoint& point) const;
+  /// A point whose linear unknowns are solved for: derivatives by others are not needed to compare
+  /// it.
+  struct Trial {
+    EffectPoint point;
+    double cost = 0;
+  };
+  [[nodiscard]] Trial tried(EffectPoint point) const;
+  /// The equations over given unknowns, and the cost of the point in them.
+  [[nodiscard]] SearchState evaluated(EffectPoint point, const EffectUnknowns& unknowns) const;
+  [[nodiscard]] EffectConstraints constraints(const EffectPoint& point,
+                                              const EffectUnknowns& unknowns) const;
   [[nodiscard]] std::vector<int> places(const EffectPoint& point, bool linear) const;
 
   const EffectRecordings& data_;

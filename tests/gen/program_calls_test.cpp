@@ -76,8 +76,8 @@ TEST_P(ProgramCall, IsTheFunctionOfItsName) {
   evaluate(program, n, {{"x", values}}, {{"y", y}, {"z", z}});
   for (std::size_t k = 0; k < n; ++k) {
     const double expected = call.value(first[k], second[k]);
-    EXPECT_EQ(y[k], expected) << call.name << " of " << first[k];
-    EXPECT_EQ(z[n + k], expected * first[k]) << call.name << " of " << first[k];
+    EXPECT_DOUBLE_EQ(y[k], expected) << call.name << " of " << first[k];
+    EXPECT_DOUBLE_EQ(z[n + k], expected * first[k]) << call.name << " of " << first[k];
     const double sample[2] = {first[k], second[k]};
     double own_y[1] = {}, own_z[2] = {};
     one.run({sample}, {own_y, own_z});

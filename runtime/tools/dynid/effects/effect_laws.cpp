@@ -124,8 +124,6 @@ class EffectEvaluation {
   struct History {
     MatrixXd z, by_parameter, by_constant, by_initial;
   };
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
   void check(const MatrixXd& variables, const VectorXd& parameters, const VectorXd& state) const {
     if (variables.cols() == variables_ && parameters.size() == parameters_ &&
         state.size() == states_) {
@@ -149,52 +147,58 @@ class EffectEvaluation {
 
   History follow(const MatrixXd& variables, const VectorXd& parameters, double sample_time,
                  VectorXd& state, const EffectWanted& wanted) const {
-    const Index samples = variables.rows(), constants = static_cast<Index>(constants_.size());
-    const bool slopes =
-        !wanted.states_held && (wanted.by_parameter || wanted.by_variable || wanted.by_initial);
-    ProgramEvaluator step(programs_->step, {"m", "p", "z", "h"}, "z");
-    ProgramEvaluator step_slopes(programs_->step_slopes, {"m", "p", "z", "h"},
-                                 std::vector<std::string>{"by_z", "by_p", "by_m"});
+    const Index samples = variables.rows();
+    MatrixXd middle = variables;  // of a step
+    middle.bottomRows(samples - 1) =
+        0.5 * (variables.topRows(samples - 1) + variables.bottomRows(samples - 1));
+    const StepInputs inputs{middle, parameters, sample_time};
+    MatrixXd before(samples, states_);
     History history;
     history.z.resize(samples, states_);
-    if (slopes) {
-      history.by_parameter.resize(samples, states_ * parameters_);
-      history.by_constant.resize(samples, states_ * constants);
-      history.by_initial.resize(samples, states_ * states_);
-    }
-    RowMajor by_z(states_, states_), by_p(states_, parameters_), by_m(states_, variables_);
-    RowMajor parameter = RowMajor::Zero(states_, parameters_);
-    RowMajor constant = RowMajor::Zero(states_, constants);
-    RowMajor initial = RowMajor::Identity(states_, states_);
-    VectorXd now = variables.row(0), before = now, middle(variables_), next(states_);
+    const MatrixXd ahead =
+        of_steps(programs_->step.ahead, inputs, nullptr, {{"ahead", programs_->step.carried}})[0]
+            .transpose();
+    ProgramEvaluator step(programs_->step.rest, {"z", "ahead"}, "z");
+    VectorXd next(states_);
     for (Index k = 0; k < samples; ++k) {
-      before = now;
-      now = variables.row(k);
-      middle = 0.5 * (before + now);
-      const double h = k == 0 ? 0 : sample_time;
-      step.run({middle.data(), parameters.data(), state.data(), &h}, next.data());
-      if (slopes) {
-        step_slopes.run({middle.data(), parameters.data(), state.data(), &h},
-                        {by_z.data(), by_p.data(), by_m.data()});
-        // where a state is at a point without a slope (a power at zero) it is carried on
-        for (Index i = 0; i < by_z.size(); ++i) {
-          double& slope = by_z.data()[i];
-          if (!std::isfinite(slope)) slope = i % (states_ + 1) == 0 ? 1 : 0;
-        }
-        by_p = by_p.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
-        by_m = by_m.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
-        parameter = (by_z * parameter + by_p).eval();
-        for (Index c = 0; c < constants; ++c) {
-          constant.col(c) =
-              (by_z * constant.col(c) + by_m.col(constants_[static_cast<std::size_t>(c)])).eval();
-        }
-        initial = (by_z * initial).eval();
-        store(parameter, k, history.by_parameter);
-        store(constant, k, history.by_constant);
-        store(initial, k, history.by_initial);
-      }
+      before.row(k) = state;
+      step.run({state.data(), ahead.col(k).data()}, next.data());
       state = next;
       history.z.row(k) = state;
+    }
+    if (wanted.states_held || !(wanted.by_parameter || wanted.by_variable || wanted.by_initial)) {
+      return history;
+    }
+    std::vector<MatrixXd> slopes =
+        of_steps(programs_->step_slopes, inputs, &before,
+                 {{"by_z", states_ * states_}, {"by_p", states_ * parameters_},
+                  {"by_m", states_ * variables_}});
+    // where a state is at a point without a slope (a power at zero) it is carried on
+    MatrixXd& by_z = slopes[0];
+    for (Index c = 0; c < by_z.cols(); ++c) {
+      const double without = c % (states_ + 1) == 0 ? 1 : 0;
+      by_z.col(c) = by_z.col(c).unaryExpr(
+          [&](double slope) { return std::isfinite(slope) ? slope : without; });
+    }
+    make_finite(slopes[1]);
+    make_finite(slopes[2]);
+    if (wanted.by_parameter) {
+      history.by_parameter = remembered(by_z, std::move(slopes[1]), MatrixXd());
+    }
+    if (wanted.by_variable) {
+      const auto count = static_cast<Index>(constants_.size());
+      MatrixXd by_constant(samples, states_ * count);
+      for (Index s = 0; s < states_; ++s) {
+        for (Index c = 0; c < count; ++c) {
+          by_constant.col(s * count + c) =
+              slopes[2].col(s * variables_ + constants_[static_cast<std::size_t>(c)]);
+        }
+      }
+      history.by_constant = remembered(by_z, std::move(by_constant), MatrixXd());
+    }
+    if (wanted.by_initial) {
+      history.by_initial = remembered(by_z, MatrixXd::Zero(samples, states_ * states_),
+                                      MatrixXd::Identity(states_, states_));
     }
     make_finite(history.by_parameter);
     make_finite(history.by_constant);
@@ -202,8 +206,58 @@ class EffectEvaluation {
     return history;
   }
 
-  static void store(const RowMajor& slopes, Index sample, MatrixXd& history) {
-    history.row(sample) = Eigen::Map<const Eigen::RowVectorXd>(slopes.data(), slopes.size());
+  /// What the steps of a run have in common.
+  struct StepInputs {
+    const MatrixXd& middle;      ///< (N x nv) variables in the middle of each step
+    const VectorXd& parameters;  ///< (np)
+    double sample_time;          ///< s; the first step has no length
+  };
+  using Outputs = std::vector<std::pair<const char*, Index>>;  // arrays and their columns
+
+  /// A program over all steps. @param before  (N x states) or null: states before each step
+  static std::vector<MatrixXd> of_steps(const Program& program, const StepInputs& inputs,
+                                        const MatrixXd* before, const Outputs& outputs) {
+    const auto run = [&](const MatrixXd& m, const MatrixXd& z, double length) {
+      std::vector<MatrixXd> results;
+      for (const auto& [name, columns] : outputs) results.emplace_back(m.rows(), columns);
+      std::vector<OutputArray> arrays;
+      for (std::size_t i = 0; i < outputs.size(); ++i) {
+        arrays.push_back({outputs[i].first, places(results[i])});
+      }
+      const MatrixXd p = inputs.parameters, h = MatrixXd::Constant(1, 1, length);
+      evaluate(program, static_cast<std::size_t>(m.rows()),
+               {{"m", values(m)}, {"p", values(p)}, {"z", values(z)}, {"h", values(h)}}, arrays);
+      return results;
+    };
+    const MatrixXd none;
+    std::vector<MatrixXd> all = run(inputs.middle, before ? *before : none, inputs.sample_time);
+    const MatrixXd first_state = before ? MatrixXd(before->topRows(1)) : none;
+    const std::vector<MatrixXd> first = run(inputs.middle.topRows(1), first_state, 0);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].row(0) = first[i];
+    return all;
+  }
+
+  /// Derivatives of the states after every step, D_k = by_z D_(k-1) + b_k.
+  /// @param by_z   (N x states^2) row-major
+  /// @param b      (N x states * count)
+  /// @param start  (states x count); empty: 0
+  [[nodiscard]] MatrixXd remembered(const MatrixXd& by_z, MatrixXd b,
+                                    const MatrixXd& start) const {
+    const Index count = b.cols() / states_;
+    VectorXd now(states_), next(states_);
+    for (Index c = 0; c < count; ++c) {
+      now = start.size() > 0 ? VectorXd(start.col(c)) : VectorXd::Zero(states_);
+      for (Index k = 0; k < b.rows(); ++k) {
+        for (Index s = 0; s < states_; ++s) {
+          double sum = 0;
+          for (Index i = 0; i < states_; ++i) sum += by_z(k, s * states_ + i) * now[i];
+          next[s] = sum + b(k, s * count + c);
+        }
+        now.swap(next);
+        for (Index s = 0; s < states_; ++s) b(k, s * count + c) = now[s];
+      }
+    }
+    return b;
   }
 
   std::shared_ptr<const EffectPrograms> programs_;
