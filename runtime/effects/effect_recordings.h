@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +47,12 @@ struct SampleRange {
   Eigen::Index from = 0, to = 0;
 };
 
+/// An earlier run with the same motion.
+struct EarlierRun {
+  std::size_t run = 0;  ///< its place
+  double lag = 0;       ///< s: time t of the later motion is t + lag of the earlier one
+};
+
 /// A run of a recording as effects see it: all samples, and the equations of the model alone.
 struct EffectRun {
   int recording = 0;  ///< its place, from 0; negative: of none that events were found in
@@ -57,6 +64,8 @@ struct EffectRun {
   /// (n) stiction intervals of each joint, ascending: its friction may be any torque there. Its
   /// equations count; the evidence projects out what any torque there would change. Empty: none.
   std::vector<std::vector<SampleRange>> unknown{};
+  /// Of a run whose motion does not repeat in itself.
+  std::optional<EarlierRun> earlier{};
 };
 
 /// Recordings of one robot, with all that effects and their estimation read.

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "runtime/evidence/lag_products.h"
@@ -31,6 +32,20 @@ void PeriodDifferences::add(const VectorXd& e, const VectorXd& counted, double p
       {(e.tail(rows) - moved.head(rows)).cwiseProduct(both) / std::sqrt(2.0), both, period});
 }
 
+void PeriodDifferences::add_between(const Residual& earlier, const Residual& later, double lag) {
+  const auto whole = static_cast<Index>(std::llround(lag));
+  const Index from = std::max<Index>(0, -whole);
+  const Index rows = std::min(later.e.size(), earlier.e.size() - whole) - from;
+  if (rows < 1) return;
+  const VectorXd moved = shifted(earlier.e, lag - static_cast<double>(whole));
+  const VectorXd both =
+      later.counted.segment(from, rows).cwiseProduct(earlier.counted.segment(from + whole, rows));
+  runs_.push_back(
+      {(later.e.segment(from, rows) - moved.segment(from + whole, rows)).cwiseProduct(both) /
+           std::sqrt(2.0),
+       both, std::numeric_limits<double>::infinity()});
+}
+
 double PeriodDifferences::samples() const {
   double sum = 0;
   for (const Run& run : runs_) sum += run.counted.sum();
@@ -41,7 +56,8 @@ double PeriodDifferences::samples() const {
 double PeriodDifferences::longest() const {
   double longest = 0;
   for (const Run& run : runs_) {
-    longest = std::max(longest, static_cast<double>(run.difference.size()) + run.period);
+    const double apart = std::isfinite(run.period) ? run.period : 0;
+    longest = std::max(longest, static_cast<double>(run.difference.size()) + apart);
   }
   return longest;
 }
@@ -86,6 +102,10 @@ JointDifferences PeriodDifferences::of_runs(const std::vector<Run>& runs, double
 
 std::optional<CommonCourse> PeriodDifferences::common_course() const {
   if (static_cast<double>(runs_.size()) < rules_.course_runs) return std::nullopt;
+  // a course that all recordings have is in none of their differences
+  for (const Run& run : runs_) {
+    if (!std::isfinite(run.period)) return std::nullopt;
+  }
   Index rows = 0;
   double periods = 0;
   for (const Run& run : runs_) {

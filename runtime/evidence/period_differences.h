@@ -32,6 +32,14 @@ class PeriodDifferences {
   /// @param period   in samples; a run of less than one and a half is left out
   void add(const Eigen::VectorXd& e, const Eigen::VectorXd& counted, double period);
 
+  /// The same of two recordings of one motion, whose noise has nothing in common.
+  /// @param earlier, later  residuals, 0 where they do not count, and what counts
+  /// @param lag             row k of the later one is row k + lag of the earlier one
+  struct Residual {
+    const Eigen::VectorXd &e, &counted;
+  };
+  void add_between(const Residual& earlier, const Residual& later, double lag);
+
   /// How many differences there are.
   [[nodiscard]] double samples() const;
 
@@ -44,7 +52,7 @@ class PeriodDifferences {
  private:
   struct Run {
     Eigen::VectorXd difference, counted;
-    double period = 0;
+    double period = 0;  ///< infinite between recordings
   };
   [[nodiscard]] double longest() const;
   [[nodiscard]] Eigen::MatrixXd courses(const Run& run) const;

@@ -96,7 +96,8 @@ std::vector<DifferenceLine> difference_lines(const VectorXd& difference, const V
   transform.fwd(spectrum, turned);
   for (Index k = 0; k < samples / 2; ++k) {
     const double frequency = (static_cast<double>(k) + 0.5) / static_cast<double>(samples);
-    const double passed = 1 - std::cos(2 * M_PI * frequency * period);
+    // of two recordings nothing is in common
+    const double passed = std::isfinite(period) ? 1 - std::cos(2 * M_PI * frequency * period) : 1;
     if (passed < rules.line_transmission) continue;
     const double left = std::norm(spectrum[static_cast<std::size_t>(k)]) / weight;
     lines.push_back({frequency, passed, left * density(process, frequency)});

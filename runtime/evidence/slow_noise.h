@@ -9,7 +9,8 @@
 
 namespace dyngen::runtime {
 
-/// A line of the spectrum of (e_t - e_(t - P)) / sqrt(2) of one run, P its period.
+/// A line of the spectrum of (e_t - e_(t - P)) / sqrt(2) of one run, P its period; or of the
+/// difference of two recordings.
 struct DifferenceLine {
   double frequency = 0;  ///< cycles for a sample
   double passed = 0;     ///< 1 - cos 2 pi f P: what the difference has of the density of e
@@ -20,7 +21,8 @@ struct DifferenceLine {
 /// more: of what a process leaves of the difference, times the process's density. About equations
 /// that do not count, noise of high lines would be in low ones; white noise there is as much at
 /// all.
-/// @param difference  0 where it does not count   @param counted  1 or 0   @param period  samples
+/// @param difference  0 where it does not count   @param counted  1 or 0
+/// @param period      samples; infinite: of two recordings, each with noise of its own
 /// @param process     about that of the difference, with an innovation
 std::vector<DifferenceLine> difference_lines(const Eigen::VectorXd& difference,
                                              const Eigen::VectorXd& counted, double period,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -172,6 +173,34 @@ void know_by(TorqueNoiseModel& model, const std::vector<double>& samples, double
   }
 }
 
+/// Differences of one joint between neighbouring periods of each run.
+void add_periods(const EffectRecordings& data, const RunResiduals& residuals,
+                 const std::vector<double>& repeats, Index joint, PeriodDifferences& differences) {
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    if (!(repeats[run] > 0)) continue;
+    differences.add(residuals[run].col(joint), data.runs[run].rows.counted.col(joint),
+                    repeats[run]);
+  }
+}
+
+/// Between neighbouring recordings of one motion.
+void add_recordings(const EffectRecordings& data, const RunResiduals& residuals, Index joint,
+                    PeriodDifferences& differences) {
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    const EffectRun& later = data.runs[run];
+    if (!later.earlier) continue;
+    const EffectRun& earlier = data.runs[later.earlier->run];
+    if (earlier.decimator.factor != later.decimator.factor) continue;
+    const VectorXd before = residuals[later.earlier->run].col(joint),
+                   now = residuals[run].col(joint);
+    const VectorXd counted_before = earlier.rows.counted.col(joint),
+                   counted_now = later.rows.counted.col(joint);
+    differences.add_between({before, counted_before}, {now, counted_now},
+                            later.earlier->lag / (later.motion.sample_time *
+                                                  static_cast<double>(later.decimator.factor)));
+  }
+}
+
 /// Mean of those that repeat; 0 if none does.
 double mean_period(const std::vector<double>& repeats) {
   double sum = 0, count = 0;
@@ -198,12 +227,13 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   TorqueNoiseModel model;
   const OfJoints all = lag_products(data, residuals);
   std::vector<PeriodDifferences> repeated(all.size(), PeriodDifferences(rules));
-  for (std::size_t run = 0; run < data.runs.size(); ++run) {
-    if (!(repeats[run] > 0)) continue;
-    for (std::size_t j = 0; j < all.size(); ++j) {
-      const auto column = static_cast<Index>(j);
-      repeated[j].add(residuals[run].col(column), data.runs[run].rows.counted.col(column),
-                      repeats[run]);
+  model.of_recordings =
+      std::none_of(repeats.begin(), repeats.end(), [](double p) { return p > 0; });
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    if (model.of_recordings) {
+      add_recordings(data, residuals, static_cast<Index>(j), repeated[j]);
+    } else {
+      add_periods(data, residuals, repeats, static_cast<Index>(j), repeated[j]);
     }
   }
   std::vector<double> differences, samples;
@@ -211,7 +241,8 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
     differences.push_back(repeated[j].samples());
     samples.push_back(all[j].samples());
   }
-  const double period = mean_period(repeats);
+  const double period =
+      model.of_recordings ? std::numeric_limits<double>::infinity() : mean_period(repeats);
   if (period > 0 &&
       *std::min_element(differences.begin(), differences.end()) >= rules.least_independent) {
     double longest = 0;
@@ -222,6 +253,7 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
     know_by(model, differences, 1 / period);
     model.from_periods = model.worth.minCoeff() >= rules.least_independent;
   }
+  model.of_recordings = model.of_recordings && model.from_periods;
   if (!model.from_periods) {
     std::vector<AutoregressiveNoise> joints;
     for (const LagProducts& products : all) {

@@ -20,6 +20,8 @@ struct TorqueNoiseModel {
   /// (n) samples that are worth one, for what is as slow as the motion: density at its period, or
   /// at 0 if none repeats, over the variance.
   Eigen::VectorXd correlation_time;
+  /// The periods are recordings of one motion, of which none repeats in itself.
+  bool of_recordings = false;
 
   /// As intervals are told by it.
   [[nodiscard]] KnownNoise known() const;
@@ -33,13 +35,14 @@ using RunResiduals = std::vector<Eigen::MatrixXd>;
 
 /// An autoregressive process for each joint, and slow parts beside it.
 ///
-/// Where the motion repeats: of (e_t - e_(t - P)) / sqrt(2), P the period, in which all that the
-/// motion determines cancels, whether a model knows it or not; slow parts are read from the lines
-/// of its spectrum beside the harmonics (noise_of_differences()). Elsewhere of the residual
-/// itself, which still holds what the model left out: an upper bound of the noise where there is
-/// structure. What the fit took of the noise, its level and its slow part, is put back: the
-/// autocovariance is the one whose noise, simulated and fitted likewise, leaves what was left
-/// (indirect inference, Gourieroux, Monfort, Renault 1993).
+/// Where the motion repeats, in itself or, if none does, in several recordings: of (e_t - e_(t -
+/// P)) / sqrt(2), P the period, in which all that the motion determines cancels, whether a model
+/// knows it or not; slow parts are read from the lines of its spectrum beside the harmonics
+/// (noise_of_differences()). Elsewhere of the residual itself, which still holds what the model
+/// left out: an upper bound of the noise where there is structure. What the fit took of the noise,
+/// its level and its slow part, is put back: the autocovariance is the one whose noise, simulated
+/// and fitted likewise, leaves what was left (indirect inference, Gourieroux, Monfort, Renault
+/// 1993).
 /// @param repeats   of repeats_of()
 /// @param fitted    whether the model's parameters were fitted to these recordings
 /// @throws std::invalid_argument  if the residual of a joint is 0

@@ -11,6 +11,7 @@
 #include <unsupported/Eigen/FFT>
 #include <vector>
 
+#include "runtime/recordings/motion_mismatch.h"
 #include "runtime/recordings/spline.h"
 #include "runtime/recordings/time_base.h"
 
@@ -20,7 +21,6 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kMostSearched = 1 << 16;  // samples: longer runs are thinned out for the search
-constexpr double kRepeats = 1e-4;         // mismatch, see mismatch_at(); (1 %)^2
 constexpr double kMustRise = 1e-3;        // a motion leaves its start before it comes back
 
 struct Run {
@@ -37,54 +37,28 @@ Run longest_run(const Recording& recording) {
   return longest;
 }
 
-/// Standard deviation of white noise and rounding, from third differences (a smooth motion has
-/// hardly any; noise of deviation s gives s sqrt(20)).
-double noise_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
-  const Index n = x.size() - 3;
-  if (n < 1) return 0;
-  return std::sqrt(
-      (x.tail(n) - 3 * x.segment(2, n) + 3 * x.segment(1, n) - x.head(n)).squaredNorm() /
-      (20.0 * static_cast<double>(n)));
-}
-
-/// Joints that move, not those that a controller holds while others do: positions without their
-/// mean, divided by their standard deviation. A noisy joint repeats less well: it has a weight
-/// below 1, with which its mismatch is compared with kRepeats like that of the others.
-struct MovingJoints {
-  Eigen::MatrixXd x;       ///< with its weight's root
-  Eigen::VectorXd weight;  ///< kRepeats / (kRepeats + 4 noise^2), noise per standard deviation
+/// Positions of the joints that move without their mean, times MovingJoint::scale.
+struct MovingPositions {
+  Eigen::MatrixXd x;
+  Eigen::VectorXd weight;
 };
 
-MovingJoints moving_joints(const Eigen::Ref<const Eigen::MatrixXd>& q) {
-  MovingJoints motion;
-  std::vector<Index> moving;
-  const Eigen::MatrixXd centred = q.rowwise() - q.colwise().mean();
-  const Eigen::RowVectorXd deviation =
-      (centred.colwise().squaredNorm() / static_cast<double>(q.rows())).cwiseSqrt();
-  Eigen::RowVectorXd noise(q.cols());
-  for (Index j = 0; j < q.cols(); ++j) {
-    noise(j) = noise_of(q.col(j));
-    constexpr double kRounding = 1e-12, kAboveNoise = 10, kAboveLargest = 1e-2;
-    const double scale = 1 + q.col(j).cwiseAbs().maxCoeff();
-    if (deviation(j) > kRounding * scale && deviation(j) > kAboveNoise * noise(j) &&
-        deviation(j) > kAboveLargest * deviation.maxCoeff()) {
-      moving.push_back(j);
-    }
-  }
+MovingPositions moving_positions(const Eigen::Ref<const Eigen::MatrixXd>& q) {
+  const std::vector<MovingJoint> moving = moving_joints(q);
+  MovingPositions motion;
   motion.x.resize(q.rows(), static_cast<Index>(moving.size()));
   motion.weight.resize(static_cast<Index>(moving.size()));
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const auto column = static_cast<Index>(i);
-    const double noisy = noise(moving[i]) / deviation(moving[i]);
-    motion.weight(column) = kRepeats / (kRepeats + 4 * noisy * noisy);
-    motion.x.col(column) =
-        centred.col(moving[i]) * (std::sqrt(motion.weight(column)) / deviation(moving[i]));
+    const auto own = q.col(moving[i].joint);
+    motion.weight(column) = moving[i].weight;
+    motion.x.col(column) = (own.array() - own.mean()) * moving[i].scale;
   }
   return motion;
 }
 
 /// Per joint, mean over k of (x(k+L) - x(k))^2 / 2, L the lag.
-Eigen::RowVectorXd mismatch_of_joints(const MovingJoints& motion, Index lag) {
+Eigen::RowVectorXd mismatch_of_joints(const MovingPositions& motion, Index lag) {
   const Index n = motion.x.rows() - lag;
   return (motion.x.bottomRows(n) - motion.x.topRows(n)).colwise().squaredNorm() /
          (2 * static_cast<double>(n));
@@ -92,12 +66,12 @@ Eigen::RowVectorXd mismatch_of_joints(const MovingJoints& motion, Index lag) {
 
 /// Mismatch of a lag, that of the joint where it is largest. 0: repeats; kRepeats: just so; with no
 /// noise, 1: unrelated.
-double mismatch_at(const MovingJoints& motion, Index lag) {
+double mismatch_at(const MovingPositions& motion, Index lag) {
   return mismatch_of_joints(motion, lag).maxCoeff();
 }
 
 /// mismatch_at() of all lags 0 .. most at once, by FFT.
-Eigen::VectorXd mismatches(const MovingJoints& motion, Index most) {
+Eigen::VectorXd mismatches(const MovingPositions& motion, Index most) {
   const Index n = motion.x.rows();
   Index size = 1;
   while (size < n + most + 1) size *= 2;
@@ -122,9 +96,9 @@ Eigen::VectorXd mismatches(const MovingJoints& motion, Index most) {
 }
 
 /// Every `stride`-th sample.
-MovingJoints thinned(const MovingJoints& motion, Index stride) {
+MovingPositions thinned(const MovingPositions& motion, Index stride) {
   if (stride == 1) return motion;
-  MovingJoints thin;
+  MovingPositions thin;
   thin.weight = motion.weight;
   thin.x.resize((motion.x.rows() + stride - 1) / stride, motion.x.cols());
   for (Index k = 0; k < thin.x.rows(); ++k) thin.x.row(k) = motion.x.row(k * stride);
@@ -138,7 +112,7 @@ struct Valley {
   double bend = 0;  ///< second difference: some hundredths of it are how well the depth is known
 };
 
-Valley valley_at(const MovingJoints& motion, Index lag, Index reach) {
+Valley valley_at(const MovingPositions& motion, Index lag, Index reach) {
   const Index most = motion.x.rows() - 2;
   const Index from = std::max<Index>(1, lag - reach), to = std::min(most - 1, lag + reach);
   Index best = from;
@@ -171,10 +145,10 @@ std::vector<Index> candidates(const Eigen::VectorXd& mismatch) {
 }
 
 /// The period in samples; 0 if there is none.
-double search(const MovingJoints& motion) {
+double search(const MovingPositions& motion) {
   const Index n = motion.x.rows();
   const Index stride = (n + kMostSearched - 1) / kMostSearched;
-  const MovingJoints thin = thinned(motion, stride);
+  const MovingPositions thin = thinned(motion, stride);
   const Eigen::VectorXd mismatch = mismatches(thin, thin.x.rows() / 2 + 1);
 
   std::vector<Valley> valleys;
@@ -282,15 +256,15 @@ Periods find_periods(const Recording& recording, std::optional<double> given) {
   const Eigen::VectorXd time = recording.time.segment(run.first, run.count);
   const Eigen::MatrixXd q = recording.q.middleRows(run.first, run.count);
   const double duration = time(run.count - 1) - time(0) + step;
-  MovingJoints motion;
+  MovingPositions motion;
   if (base.uniform) {
-    motion = moving_joints(q);
+    motion = moving_positions(q);
   } else {
     const auto rows = static_cast<Index>(std::floor((duration - step) / step + 1e-6)) + 1;
     Eigen::VectorXd grid =
         Eigen::VectorXd::LinSpaced(rows, 0, static_cast<double>(rows - 1)) * step;
     grid.array() += time(0);
-    motion = moving_joints(interpolate_spline(time, q, grid));
+    motion = moving_positions(interpolate_spline(time, q, grid));
   }
   if (motion.x.cols() == 0) {
     none.message = "no joint moves, so there is no period";

@@ -47,9 +47,11 @@ ConditionLine line_of(const MotionSource& source) {
   return line;
 }
 
-/// "the motion repeats every 5 s, 4.0 times"
-std::string repetition(const EffectRun& run, double equations) {
-  if (!(equations > 0)) return "the motion does not repeat";
+/// "the motion repeats every 5 s, 4.0 times"; "its motion is that of run1.csv"
+std::string repetition(const EffectRun& run, double equations, const std::string& earlier) {
+  if (!(equations > 0)) {
+    return earlier.empty() ? "the motion does not repeat" : "its motion is that of " + earlier;
+  }
   const double row_time = run.motion.sample_time * static_cast<double>(run.decimator.factor);
   return fmt::format("the motion repeats every {:.5g} s, {:.1f} times", equations * row_time,
                      static_cast<double>(run.rows.Y.rows()) / equations);
@@ -69,7 +71,16 @@ std::vector<ConditionLine> condition_lines(const DiagnosisInput& input, const Di
     const int recording = train->runs[run].recording;
     if (recording < 0) continue;
     auto& sentences = lines.at(parts.origin_of(static_cast<std::size_t>(recording))).sentences;
-    const std::string sentence = repetition(train->runs[run], repeats[run]);
+    std::string earlier;
+    if (const auto& same = train->runs[run].earlier) {
+      const int place = train->runs[same->run].recording;
+      if (place == recording) {
+        earlier = "an earlier part";
+      } else if (place >= 0) {
+        earlier = lines.at(parts.origin_of(static_cast<std::size_t>(place))).recording;
+      }
+    }
+    const std::string sentence = repetition(train->runs[run], repeats[run], earlier);
     if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) {
       sentences.push_back(sentence);
     }

@@ -8,6 +8,7 @@
 #include "runtime/diagnosis/equation_sets/left_out_rows.h"
 #include "runtime/diagnosis/equation_sets/repeated_motion.h"
 #include "runtime/diagnosis/equation_sets/repeated_rounding.h"
+#include "runtime/diagnosis/equation_sets/same_motions.h"
 #include "runtime/evidence/joint_columns.h"
 #include "runtime/signals/interpolation.h"
 
@@ -98,8 +99,7 @@ struct AllMotions {
 
 AllMotions motions_of(const std::vector<MotionSource>& sources, const EquationRules& rules) {
   AllMotions all;
-  for (const MotionSource& source : sources) {
-    TwoMotions two = two_motions(source, rules);
+  for (TwoMotions& two : two_motions(sources, rules)) {
     all.own.push_back(std::move(two.own));
     all.others.push_back(std::move(two.other));
   }
@@ -111,7 +111,12 @@ struct Fitted {
   Fitted(const DiagnosisInput& input, const AllMotions& train, const EquationSetOptions& options)
       : repeated(thinned(equations(input, train.others, options, true), kLongestSample)),
         own(thinned(equations(input, train.own, options, true), kLongestSample)),
-        still(still_speed(train.own, options.rows, own.joints())) {}
+        still(still_speed(train.own, options.rows, own.joints())) {
+    find_same_motions(own);
+    for (std::size_t run = 0; run < own.runs.size(); ++run) {
+      repeated.runs[run].earlier = own.runs[run].earlier;
+    }
+  }
   EffectRecordings repeated, own;
   VectorXd still;  // (n) rad/s or m/s
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/equation_sets/raw_residual.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -127,21 +129,45 @@ VectorXd raw_rms(const EffectRecordings& data, const RunResiduals& residuals) {
   return squares.cwiseQuotient(counts.cwiseMax(1)).cwiseSqrt();
 }
 
+namespace {
+
+/// Where the torque of a run's samples is asked for again: in a run, so many samples further.
+struct Again {
+  std::size_t run = 0;
+  Index samples = 0;
+};
+
+/// @param repeats  equations of the run after which its motion repeats; 0: it does not
+std::optional<Again> again_in(const EffectRecordings& data, std::size_t run, double repeats) {
+  const EffectRun& here = data.runs[run];
+  const auto factor = static_cast<double>(here.decimator.factor);
+  const auto period = static_cast<Index>(std::llround(repeats * factor));
+  if (period >= 1) return Again{run, period};
+  if (!here.earlier) return std::nullopt;
+  return Again{here.earlier->run,
+               static_cast<Index>(std::llround(here.earlier->lag / here.motion.sample_time))};
+}
+
+}  // namespace
+
 VectorXd raw_floor(const EffectRecordings& data, const RunResiduals& residuals,
                    const std::vector<double>& repeats) {
   VectorXd squares = VectorXd::Zero(data.joints()), counts = squares;
   for (std::size_t run = 0; run < residuals.size(); ++run) {
-    const auto factor = static_cast<double>(data.runs[run].decimator.factor);
-    const auto period = static_cast<Index>(std::llround(repeats[run] * factor));
-    const Index rows = residuals[run].rows() - period;
-    if (period < 1 || rows < 1) continue;
+    const std::optional<Again> again = again_in(data, run, repeats[run]);
+    if (!again) continue;
+    const MatrixXd &now = residuals[run], &then = residuals[again->run];
     for (int j = 0; j < data.joints(); ++j) {
-      const std::vector<bool> counted = counted_samples(data.runs[run], j);
-      const auto e = residuals[run].col(j);
-      for (Index k = 0; k < rows; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        if (!counted[at] || !counted[at + static_cast<std::size_t>(period)]) continue;
-        squares[j] += 0.5 * std::pow(e[k + period] - e[k], 2);
+      const std::vector<bool> counted_now = counted_samples(data.runs[run], j);
+      const std::vector<bool> counted_then = counted_samples(data.runs[again->run], j);
+      for (Index k = std::max<Index>(0, -again->samples); k < now.rows(); ++k) {
+        const Index other = k + again->samples;
+        if (other >= then.rows()) break;
+        if (!counted_now[static_cast<std::size_t>(k)] ||
+            !counted_then[static_cast<std::size_t>(other)]) {
+          continue;
+        }
+        squares[j] += 0.5 * std::pow(then(other, j) - now(k, j), 2);
         counts[j] += 1;
       }
     }

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <utility>
 
+#include "runtime/diagnosis/equation_sets/same_motions.h"
 #include "runtime/effects/effect_fit.h"
 
 namespace dyngen::runtime {
@@ -104,6 +107,37 @@ TwoMotions two_motions(const MotionSource& source, const EquationRules& rules) {
   if (repeats(source, rules)) return {source, with_repeated_motion(source, rules)};
   if (!source.others.parities) return {source, source};
   return {source.others.make({.parity = 1}), source.others.make({.parity = 0})};
+}
+
+std::vector<TwoMotions> two_motions(const std::vector<MotionSource>& sources,
+                                    const EquationRules& rules) {
+  std::vector<TwoMotions> all;
+  std::vector<Motion> runs;
+  std::vector<std::size_t> first;  // of each source among the runs
+  for (const MotionSource& source : sources) {
+    first.push_back(runs.size());
+    for (Motion& run : whole_runs(source)) runs.push_back(std::move(run));
+  }
+  first.push_back(runs.size());
+  std::vector<const Motion*> motions;
+  for (const Motion& run : runs) motions.push_back(&run);
+  std::vector<std::optional<Motion>> means = of_same_motions(motions, rules);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    auto pieces = std::make_shared<std::vector<StreamPiece>>();
+    bool same = false;
+    for (std::size_t run = first[i]; run < first[i + 1]; ++run) {
+      same = same || means[run].has_value();
+      pieces->push_back({means[run] ? std::move(*means[run]) : std::move(runs[run]), false});
+    }
+    if (!same) {
+      all.push_back(two_motions(sources[i], rules));
+      continue;
+    }
+    all.push_back({sources[i], with_pieces(sources[i], [pieces](const auto& visit) {
+                     for (const StreamPiece& piece : *pieces) visit(piece);
+                   })});
+  }
+  return all;
 }
 
 Eigen::VectorXd leave_as_at(EffectRecordings& repeated, const EffectRecordings& own) {

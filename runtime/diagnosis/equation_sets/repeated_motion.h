@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "runtime/effects/effect_recordings.h"
 #include "runtime/identification/motion_source.h"
 #include "runtime/rules/decision_rules.h"
@@ -25,6 +27,11 @@ struct TwoMotions {
 /// Where the motion repeats, as it is recorded, and of the other periods; else of every other
 /// sample each (OtherStates::parities); twice the same where neither can be.
 TwoMotions two_motions(const MotionSource& source, const EquationRules& rules = {});
+
+/// The same of several recordings: those of one motion, EquationRules::fewest_periods and more, are
+/// periods of it.
+std::vector<TwoMotions> two_motions(const std::vector<MotionSource>& sources,
+                                    const EquationRules& rules = {});
 
 /// The torque becomes what the model has at the other motion and what it leaves at the own one:
 /// noise of the own motion is in what is left then, and not in the columns. A refit has the
