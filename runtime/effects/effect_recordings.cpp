@@ -28,10 +28,16 @@ std::vector<Motion> runs_of(const MotionSource& source) {
   return runs;
 }
 
-MatrixXd below(const MatrixXd& upper, const MatrixXd& lower) {
-  MatrixXd all(upper.rows() + lower.rows(), lower.cols());
-  if (upper.rows() > 0) all.topRows(upper.rows()) = upper;
-  all.bottomRows(lower.rows()) = lower;
+/// One below the other.
+MatrixXd stacked(const std::vector<RowBlock>& blocks, MatrixXd RowBlock::*part) {
+  Index rows = 0;
+  for (const RowBlock& block : blocks) rows += (block.*part).rows();
+  MatrixXd all(rows, blocks.empty() ? 0 : (blocks.front().*part).cols());
+  Index start = 0;
+  for (const RowBlock& block : blocks) {
+    all.middleRows(start, (block.*part).rows()) = block.*part;
+    start += (block.*part).rows();
+  }
   return all;
 }
 
@@ -44,14 +50,16 @@ RowBlock rows_of_run(const LinearModel& model, const MotionSource& recording, co
     if (motion.tau.size() == 0) piece.motion.tau = MatrixXd::Zero(motion.samples(), model.joints());
     visit(piece);
   };
-  RowBlock all;
+  std::vector<RowBlock> blocks;
   planned_rows(model, run, plan)([&](const RowBlock& block) {
-    all.Y = below(all.Y, block.Y);
-    all.tau = below(all.tau, block.tau);
-    const bool every = block.counted.size() == 0;
-    all.counted = below(all.counted,
-                        every ? MatrixXd::Ones(block.tau.rows(), block.tau.cols()) : block.counted);
+    blocks.push_back(block);
+    MatrixXd& counted = blocks.back().counted;
+    if (counted.size() == 0) counted = MatrixXd::Ones(block.tau.rows(), block.tau.cols());
   });
+  RowBlock all;
+  for (MatrixXd RowBlock::*part : {&RowBlock::Y, &RowBlock::tau, &RowBlock::counted}) {
+    all.*part = stacked(blocks, part);
+  }
   return all;
 }
 

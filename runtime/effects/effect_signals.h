@@ -96,7 +96,8 @@ class EffectSignals {
   std::map<std::pair<std::size_t, TangentKey>, Eigen::MatrixXd> tangents_;  // of a run
   struct Further {
     double distance = 0;
-    Eigen::MatrixXd columns;
+    Eigen::MatrixXd columns;      ///< there
+    Eigen::MatrixXd slope, bend;  ///< columns = those at 0 + distance (slope + distance bend)
   };
   std::map<std::pair<std::size_t, TangentKey>, Further> further_;  // of a run
   std::size_t rows_run_ = 0;  // of regressor_rows_: one run, since they are large

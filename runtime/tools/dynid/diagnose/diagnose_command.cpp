@@ -41,10 +41,14 @@ struct DiagnosedMotions {
   std::vector<DiagnosedRecording> recordings;
 };
 
-/// How they are read: whole, and without averages, since what drifts is seen between periods.
-/// One that is too long for memory is read by the stretches that say most.
+/// Bytes of text: two minutes of six joints at 1 kHz with all digits, for which a search takes some
+/// minutes.
+constexpr std::size_t kReadWhole = 40'000'000;
+
+/// How they are read: whole, and without averages, since what drifts is seen between periods. Of a
+/// longer one the stretches that say most are read.
 ToolOptions reading(ToolOptions options) {
-  options.motion.stretches_above = options.motion.stream_above;
+  options.motion.stretches_above = kReadWhole;
   options.motion.stream_above = std::numeric_limits<std::size_t>::max();
   options.motion.average_periods = false;
   return options;
