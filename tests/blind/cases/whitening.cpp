@@ -19,9 +19,12 @@ constexpr double kLeastLines = 2;  // and so many, of one draw
 constexpr std::size_t kDraws = 32;
 // of the weight of unknown values, so that those which a stopped band cannot show have one too
 constexpr double kLeast = 1e-9;
-constexpr std::size_t kMostSolved = 1000;  // unknown values; of more, by conjugate gradients
+// unknown values that are solved for directly, without and with a stopped band; more of them are
+// found by conjugate gradients, with a weight in a stopped band that lets these converge
+constexpr std::size_t kMostSolved = 2000, kMostSolvedOfStopped = 4000;
+constexpr double kLeastOfMany = 1e-4;
 constexpr double kEnough = 1e-7;
-constexpr int kMostRounds = 100;
+constexpr int kMostRounds = 200;
 
 /// Multiplies the lines of a series by what `factor` gives of the noise's deviation there.
 template <class Factor>
@@ -177,6 +180,8 @@ VectorXd Whitener::coloured_twice(Index joint, const VectorXd& values, double le
   });
 }
 
+bool Whitener::stops() const { return std::isinf(deviation_(deviation_.rows() - 1, 0)); }
+
 void Whitener::stop_above(double hz, double rate) {
   const auto last = static_cast<double>(deviation_.rows() - 1);
   const auto first = static_cast<Index>(std::ceil(hz / (rate / 2) * last));
@@ -185,19 +190,23 @@ void Whitener::stop_above(double hz, double rate) {
       .setConstant(std::numeric_limits<double>::infinity());
 }
 
-RestWhitener::RestWhitener(const Whitener& whitener, const Log& log, double reach)
+RestWhitener::RestWhitener(const Whitener& whitener, const Log& log, double reach,
+                           std::size_t most_solved)
     : whitener_(whitener),
       samples_(log.q.rows()),
       rests_(rests_of(log, reach)),
       weight_(rests_.size()),
-      least_(rests_.size()) {
+      least_(rests_.size()),
+      most_solved_(most_solved) {
+  if (most_solved == 0) most_solved_ = whitener.stops() ? kMostSolvedOfStopped : kMostSolved;
   for (Index j = 0; j < log.q.cols(); ++j) {
     const std::vector<Index>& rests = rests_[at(j)];
     if (rests.empty()) continue;
     // what two of them share depends on how far apart they are
     const VectorXd shared = whitener.column(j, whitener.column(j, VectorXd::Unit(samples_, 0)));
-    least_[at(j)] = kLeast * shared[0];
-    if (rests.size() > kMostSolved) continue;
+    const bool many = rests.size() > most_solved_;
+    least_[at(j)] = (many && whitener.stops() ? kLeastOfMany : kLeast) * shared[0];
+    if (many) continue;
     const auto count = static_cast<Index>(rests.size());
     MatrixXd weight(count, count);
     for (Index a = 0; a < count; ++a) {
@@ -210,7 +219,7 @@ RestWhitener::RestWhitener(const Whitener& whitener, const Log& log, double reac
 
 VectorXd RestWhitener::unknown(Index joint, const VectorXd& shown) const {
   const std::vector<Index>& rests = rests_[at(joint)];
-  if (rests.size() <= kMostSolved) return weight_[at(joint)].solve(shown);
+  if (rests.size() <= most_solved_) return weight_[at(joint)].solve(shown);
   const auto spread = [&](const VectorXd& x) {
     VectorXd all = VectorXd::Zero(samples_);
     all(rests) = x;

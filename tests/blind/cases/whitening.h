@@ -53,6 +53,7 @@ class Whitener {
                                  double least) const;
   /// Takes away what is faster.
   void stop_above(double hz, double rate);
+  bool stops() const;
   Eigen::Index joints() const { return deviation_.cols(); }
 
  private:
@@ -68,7 +69,9 @@ class RestWhitener {
  public:
   /// @param whitener  must outlive it
   /// @param reach     s, before and after a rest
-  RestWhitener(const Whitener& whitener, const Log& log, double reach = 0);
+  /// @param most_solved  unknown values of a joint that are solved for directly; 0: a usual number
+  RestWhitener(const Whitener& whitener, const Log& log, double reach = 0,
+               std::size_t most_solved = 0);
   /// @param rows  (N j x k), with any values where joints rest
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& rows) const;
 
@@ -81,6 +84,7 @@ class RestWhitener {
   std::vector<std::vector<Eigen::Index>> rests_;     // of each joint
   std::vector<Eigen::LLT<Eigen::MatrixXd>> weight_;  // of unknown values there, inverse covariance
   std::vector<double> least_;                        // added to that weight
+  std::size_t most_solved_;
 };
 
 }  // namespace blind
