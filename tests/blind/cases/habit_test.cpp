@@ -197,8 +197,7 @@ TEST(Habit, OfLateColumnsShiftsPositions) {
   const Recording recording = short_recording(draft, 0, 3);
   const Columns columns = columns_of(recording, draft.logger);
   const Index late = draft.logger.late;
-  EXPECT_GE(late, 1);
-  EXPECT_LE(late, 3);
+  EXPECT_TRUE(late >= 1 && late <= 3) << late;
   const MatrixXd q = recording.log.q + recording.encoder_error;
   EXPECT_EQ(columns.q.row(10), q.row(10));
   EXPECT_EQ(columns.tau.row(10), recording.log.recorded.row(10 + late));
@@ -235,10 +234,8 @@ TEST(Habit, OfADisturbedLoopActsWithoutBeingRecorded) {
 TEST(Habit, OfOwnCompensationLeavesFrictionThatIsNotRecorded) {
   const Draft draft = drafted("own_compensation");
   ASSERT_EQ(draft.compensation.size(), 2);
-  for (const double share : draft.compensation) {
-    EXPECT_GE(std::abs(share - 1), 0.1);
-    EXPECT_LE(std::abs(share - 1), 0.3);
-  }
+  const VectorXd wrong = (draft.compensation.array() - 1).abs();
+  EXPECT_TRUE(wrong.minCoeff() >= 0.1 && wrong.maxCoeff() <= 0.3) << wrong;
   const Recording recording = short_recording(draft, 0, 8);
   EXPECT_GT(left_of(draft, recording, recording.log.recorded), 1e-3);
 }
@@ -267,10 +264,7 @@ TEST(Crowd, HasFrictionOnEveryJointAndNothingTwice) {
     EXPECT_GE(draft.truths.size(), 4U);
     EXPECT_LE(draft.truths.size(), 12U);
     ASSERT_EQ(draft.wanted.size(), draft.truths.size());
-    for (const double wanted : draft.wanted) {
-      EXPECT_GE(wanted, 100);
-      EXPECT_LE(wanted, 5000);
-    }
+    for (const double wanted : draft.wanted) EXPECT_TRUE(wanted >= 100 && wanted <= 5000);
   }
 }
 
