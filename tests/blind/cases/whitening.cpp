@@ -19,12 +19,12 @@ constexpr double kLeastLines = 2;  // and so many, of one draw
 constexpr std::size_t kDraws = 32;
 // of the weight of unknown values, so that those which a stopped band cannot show have one too
 constexpr double kLeast = 1e-9;
-// unknown values that are solved for directly, without and with a stopped band; more of them are
-// found by conjugate gradients, with a weight in a stopped band that lets these converge
+// unknown values that are solved for directly, without and with a stopped band. More of them are
+// found by conjugate gradients, or thinned to what a stopped band can tell apart
 constexpr std::size_t kMostSolved = 2000, kMostSolvedOfStopped = 4000;
-constexpr double kLeastOfMany = 1e-4;
+constexpr double kThinned = 2.5;  // values kept in a period of the first stopped frequency
 constexpr double kEnough = 1e-7;
-constexpr int kMostRounds = 200;
+constexpr int kMostRounds = 100;
 
 /// Multiplies the lines of a series by what `factor` gives of the noise's deviation there.
 template <class Factor>
@@ -78,6 +78,21 @@ MatrixXd stretched(const MatrixXd& power, Index lines) {
     result.row(k) = (1 - share) * power.row(low) + share * power.row(low + 1);
   }
   return result;
+}
+
+/// Every so many of the samples, and all near the ends of each run of them.
+std::vector<Index> thinned(const std::vector<Index>& rests, Index stride) {
+  std::vector<Index> some;
+  std::size_t first = 0;
+  for (std::size_t end = 1; end <= rests.size(); ++end) {
+    if (end < rests.size() && rests[end] == rests[end - 1] + 1) continue;
+    for (std::size_t i = first; i < end; ++i) {
+      const auto from = static_cast<Index>(i - first), to = static_cast<Index>(end - 1 - i);
+      if (from < stride || to < stride || from % stride == 0) some.push_back(rests[i]);
+    }
+    first = end;
+  }
+  return some;
 }
 
 }  // namespace
@@ -180,12 +195,11 @@ VectorXd Whitener::coloured_twice(Index joint, const VectorXd& values, double le
   });
 }
 
-bool Whitener::stops() const { return std::isinf(deviation_(deviation_.rows() - 1, 0)); }
-
 void Whitener::stop_above(double hz, double rate) {
   const auto last = static_cast<double>(deviation_.rows() - 1);
   const auto first = static_cast<Index>(std::ceil(hz / (rate / 2) * last));
   if (first >= deviation_.rows()) return;
+  stopped_ = hz;
   deviation_.bottomRows(deviation_.rows() - first)
       .setConstant(std::numeric_limits<double>::infinity());
 }
@@ -195,18 +209,24 @@ RestWhitener::RestWhitener(const Whitener& whitener, const Log& log, double reac
     : whitener_(whitener),
       samples_(log.q.rows()),
       rests_(rests_of(log, reach)),
+      solved_(rests_),
       weight_(rests_.size()),
       least_(rests_.size()),
       most_solved_(most_solved) {
-  if (most_solved == 0) most_solved_ = whitener.stops() ? kMostSolvedOfStopped : kMostSolved;
+  const bool stops = whitener.stopped() > 0;
+  if (most_solved == 0) most_solved_ = stops ? kMostSolvedOfStopped : kMostSolved;
   for (Index j = 0; j < log.q.cols(); ++j) {
-    const std::vector<Index>& rests = rests_[at(j)];
+    std::vector<Index>& rests = solved_[at(j)];
     if (rests.empty()) continue;
+    const bool many = rests.size() > most_solved_;
+    if (many && stops) {
+      const auto stride = static_cast<Index>(log.rate / (kThinned * whitener.stopped()));
+      rests = thinned(rests, std::max<Index>(1, stride));
+    }
     // what two of them share depends on how far apart they are
     const VectorXd shared = whitener.column(j, whitener.column(j, VectorXd::Unit(samples_, 0)));
-    const bool many = rests.size() > most_solved_;
-    least_[at(j)] = (many && whitener.stops() ? kLeastOfMany : kLeast) * shared[0];
-    if (many) continue;
+    least_[at(j)] = kLeast * shared[0];
+    if (many && !stops) continue;
     const auto count = static_cast<Index>(rests.size());
     MatrixXd weight(count, count);
     for (Index a = 0; a < count; ++a) {
@@ -218,8 +238,8 @@ RestWhitener::RestWhitener(const Whitener& whitener, const Log& log, double reac
 }
 
 VectorXd RestWhitener::unknown(Index joint, const VectorXd& shown) const {
-  const std::vector<Index>& rests = rests_[at(joint)];
-  if (rests.size() <= most_solved_) return weight_[at(joint)].solve(shown);
+  const std::vector<Index>& rests = solved_[at(joint)];
+  if (weight_[at(joint)].rows() > 0) return weight_[at(joint)].solve(shown);
   const auto spread = [&](const VectorXd& x) {
     VectorXd all = VectorXd::Zero(samples_);
     all(rests) = x;
@@ -260,10 +280,11 @@ MatrixXd RestWhitener::operator()(const MatrixXd& rows) const {
       if (part.isZero(0)) continue;
       VectorXd white = whitener_.column(j, part);
       if (!rests.empty()) {
-        const VectorXd shown = whitener_.column(j, white)(rests);
+        const std::vector<Index>& solved = solved_[at(j)];
+        const VectorXd shown = whitener_.column(j, white)(solved);
         const VectorXd there = unknown(j, shown);
         VectorXd held = VectorXd::Zero(samples);
-        held(rests) = there;
+        held(solved) = there;
         white -= whitener_.column(j, held);
       }
       result.col(c).segment(j * samples, samples) = white;

@@ -53,12 +53,13 @@ class Whitener {
                                  double least) const;
   /// Takes away what is faster.
   void stop_above(double hz, double rate);
-  bool stops() const;
+  double stopped() const { return stopped_; }  ///< Hz; 0: nothing is
   Eigen::Index joints() const { return deviation_.cols(); }
 
  private:
   static void add(const Recording& recording, Eigen::MatrixXd& power);
 
+  double stopped_ = 0;
   Eigen::MatrixXd deviation_;  // (lines x j) root of the spectrum, from 0 to half of the rate
 };
 
@@ -82,6 +83,7 @@ class RestWhitener {
   const Whitener& whitener_;
   Eigen::Index samples_;
   std::vector<std::vector<Eigen::Index>> rests_;     // of each joint
+  std::vector<std::vector<Eigen::Index>> solved_;    // of these, whose unknown values are sought
   std::vector<Eigen::LLT<Eigen::MatrixXd>> weight_;  // of unknown values there, inverse covariance
   std::vector<double> least_;                        // added to that weight
   std::size_t most_solved_;

@@ -126,7 +126,7 @@ TEST(Whitener, TakesRecordingsOfDifferentLengths) {
   }
 }
 
-// Of many unknown values by conjugate gradients, of few directly: the same is left.
+// Many unknown values are found by conjugate gradients or thinned, few directly: the same is left.
 TEST(RestWhitener, LeavesTheSameOfLongRestsByEitherWay) {
   const std::vector<Recording> recordings = training(0.9);
   Log log = recordings[0].log;
@@ -138,7 +138,7 @@ TEST(RestWhitener, LeavesTheSameOfLongRestsByEitherWay) {
     if (stopped) whitener.stop_above(20, 250);
     const MatrixXd directly = RestWhitener(whitener, log)(rows);
     const MatrixXd by_steps = RestWhitener(whitener, log, 0, 1)(rows);
-    const double tolerance = stopped ? 0.02 : 1e-4;  // the weight in a stopped band is another
+    const double tolerance = stopped ? 0.05 : 1e-4;  // near the stop, thinned values tell less
     EXPECT_LT((directly - by_steps).norm(), tolerance * directly.norm()) << stopped;
   }
 }
