@@ -14,8 +14,8 @@ using Eigen::VectorXd;
 
 // the first parts of the noise's numbers that are theirs
 constexpr std::uint64_t kOfEncoders = 1000, kOfDisturbances = 2000;
-constexpr double kMostLead = 7;  // s
-constexpr double kSwitch = 0.05;    // rad/s, over which a drive's compensation of friction turns
+constexpr double kMostLead = 7;   // s
+constexpr double kSwitch = 0.05;  // rad/s, over which a drive's compensation of friction turns
 
 using Wandering = std::vector<std::function<double(double)>>;  // of each joint
 
@@ -236,7 +236,7 @@ DrawNoise noise_draws(const Draft& draft, const VectorXd& deviation) {
     for (Index k = 0; k < q.rows(); ++k) {
       recording.encoder_error.row(k) = reading_error(q.row(k), digit, random).transpose();
     }
-    // to who has the recorded torque, what disturbs the loop is noise too
+    // in the equations of the recorded torque, the disturbance of the loop is noise
     const double duration = static_cast<double>(q.rows()) / draft.rate;
     const Wandering other = disturbance_of(draft, 0, duration, random);
     for (Index j = 0; j < q.cols() && !other.empty(); ++j) {

@@ -22,8 +22,7 @@ struct Recording {
   std::size_t place = 0;  ///< among the recordings of its case
 };
 
-/// The torque that acts, as who knows the machine has it: the recorded one, without noise, and what
-/// acts beside it, (N x j).
+/// The torque that acts, (N x j): the recorded one without noise, and what acts beside it.
 Eigen::MatrixXd known_torque(const Recording& recording);
 
 /// Samples of each joint at which it rests: friction holds it with any torque there.
