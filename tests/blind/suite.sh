@@ -13,7 +13,10 @@
 #   suite.sh BUILD SET reach        chi-square of single and foreign effects in the equations of dynid
 #   suite.sh BUILD SET score        compares the answers with the truth
 #   suite.sh BUILD real [STEP]      make, diagnose, score of real recordings with an added effect
-#   suite.sh BUILD case KIND LAMBDA SEED [FAMILY]    one case: its truth, its answer, its report
+#   suite.sh BUILD case KIND LAMBDA SEED [habit=NAME] [FAMILY]    one case: its truth, its answer, its report
+#
+# A line of a set: kind, lambda, number of cases, first seed; then an arm ("small": planar2 or twisted4) and a
+# family, and anywhere among them habit=NAME.
 #
 # BUILD is a configured build folder: the targets blind and dynid are built if they are missing. Real
 # recordings are in DYNGEN_SHARED_DATA, else in ../shared/data beside the project; without them the set is skipped.
@@ -39,11 +42,20 @@ begin_cases() {
 
 make_cases() {
   begin_cases
-  grep -v -e '^#' -e '^bound' "$here/sets/$set_name.txt" | while read -r kind lambda cases seed arm family; do
+  grep -v -e '^#' -e '^bound' -e '^$' "$here/sets/$set_name.txt" | while read -r kind lambda cases seed rest; do
     [ "$lambda" = 0 ] && lambda=1
+    arm=
+    family=
+    habit=
+    for word in $rest; do
+      case "$word" in
+        habit=*) habit=${word#habit=} ;;
+        *) if [ -z "$arm" ]; then arm=$word; else family=$word; fi ;;
+      esac
+    done
     part=0
     while [ $part -lt "$jobs" ]; do
-      echo "--kind $kind --lambda $lambda --cases $cases --seed $seed --part $part --parts $jobs ${arm:+--arm $arm} ${family:+--family $family}"
+      echo "--kind $kind --lambda $lambda --cases $cases --seed $seed --part $part --parts $jobs ${arm:+--arm $arm} ${family:+--family $family} ${habit:+--habit $habit}"
       part=$((part + 1))
     done
   done | xargs -P "$jobs" -I{} sh -c "$tools/blind_make {} --arms $here/arms --out $out/cases --sealed $out/sealed/entries"
@@ -112,8 +124,8 @@ answer_simply() {
   rm -rf "$out/baselines"
   mkdir -p "$out/baselines"
   find "$out/cases" -mindepth 1 -maxdepth 1 | sort | xargs -P "$jobs" -I{} sh -c '
-    timeout 1200 "$TOOLS/blind_sealed_run" {} "$OUT/baselines" "$TOOLS/blind_baselines" robot.robot \
-      train1.csv train2.csv train3.csv --holdout held1.csv --holdout held2.csv \
+    recordings=$(cd {} && ls train*.csv; cd {} && ls held*.csv | sed "s/^/--holdout /")
+    timeout 1200 "$TOOLS/blind_sealed_run" {} "$OUT/baselines" "$TOOLS/blind_baselines" robot.robot $recordings \
       --json "$OUT/baselines/$(basename {}).json" || echo "{}: blind_baselines ended with $?"'
   (cd "$out/baselines" && sha256sum ./*.json) >"$out/baselines.sha256"
   echo "answers of simpler methods sealed as $(sha256sum <"$out/baselines.sha256" | cut -d' ' -f1)"
@@ -125,7 +137,7 @@ active_cases() {
   (cd "$out/answers" && sha256sum --quiet -c ../answers.sha256)
   rm -rf "$out/asked" "$out/second"
   mkdir -p "$out/asked" "$out/second"
-  rm -f "$out"/cases/*/train4.csv
+  rm -f "$out"/cases/*/asked.csv
   { grep -l '"purpose": "' "$out"/answers/*.json || true; } | xargs -P "$jobs" -I{} sh -c '
     name=$(basename {} .json)
     cp {} "$OUT/asked/$name.findings"
@@ -138,11 +150,11 @@ active_cases() {
     part=$((part + 1))
   done | xargs -P "$jobs" -I{} sh -c "$tools/blind_answer $out/sealed/manifest.json {} --arms $here/arms \
     --cases $out/cases --asked $out/asked"
-  find "$out/cases" -name train4.csv | sort | xargs -P "$jobs" -I{} sh -c '
+  find "$out/cases" -name asked.csv | sort | xargs -P "$jobs" -I{} sh -c '
     case=$(dirname {})
     name=$(basename "$case")
-    timeout 1200 "$TOOLS/blind_sealed_run" "$case" "$OUT/second" "$DYNID" diagnose robot.robot \
-      train1.csv train2.csv train3.csv train4.csv --holdout held1.csv --holdout held2.csv \
+    recordings=$(cd "$case" && ls train*.csv && ls asked.csv; cd "$case" && ls held*.csv | sed "s/^/--holdout /")
+    timeout 1200 "$TOOLS/blind_sealed_run" "$case" "$OUT/second" "$DYNID" diagnose robot.robot $recordings \
       --json "$OUT/second/$name.json" -o "$OUT/second/$name.robot" >"$OUT/second/$name.txt" 2>&1 ||
       echo "$name: dynid ended with $?"'
   (cd "$out" && find asked second -type f | sort | xargs sha256sum) >"$out/second.sha256"
@@ -195,13 +207,21 @@ one_case() {
   set_name=case
   out=$build/blind/case
   rm -rf "$out"
-  "$tools/blind_make" --kind "$1" --lambda "$2" --seed "$3" ${4:+--family "$4"} --cases 1 \
+  family=${4:-}
+  habit=
+  case $family in
+    habit=*)
+      habit=${family#habit=}
+      family=${5:-}
+      ;;
+  esac
+  "$tools/blind_make" --kind "$1" --lambda "$2" --seed "$3" ${family:+--family "$family"} ${habit:+--habit "$habit"} --cases 1 \
     --arms "$here/arms" --out "$out/cases" --sealed "$out/sealed"
   cd "$out"/cases/*
   echo "the truth:"
   cat "$out"/sealed/*.json
-  "$dynid" diagnose robot.robot train1.csv train2.csv train3.csv --holdout held1.csv \
-    --holdout held2.csv --json "$out/answer.json" -o "$out/improved.robot" --report "$out/report.html"
+  # shellcheck disable=SC2012,SC2046  # names without blanks, in words
+  "$dynid" diagnose robot.robot $(ls train*.csv) $(ls held*.csv | sed "s/^/--holdout /") --json "$out/answer.json" -o "$out/improved.robot" --report "$out/report.html"
   echo "report: $out/report.html"
 }
 
@@ -228,5 +248,5 @@ case "$set_name/$step" in
   */strength) measure_strength ;;
   */reach) measure_reach ;;
   */score) score_cases ;;
-  *) sed -n '2,21p' "$0"; exit 2 ;;
+  *) sed -n '2,24p' "$0"; exit 2 ;;
 esac

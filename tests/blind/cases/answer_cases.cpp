@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // blind_answer: gives cases the one more recording that was asked for. For every NAME.csv among
-// the motions, the machine of case NAME moves along it, and train4.csv stands beside the others.
+// the motions, the machine of case NAME moves along it, and asked.csv stands beside the others.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -32,8 +32,8 @@ int answer(const Order& order) {
     try {
       const Redrawn redrawn = redraw(entries[i], order.arms);
       const Recording made = record_along(redrawn, read_motion(motion, redrawn.draft.arm.joints()));
-      const fs::path target = order.cases / name / "train4.csv", unfinished = target.string() + "~";
-      write_recording(made, false, unfinished);
+      const fs::path target = order.cases / name / "asked.csv", unfinished = target.string() + "~";
+      write_recording(made, redrawn.draft.logger, false, unfinished);
       fs::rename(unfinished, target);
       fmt::print("{}: {:.1f} s\n", name, static_cast<double>(made.log.q.rows()) / made.log.rate);
     } catch (const std::runtime_error& error) {

@@ -69,6 +69,15 @@ Wanted between(const Wanted& a, const Wanted& b, double h, double u) {
   return wanted;
 }
 
+/// Of a crowd's truths, some may not have reached their strength: they are in no entry.
+void leave_out_others(const nlohmann::json& truths, Draft& draft) {
+  std::erase_if(draft.truths, [&](const Truth& drawn) {
+    return std::none_of(truths.begin(), truths.end(), [&](const nlohmann::json& one) {
+      return one["family"] == drawn.family && one["joint"] == drawn.joint;
+    });
+  });
+}
+
 }  // namespace
 
 Motion read_motion(const std::string& path, Index joints) {
@@ -111,8 +120,10 @@ Redrawn redraw(const nlohmann::json& entry, const std::string& arms) {
   options.seed = entry["seed"];
   options.arm = entry["arm"];
   options.family = entry.value("wanted_family", "");
-  const auto drawn = draw_case(options, arms);
+  options.habit = entry.value("habit", "");
+  auto drawn = draw_case(options, arms);
   const auto& truths = entry["truths"];
+  if (drawn && options.kind == "crowd") leave_out_others(truths, *drawn);
   bool same = drawn && drawn->truths.size() == truths.size() && drawn->rate == entry["rate"];
   Redrawn redrawn;
   for (std::size_t i = 0; same && i < truths.size(); ++i) {

@@ -73,11 +73,11 @@ TEST_F(Asked, CaseIsTheSameByteForByte) {
     const auto entry = nlohmann::json::parse(manifest_entry(*made).dump(1));
     const Redrawn redrawn = redraw(entry, kArmFolder);
     const fs::path again = folder_ / "again.csv";
-    write_recording(record_again(redrawn, 0), false, again);
+    write_recording(record_again(redrawn, 0), {}, false, again);
     const std::string first = bytes_of(folder_ / "case" / "train1.csv");
     ASSERT_GT(first.size(), 10000U);
     EXPECT_EQ(bytes_of(again), first) << family;
-    write_recording(record_again(redrawn, 3), false, again);
+    write_recording(record_again(redrawn, 3), {}, false, again);
     EXPECT_EQ(bytes_of(again), bytes_of(folder_ / "case" / "held1.csv")) << family;
     EXPECT_NE(bytes_of(again), first);
   }

@@ -46,7 +46,7 @@ struct Whitened {
     for (const Recording& each : training) {
       const RestWhitener white(whitener, each.log, reach.seconds);
       columns.push_back(white(base_columns(machine, each.log)));
-      const VectorXd tau = torque_rows(each.log.recorded);
+      const VectorXd tau = torque_rows(known_torque(each));
       torque.emplace_back(white(tau));
       left_out.emplace_back(white(tau - base_torque(machine, each.log)));
     }
@@ -106,23 +106,30 @@ Log as_seen(Log log) {
   return log;
 }
 
-/// Held-out rms by joint of a fit to the noisy training torque. with_truth: knows what is left out
+/// Held-out rms by joint of a fit to the noisy training torque.
+/// @param with_truth  the fit knows the form of what is left out
+/// @param with_drive  and the drive's own compensation
 std::vector<double> heldout_rms(const Draft& draft, const std::vector<Recording>& training,
                                 const std::vector<Recording>& heldout, const Whitener& noise,
-                                bool with_truth) {
-  const auto columns_of = [&](const Recording& each, const Log& log) {
+                                bool with_truth, bool with_drive) {
+  const auto torque_of = [&](const Recording& each) {
+    MatrixXd tau = each.log.recorded + each.torque_noise;
+    if (with_drive && each.compensation.size() > 0) tau += each.compensation;
+    return torque_rows(tau);
+  };
+  const auto equations = [&](const Recording& each, const Log& log) {
     MatrixXd columns = base_columns(draft.machine, log);
     if (with_truth) {
       columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
-      columns.rightCols(1) = torque_rows(each.log.recorded) - base_torque(draft.machine, each.log);
+      columns.rightCols(1) = torque_rows(known_torque(each)) - base_torque(draft.machine, each.log);
     }
     return columns;
   };
   std::vector<MatrixXd> columns;
   std::vector<VectorXd> torque;
   for (const Recording& each : training) {
-    const MatrixXd own = columns_of(each, each.log);
-    const MatrixXd tau = torque_rows(each.log.recorded + each.torque_noise);
+    const MatrixXd own = equations(each, each.log);
+    const MatrixXd tau = torque_of(each);
     const RestWhitener white(noise, each.log);
     columns.push_back(white(own));
     torque.emplace_back(white(tau));
@@ -132,8 +139,7 @@ std::vector<double> heldout_rms(const Draft& draft, const std::vector<Recording>
   VectorXd sum = VectorXd::Zero(joints);
   double samples = 0;
   for (const Recording& each : heldout) {
-    const VectorXd left = torque_rows(each.log.recorded + each.torque_noise) -
-                          columns_of(each, as_seen(each.log)) * answer;
+    const VectorXd left = torque_of(each) - equations(each, as_seen(each.log)) * answer;
     const Index count = each.log.q.rows();
     samples += static_cast<double>(count);
     for (Index j = 0; j < joints; ++j) sum[j] += left.segment(j * count, count).squaredNorm();
@@ -141,6 +147,12 @@ std::vector<double> heldout_rms(const Draft& draft, const std::vector<Recording>
   std::vector<double> rms;
   for (const double each : sum) rms.push_back(std::sqrt(each / samples));
   return rms;
+}
+
+/// Effects that a case needs: a crowd goes without those that do not reach their strength.
+std::size_t least_truths(const CaseOptions& options, const Draft& draft) {
+  if (options.kind != "crowd") return draft.truths.size();
+  return draft.arm.joints() < 3 ? 4 : 5;
 }
 
 }  // namespace
@@ -159,22 +171,30 @@ std::optional<Case> make_case(const CaseOptions& options, const std::string& arm
   made.machine = draft.machine;
   made.noise = draft.noise;
   made.rate = draft.rate;
-  made.truths = draft.truths;
+  made.length = ride_of(draft, 0).duration;
+  made.periods = draft.periods;
+  made.logger = draft.logger;
+  made.disturbance = draft.disturbance_share;
+  made.memory = draft.memory;
+  made.compensation = draft.compensation;
   const VectorXd deviation = noise_deviation(draft);
   made.noise.deviation = deviation;
   const Whitener noise = whitener_of(draft, deviation);
-  for (const Truth& truth : draft.truths) {
-    if (options.kind == "hidden") {  // nothing of it is left: it has its usual size
-      made.sizes.push_back(truth.typical);
-      made.lambdas.push_back(0);
-      made.absorbed.push_back(1);
-      continue;
+  const std::size_t least = least_truths(options, draft);
+  for (std::size_t i = 0; i < draft.truths.size(); ++i) {
+    const Truth& truth = draft.truths[i];
+    Sized one{truth.typical, 0, 1};  // of what is hidden nothing is left: it has its usual size
+    if (options.kind != "hidden") {
+      const auto sized = find_size(draft, truth, noise, draft.wanted[i]);
+      if (!sized && made.truths.size() + draft.truths.size() - i - 1 < least) return {};
+      if (!sized) continue;
+      one = *sized;
     }
-    const auto sized = find_size(draft, truth, noise, options.lambda);
-    if (!sized) return {};
-    made.sizes.push_back(sized->size);
-    made.lambdas.push_back(sized->lambda);
-    made.absorbed.push_back(sized->absorbed);
+    made.truths.push_back(truth);
+    made.wanted.push_back(draft.wanted[i]);
+    made.sizes.push_back(one.size);
+    made.lambdas.push_back(one.lambda);
+    made.absorbed.push_back(one.absorbed);
   }
   const std::size_t all = draft.motions.size();
   std::vector<Recording> recordings = record_all(draft, made.truths, made.sizes, 0, all);
@@ -193,8 +213,8 @@ std::optional<Case> make_case(const CaseOptions& options, const std::string& arm
                                     whitened.whitener, *whitened.refit, whitened.left);
   }
   made.heldout_oracle =
-      heldout_rms(draft, made.training, made.heldout, noise, !made.truths.empty());
-  made.heldout_base = heldout_rms(draft, made.training, made.heldout, noise, false);
+      heldout_rms(draft, made.training, made.heldout, noise, !made.truths.empty(), true);
+  made.heldout_base = heldout_rms(draft, made.training, made.heldout, noise, false, false);
   return made;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "tests/blind/cases/logger.h"
 #include "tests/blind/cases/strength.h"
 #include "tests/blind/simulation/loop.h"
 #include "tests/blind/truths/truth.h"
@@ -13,10 +14,12 @@
 namespace blind {
 
 struct CaseOptions {
-  std::string kind = "null";     ///< null single pair hidden foreign passing
-  double lambda = 80;            ///< wanted strength of each effect
+  std::string kind = "null";     ///< null single pair hidden foreign passing crowd
+  double lambda = 80;            ///< wanted strength of each effect; crowds draw it
   bool noisy = true;             ///< false: sensors without noise, to prove the simulation
-  std::string family, arm;       ///< empty: drawn
+  std::string family;            ///< empty: drawn
+  std::string arm;               ///< empty: drawn; "small": drawn of planar2 and twisted4
+  std::string habit;             ///< of recording (habit.h); empty: the laboratory's
   std::optional<Colour> colour;  ///< of the torque's noise; nothing: drawn
   std::uint64_t seed = 0;
 };
@@ -26,8 +29,13 @@ struct Case {
   CaseOptions options;
   Machine machine;
   Noise noise;
-  double rate = 250;
+  double rate = 250, length = 0;  ///< 1/s; s of the first file
+  int periods = 5;
+  Logger logger;
+  double disturbance = 0, memory = 0;  ///< torque in the loop: share of the torque's rms; s
+  Eigen::VectorXd compensation;        ///< (j), as a draft has it
   std::vector<Truth> truths;
+  std::vector<double> wanted;    ///< strength of each
   std::vector<double> sizes;     ///< of the truths
   std::vector<double> lambdas;   ///< of each alone
   std::vector<double> absorbed;  ///< share of its squares that the refit takes, each alone
@@ -54,7 +62,8 @@ std::string colour_name(Colour colour);
 
 /// time,q1..qn,tau1..taun with all noise.
 /// @param exact  with velocities and accelerations of the simulation
-void write_recording(const Recording& recording, bool exact, const std::string& path);
+void write_recording(const Recording& recording, const Logger& logger, bool exact,
+                     const std::string& path);
 
 /// train1.csv ..., held1.csv ... and robot.robot.
 void write_case(const Case& made, const std::string& arms, const std::string& folder);

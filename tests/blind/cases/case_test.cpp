@@ -22,7 +22,7 @@ double left_share(const Case& made) {
   std::vector<MatrixXd> columns;
   std::vector<VectorXd> torque;
   for (const Recording& each : made.training) {
-    MatrixXd own = base_columns(made.machine, each.log), tau = torque_rows(each.log.recorded);
+    MatrixXd own = base_columns(made.machine, each.log), tau = torque_rows(known_torque(each));
     for (MatrixXd* rows : {&own, &tau}) leave_out_rest(each.log, *rows);
     columns.push_back(own);
     torque.emplace_back(tau);

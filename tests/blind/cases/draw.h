@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tests/blind/cases/case.h"
+#include "tests/blind/cases/habit.h"
 
 namespace blind {
 
@@ -18,7 +19,13 @@ struct Draft {
   std::vector<Motion> motions;  ///< training, then held out
   std::size_t training = 3;
   int periods = 5;
+  Logger logger;
+  Eigen::VectorXd disturbance;   ///< (j) deviation of the torque in the loop, N m; empty: none
+  double disturbance_share = 0;  ///< the same over the torque's rms
+  double memory = 0;             ///< of it, s
+  Eigen::VectorXd compensation;  ///< (j) share of the friction that the drive adds; empty: none
   std::vector<Truth> truths;
+  std::vector<double> wanted;  ///< strength of each truth
   std::uint64_t noise_seed = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "tests/blind/cases/case.h"
+#include "tests/blind/cases/habit.h"
 
 namespace blind {
 namespace {
@@ -64,11 +65,16 @@ int main(int argc, char** argv) {
   CLI::App app{"Simulates cases of the blind suite."};
   blind::Order order;
   bool quiet = false;
-  app.add_option("--kind", order.options.kind, "null single pair hidden foreign passing")
-      ->check(CLI::IsMember({"null", "single", "pair", "hidden", "foreign", "passing"}));
+  app.add_option("--kind", order.options.kind, "null single pair hidden foreign passing crowd")
+      ->check(CLI::IsMember({"null", "single", "pair", "hidden", "foreign", "passing", "crowd"}));
   app.add_option("--lambda", order.options.lambda, "wanted strength")->check(CLI::PositiveNumber);
   app.add_option("--family", order.options.family, "of single effects; else drawn");
-  app.add_option("--arm", order.options.arm, "planar2 twisted4 puma560 ur10e panda; else drawn");
+  app.add_option("--arm", order.options.arm,
+                 "planar2 twisted4 puma560 ur10e panda; small: one of the first two; else drawn");
+  std::vector<std::string> names;
+  for (const blind::Habit& habit : blind::habits()) names.push_back(habit.name);
+  app.add_option("--habit", order.options.habit, "of recording; else the laboratory's")
+      ->check(CLI::IsMember(names));
   const std::map<std::string, blind::Colour> colours = {
       {"white", blind::Colour::kWhite},
       {"autoregressive", blind::Colour::kAutoregressive},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/blind/cases/record.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +12,72 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::uint64_t kOfEncoders = 1000;  // the first part of the noise's numbers that is theirs
+// the first parts of the noise's numbers that are theirs
+constexpr std::uint64_t kOfEncoders = 1000, kOfDisturbances = 2000;
+constexpr double kMostLead = 7;   // s
+constexpr double kSwitch = 0.05;  // rad/s, over which a drive's compensation of friction turns
+
+using Wandering = std::vector<std::function<double(double)>>;  // of each joint
+
+/// What disturbs the loop in one recording; empty: nothing.
+Wandering disturbance_of(const Draft& draft, double lead, double duration, Random random) {
+  Wandering all;
+  for (Index j = 0; j < draft.disturbance.size(); ++j) {
+    all.push_back([size = draft.disturbance[j],
+                   unit = wandering(draft.memory, -lead, duration,
+                                    random.part(static_cast<std::uint64_t>(j)))](double t) {
+      return size * unit(t);
+    });
+  }
+  return all;
+}
+
+Wandering disturbance_of(const Draft& draft, const Ride& ride) {
+  return disturbance_of(draft, ride.lead, ride.duration,
+                        Random(draft.noise_seed).part(kOfDisturbances + ride.place));
+}
+
+/// Friction that the drive adds to the torque it writes down, by the wanted velocity; (j) or empty.
+VectorXd compensation_of(const Draft& draft, const Ride& ride, double t) {
+  VectorXd torque = draft.compensation;
+  if (torque.size() == 0) return torque;
+  const VectorXd dq = ride.motion.at(t).dq;
+  for (Index j = 0; j < torque.size(); ++j) {
+    torque[j] *=
+        draft.machine.coulomb[j] * std::tanh(dq[j] / kSwitch) + draft.machine.viscous[j] * dq[j];
+  }
+  return torque;
+}
+
+/// What acts beside the recorded torque.
+void add_beside(const Draft& draft, const Ride& ride, Plant& plant) {
+  const Wandering disturbance = disturbance_of(draft, ride);
+  if (!disturbance.empty()) {
+    plant.forces.push_back([disturbance, drive = plant.drive](const Moment& m, VectorXd& force) {
+      for (std::size_t j = 0; j < drive.size(); ++j) force[drive[j]] += disturbance[j](m.t);
+    });
+  }
+  if (draft.compensation.size() == 0) return;
+  plant.acting = [&draft, ride, old = plant.acting](const Moment& m) -> VectorXd {
+    return (old ? old(m) : m.command) + compensation_of(draft, ride, m.t);
+  };
+}
+
+void record_beside(const Draft& draft, const Ride& ride, Recording& recording) {
+  const Wandering disturbance = disturbance_of(draft, ride);
+  const Index samples = recording.log.q.rows(), joints = recording.log.q.cols();
+  if (!disturbance.empty()) recording.disturbance.resize(samples, joints);
+  if (draft.compensation.size() > 0) recording.compensation.resize(samples, joints);
+  for (Index k = 0; k < samples; ++k) {
+    const double t = static_cast<double>(k) / draft.rate;
+    for (std::size_t j = 0; j < disturbance.size(); ++j) {
+      recording.disturbance(k, static_cast<Index>(j)) = disturbance[j](t);
+    }
+    if (draft.compensation.size() > 0) {
+      recording.compensation.row(k) = compensation_of(draft, ride, t).transpose();
+    }
+  }
+}
 
 /// The plant of one recording, with some truths at their sizes.
 Plant plant_of(const Draft& draft, const std::vector<Truth>& truths,
@@ -28,6 +94,7 @@ Plant plant_of(const Draft& draft, const std::vector<Truth>& truths,
   const Engine believed = draft.engine(draft.believed.tree);
   close_loop(plant, draft.loop, believed, draft.believed.armature,
              middle_inertia(draft.believed, believed), draft.believed.coulomb, ride.motion);
+  add_beside(draft, ride, plant);
   return plant;
 }
 
@@ -95,7 +162,7 @@ Eigen::MatrixXd noise_of(const Draft& draft, const VectorXd& deviation, Index sa
 Ride ride_of(const Draft& draft, std::size_t place) {
   Ride ride{draft.motions[place], 1, 0, place};
   const double once = ride.motion.duration;
-  ride.lead = ride.motion.repeats ? once : 1;
+  ride.lead = ride.motion.repeats ? std::min(once, kMostLead) : 1;
   ride.duration = ride.motion.repeats ? (place < draft.training ? draft.periods : 2) * once : once;
   return ride;
 }
@@ -119,11 +186,13 @@ Recording record(const Draft& draft, const std::vector<Truth>& truths,
   Encoders encoders(draft.noise.digit(), draft.rate, plant.joints(),
                     Random(draft.noise_seed).part(kOfEncoders + ride.place));
   Recording recording;
+  recording.place = ride.place;
   recording.log =
       blind::run(plant, x, v, options, [&](const VectorXd& q, Moment& m) { encoders(q, m); });
   for (std::size_t i = 0; i < truths.size(); ++i) {
     if (truths[i].log) truths[i].log(sizes[i], static_cast<int>(ride.place), recording.log);
   }
+  record_beside(draft, ride, recording);
   const MatrixXd& q = recording.log.q;
   recording.encoder_error.resize(q.rows(), q.cols());
   for (Index k = 0; k < q.rows(); ++k) {
@@ -166,6 +235,15 @@ DrawNoise noise_draws(const Draft& draft, const VectorXd& deviation) {
     const double digit = draft.noise.digit();
     for (Index k = 0; k < q.rows(); ++k) {
       recording.encoder_error.row(k) = reading_error(q.row(k), digit, random).transpose();
+    }
+    // in the equations of the recorded torque, the disturbance of the loop is noise
+    const double duration = static_cast<double>(q.rows()) / draft.rate;
+    const Wandering other = disturbance_of(draft, 0, duration, random);
+    for (Index j = 0; j < q.cols() && !other.empty(); ++j) {
+      for (Index k = 0; k < q.rows(); ++k) {
+        recording.torque_noise(k, j) +=
+            other[static_cast<std::size_t>(j)](static_cast<double>(k) / draft.rate);
+      }
     }
   };
 }

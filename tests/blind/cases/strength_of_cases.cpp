@@ -30,7 +30,7 @@ double lambda_of(const Redrawn& redrawn, const std::vector<Recording>& training,
     const White white(whitener, each.log);
     columns.push_back(white(base_columns(redrawn.draft.machine, each.log)));
     const MatrixXd left =
-        torque_rows(each.log.recorded) - base_torque(redrawn.draft.machine, each.log);
+        torque_rows(known_torque(each)) - base_torque(redrawn.draft.machine, each.log);
     left_out.emplace_back(white(left));
   }
   return squares(Refit(std::move(columns)).residual(left_out));

@@ -105,6 +105,44 @@ TEST(Whitener, IsOfAllThatNoiseMayBe) {
   EXPECT_NEAR(Whitener(recordings, draw).column(0, constant).squaredNorm() / expected, 1, 0.12);
 }
 
+TEST(Whitener, TakesRecordingsOfDifferentLengths) {
+  std::vector<Recording> recordings = training(0.9);
+  for (std::size_t i = 1; i < recordings.size(); i += 2) {
+    Recording& cut = recordings[i];
+    for (MatrixXd* part : {&cut.log.q, &cut.log.dq, &cut.log.ddq, &cut.log.sign, &cut.torque_noise,
+                           &cut.encoder_error}) {
+      *part = part->topRows(700).eval();
+    }
+    cut.log.M.resize(700);
+  }
+  for (const auto& order : {std::pair{0, 1}, {1, 0}}) {  // the longest first, and not
+    std::vector<Recording> some = recordings;
+    std::swap(some[static_cast<std::size_t>(order.first)], some[0]);
+    const Whitener whitener(some);
+    for (const Recording& each : some) {
+      const VectorXd white = whitener.column(0, each.torque_noise.col(0));
+      EXPECT_NEAR(white.squaredNorm() / static_cast<double>(white.size()), 1, 0.2);
+    }
+  }
+}
+
+// Many unknown values are found by conjugate gradients or thinned, few directly: the same is left.
+TEST(RestWhitener, LeavesTheSameOfLongRestsByEitherWay) {
+  const std::vector<Recording> recordings = training(0.9);
+  Log log = recordings[0].log;
+  log.sign.middleRows(100, 400).setConstant(0.5);
+  MatrixXd rows = recordings[0].torque_noise;
+  rows.array() += 3;
+  Whitener whitener(recordings);
+  for (const bool stopped : {false, true}) {
+    if (stopped) whitener.stop_above(20, 250);
+    const MatrixXd directly = RestWhitener(whitener, log)(rows);
+    const MatrixXd by_steps = RestWhitener(whitener, log, 0, 1)(rows);
+    const double tolerance = stopped ? 0.05 : 1e-4;  // near the stop, thinned values tell less
+    EXPECT_LT((directly - by_steps).norm(), tolerance * directly.norm()) << stopped;
+  }
+}
+
 TEST(RestWhitener, StopsWhatIsFaster) {
   const std::vector<Recording> recordings = training(0.5);
   Whitener whitener(recordings);

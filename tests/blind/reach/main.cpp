@@ -31,7 +31,7 @@ std::vector<Eigen::MatrixXd> left_by_refit(const Machine& machine, const Whitene
     const RestWhitener white(whitener, log);
     columns.push_back(base_columns(machine, log));
     whitened.push_back(white(columns.back()));
-    left.emplace_back(torque_rows(log.recorded) - base_torque(machine, log));
+    left.emplace_back(torque_rows(known_torque(each)) - base_torque(machine, log));
     rows.emplace_back(white(left.back()));
   }
   const Eigen::VectorXd absorbed = Refit(std::move(whitened)).solve(rows);
@@ -56,7 +56,7 @@ std::vector<runtime::MotionSource> without_truth(const nlohmann::json& entry,
   for (std::size_t i = 0; i < training.size(); ++i) {
     training[i].log.recorded -= left[i];
     paths.push_back((folder / fmt::format("train{}.csv", i + 1)).string());
-    write_recording(training[i], false, paths.back());
+    write_recording(training[i], redrawn.draft.logger, false, paths.back());
   }
   auto sources = read_recordings(paths);
   fs::remove_all(folder);
@@ -69,7 +69,7 @@ std::vector<std::string> files_of(const fs::path& folder, const std::string& wor
   std::vector<std::string> files;
   for (const auto& file : fs::directory_iterator(folder)) {
     const std::string name = file.path().filename().string();
-    if (name.starts_with(word) && name != "train4.csv") files.push_back(file.path().string());
+    if (name.starts_with(word)) files.push_back(file.path().string());
   }
   std::sort(files.begin(), files.end());
   return files;

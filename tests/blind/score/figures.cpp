@@ -136,7 +136,7 @@ std::map<std::string, std::string> figures(const std::vector<Judged>& all) {
   Set singles, one_truth;
   for (const Judged& each : all) {
     if (each.kind == "single") singles.push_back(&each);
-    if (each.kind != "pair") one_truth.push_back(&each);
+    if (each.kind != "pair" && each.kind != "crowd") one_truth.push_back(&each);
   }
   std::map<std::string, std::string> files;
   if (!one_truth.empty()) files["confusion.csv"] = confusion(one_truth);

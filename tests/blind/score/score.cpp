@@ -14,13 +14,6 @@ using Json = nlohmann::json;
 constexpr double kConfident = 0.9;
 constexpr double kSeparable = 30;
 
-bool on_joint(const Json& finding, const Json& truth) {
-  const int joint = truth["joint"], other = truth["other_joint"], said = finding["joint"];
-  if (joint == 0) return said == 0 || truth["family"] == "unknown";
-  return said == joint || (other != 0 && said == other) ||
-         (finding["other_joint"].is_number() && finding["other_joint"] == joint);
-}
-
 /// Root mean square of the joints' ratios, and the share of the gap that is closed.
 void judge_heldout(const Json& truth, const Json& answer, Judged& judged) {
   const Json& oracle = truth["heldout_oracle"];
@@ -51,7 +44,30 @@ void judge_pair(const Json& truths, const Json& findings, Judged& judged) {
   judged.third = findings.size() > truths.size();
 }
 
+/// Takes findings out of an answer that the habit of recording makes right, and that are not of a
+/// truth.
+Json take_excused(const Json& truth, Json& answer) {
+  Json excused = Json::array(), counted = Json::array();
+  const Json allowed = truth.value("allowed", Json::array());
+  for (const Json& finding : answer["findings"]) {
+    const bool wanted = std::any_of(truth["truths"].begin(), truth["truths"].end(),
+                                    [&](const Json& one) { return names(finding, one["family"]); });
+    const bool free = std::any_of(allowed.begin(), allowed.end(),
+                                  [&](const Json& family) { return finding["family"] == family; });
+    (free && !wanted ? excused : counted).push_back(finding);
+  }
+  answer["findings"] = counted;
+  return excused;
+}
+
 }  // namespace
+
+bool on_joint(const nlohmann::json& finding, const nlohmann::json& truth) {
+  const int joint = truth["joint"], other = truth["other_joint"], said = finding["joint"];
+  if (joint == 0) return said == 0 || truth["family"] == "unknown";
+  return said == joint || (other != 0 && said == other) ||
+         (finding["other_joint"].is_number() && finding["other_joint"] == joint);
+}
 
 bool names(const nlohmann::json& finding, const std::string& family) {
   if (finding["family"] == family) return true;
@@ -64,6 +80,7 @@ Judged judge(const Json& truth, const Json& answer) {
   judged.name = truth["case"];
   judged.kind = truth["kind"];
   judged.truth = truth;
+  judged.habit = truth.value("habit", "laboratory");
   judged.answer = answer;
   judged.excess = truth["excess"];
   judged.answered = answer.is_object() && answer.value("schema", "") == "dynid.diagnosis/1";
@@ -79,7 +96,8 @@ Judged judge(const Json& truth, const Json& answer) {
     judged.separable = judged.lambda * (1 - imitated) >= kSeparable;
   }
   if (!judged.answered) return judged;
-  const Json& findings = answer["findings"];
+  judged.excused = take_excused(truth, judged.answer);
+  const Json& findings = judged.answer["findings"];
   const bool unexplained = !answer["unexplained"].empty();
   judged.found = !findings.empty() || unexplained;
   judge_heldout(truth, answer, judged);

@@ -13,7 +13,9 @@ namespace blind {
 /// One case, its truth and its answer, judged.
 struct Judged {
   std::string name, kind;
-  nlohmann::json truth, answer;
+  std::string habit;             ///< of recording
+  nlohmann::json truth, answer;  ///< the answer without findings that are excused
+  nlohmann::json excused;        ///< findings of families that the habit makes right by itself
   bool answered = false;         ///< there is a JSON of the schema
   bool found = false;            ///< something was found
   bool joint = false;            ///< the first finding is on a joint of the truth
@@ -43,6 +45,9 @@ Judged judge(const nlohmann::json& truth, const nlohmann::json& answer);
 
 /// The family is the finding's first name or one of its aliases.
 bool names(const nlohmann::json& finding, const std::string& family);
+
+/// The finding is on a joint of the truth.
+bool on_joint(const nlohmann::json& finding, const nlohmann::json& truth);
 
 /// Family of the (first) truth; "nothing" where nothing was left out.
 std::string family_of(const Judged& judged);

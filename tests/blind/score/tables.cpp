@@ -10,6 +10,7 @@
 
 #include "tests/blind/score/estimates.h"
 #include "tests/blind/score/figures.h"
+#include "tests/blind/score/habits.h"
 #include "tests/blind/score/score.h"
 #include "tests/blind/score/shares.h"
 
@@ -292,37 +293,8 @@ std::string tables(const std::vector<Judged>& judged) {
     text += concealment(singles) + single_table(singles) + ladder(singles) + known_ladders(singles);
   const Set foreign = kind("foreign");
   if (!foreign.empty() && are_measured(foreign, &Judged::repeating)) text += foreign_table(foreign);
-  text += estimate_table(judged);
-  return text + confusion(all);
-}
-
-std::string lines(const std::vector<Judged>& all) {
-  std::string text;
-  for (const Judged& each : all) {
-    std::string truth, said;
-    for (const auto& one : each.truth["truths"]) {
-      truth += fmt::format("{}{} of joint {} ({}; lambda {:.0f}, {:.0f} % absorbed)",
-                           truth.empty() ? "" : " and ", one["family"].get<std::string>(),
-                           one["joint"].get<int>(), one["form"].get<std::string>(),
-                           one["lambda"].get<double>(), 100 * one["absorbed"].get<double>());
-    }
-    if (each.answered) {
-      for (const auto& one : each.answer["findings"]) {
-        said += fmt::format("{}{} of joint {} ({:.2f})", said.empty() ? "" : " and ",
-                            one["family"].get<std::string>(), one["joint"].get<int>(),
-                            one["probability"].get<double>());
-      }
-      for (const auto& one : each.answer["unexplained"]) {
-        said +=
-            fmt::format("{}{}", said.empty() ? "" : " and ", one["description"].get<std::string>());
-      }
-    }
-    text += fmt::format("{} {} {} {}: {} -> {}\n", each.name, each.kind,
-                        each.truth["arm"].get<std::string>(), each.truth["loop"].get<std::string>(),
-                        truth.empty() ? "nothing" : truth,
-                        each.answered ? (said.empty() ? "clean" : said) : "no answer");
-  }
-  return text;
+  text += habit_table(judged) + crowd_table(judged) + estimate_table(judged);
+  return text + confusion(part(all, [](const Judged& e) { return e.kind != "crowd"; }));
 }
 
 }  // namespace blind

@@ -6,23 +6,17 @@
 #include <vector>
 
 namespace blind {
-namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kHarmonics = 5;
-constexpr double kSpeed = 0.75, kAcceleration = 0.8, kRange = 0.9;  // of the arm's limits
-
-}  // namespace
-
-Motion fourier_motion(const Arm& arm, double duration, Random random) {
+Motion fourier_motion(const Arm& arm, double duration, Random random, Index harmonics) {
   const Index n = arm.joints();
   const double w = 2 * std::numbers::pi / duration;
-  MatrixXd a(n, kHarmonics), b(n, kHarmonics);
+  MatrixXd a(n, harmonics), b(n, harmonics);
   for (Index j = 0; j < n; ++j) {
-    for (Index h = 0; h < kHarmonics; ++h) {
+    for (Index h = 0; h < harmonics; ++h) {
       a(j, h) = random.normal() / static_cast<double>(h + 1);
       b(j, h) = random.normal() / static_cast<double>(h + 1);
     }
@@ -31,7 +25,7 @@ Motion fourier_motion(const Arm& arm, double duration, Random random) {
   const auto at = [=](const VectorXd& centre, const MatrixXd& sine, const MatrixXd& cosine,
                       double t) {
     Wanted wanted{centre, VectorXd::Zero(n), VectorXd::Zero(n)};
-    for (Index h = 0; h < kHarmonics; ++h) {
+    for (Index h = 0; h < harmonics; ++h) {
       const double k = w * static_cast<double>(h + 1);
       const double s = std::sin(k * t), c = std::cos(k * t);
       wanted.q += s * sine.col(h) + c * cosine.col(h);
@@ -41,9 +35,9 @@ Motion fourier_motion(const Arm& arm, double duration, Random random) {
     return wanted;
   };
   VectorXd low = VectorXd::Constant(n, 1e9), high = -low, speed = VectorXd::Zero(n), push = speed;
-  constexpr int kLooks = 400;
-  for (int i = 0; i < kLooks; ++i) {
-    const Wanted here = at(middle, a, b, duration * i / kLooks);
+  const int looks = std::max(400, 80 * static_cast<int>(harmonics));
+  for (int i = 0; i < looks; ++i) {
+    const Wanted here = at(middle, a, b, duration * i / looks);
     low = low.cwiseMin(here.q);
     high = high.cwiseMax(here.q);
     speed = speed.cwiseMax(here.dq.cwiseAbs());
@@ -64,7 +58,7 @@ Motion fourier_motion(const Arm& arm, double duration, Random random) {
   return {duration, true, [=](double t) { return at(middle, a, b, t); }};
 }
 
-Motion point_to_point(const Arm& arm, double duration, Random random) {
+Motion point_to_point(const Arm& arm, double duration, Random random, const Moves& moves_of) {
   const Index n = arm.joints();
   struct Move {
     double begin, end;
@@ -86,11 +80,11 @@ Motion point_to_point(const Arm& arm, double duration, Random random) {
     double needed = 0.5;
     for (Index j = 0; j < n; ++j) {
       const double way = std::abs(to[j] - from[j]);  // peaks of the polynomial: 1.875 and 5.774
-      needed = std::max({needed, 1.875 * way / (kSpeed * arm.v_max[j]),
+      needed = std::max({needed, 1.875 * way / (moves_of.speed * arm.v_max[j]),
                          std::sqrt(5.774 * way / (kAcceleration * arm.a_max[j]))});
     }
     moves.push_back({t, t + needed, from, to});
-    t += needed + random.between(0.1, 0.4);
+    t += needed + random.between(moves_of.shortest_rest, moves_of.longest_rest);
     from = to;
   }
   return {duration, false, [=](double now) {

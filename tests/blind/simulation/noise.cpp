@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/blind/simulation/noise.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 namespace blind {
 namespace {
@@ -29,6 +31,21 @@ VectorXd pink(Index samples, Random& random) {
 }
 
 }  // namespace
+
+std::function<double(double t)> wandering(double memory, double from, double to, Random random) {
+  const double step = std::clamp(memory / 10, 0.002, 0.02);
+  const Index count = static_cast<Index>(std::ceil((to - from) / step)) + 3;
+  const auto series =
+      std::make_shared<const VectorXd>(autoregressive(count, std::exp(-step / memory), random));
+  return [=](double t) {
+    const double place = std::clamp((t - from) / step, 0.0, static_cast<double>(count - 1));
+    const Index low = std::min<Index>(static_cast<Index>(place), count - 2);
+    const double u = place - static_cast<double>(low);  // between values: Catmull and Rom's cubic
+    const auto value = [&](Index k) { return (*series)[std::clamp<Index>(k, 0, count - 1)]; };
+    const double a = value(low - 1), b = value(low), c = value(low + 1), d = value(low + 2);
+    return b + u / 2 * (c - a + u * (2 * a - 5 * b + 4 * c - d + u * (3 * (b - c) + d - a)));
+  };
+}
 
 Eigen::MatrixXd torque_noise(const Noise& noise, Index samples, Random random) {
   Eigen::MatrixXd all(samples, noise.deviation.size());

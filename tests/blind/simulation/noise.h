@@ -2,6 +2,8 @@
 // What sensors add.
 #pragma once
 
+#include <functional>
+
 #include "tests/blind/simulation/random.h"
 #include "tests/blind/simulation/tree.h"
 
@@ -17,6 +19,10 @@ struct Noise {
 
   double digit() const { return 2 * 3.14159265358979323846 / std::exp2(bits); }  ///< rad
 };
+
+/// A torque that wanders with the time: deviation 1, smooth, forgotten over `memory` seconds.
+/// @param from, to  s, between which it is defined; before and after it keeps its value
+std::function<double(double t)> wandering(double memory, double from, double to, Random random);
 
 /// Noise of the recorded torque, (N x j).
 Eigen::MatrixXd torque_noise(const Noise& noise, Eigen::Index samples, Random random);
