@@ -21,7 +21,8 @@ inline double max(double a, double b) { return a > b ? a : b; }
 constexpr double kFarthest = 1e5;  // rad: up to there a reduction leaves all bits right
 
 /// sin(x + turn pi/2), |x| < kFarthest, within 1 ulp. Reduction by pi/2 in three parts (Cody and
-/// Waite 1980), coefficients of fdlibm (Sun Microsystems 1993): as the emitted code does.
+/// Waite 1980), coefficients of fdlibm (Sun Microsystems 1993). The statements are those that
+/// gen/emit_c/inline_trig.cpp writes as C; compiled_test.cpp holds the two against each other.
 inline double turned_sine(double x, std::int64_t turn) {
   constexpr double kWhole = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
   const double sum = x * 0.6366197723675814 + kWhole;
@@ -48,12 +49,8 @@ inline double turned_sine(double x, std::int64_t turn) {
 }
 
 /// Beyond kFarthest, and of what is no number, those of the C library.
-inline double sine(double x) {
-  return std::abs(x) < kFarthest ? turned_sine(x, 0) : std::sin(x);
-}
-inline double cosine(double x) {
-  return std::abs(x) < kFarthest ? turned_sine(x, 1) : std::cos(x);
-}
+inline double sine(double x) { return std::abs(x) < kFarthest ? turned_sine(x, 0) : std::sin(x); }
+inline double cosine(double x) { return std::abs(x) < kFarthest ? turned_sine(x, 1) : std::cos(x); }
 
 /// phi(x) = (1 - exp(-x)) / x, to 2e-16 of its value: expm1 loses nothing near 0.
 inline double decay_mean(double x) { return x == 0.0 ? 1.0 : -std::expm1(-x) / x; }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "runtime/estimation/inequalities.h"
 
@@ -15,27 +14,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kPasses = 5;  // over linear unknowns, where effects read the model
+constexpr int kPasses = 5;                 // over linear unknowns, where effects read the model
 constexpr double kSearchRounding = 1e-12;  // of the cost: two that differ by less are alike
 
-/// Solution over some of the unknowns, the others held.
-ConstrainedSolution solve_over(const std::vector<int>& chosen, const std::vector<int>& held,
-                               const MatrixXd& W, const VectorXd& tau,
-                               const Inequalities& inequalities, const VectorXd& x) {
-  const VectorXd fixed = x(held);
-  Inequalities of_chosen;
-  if (inequalities.h.size() > 0) {
-    // rows that no chosen unknown can change say nothing here
-    const MatrixXd G = inequalities.G(Eigen::all, chosen);
-    const VectorXd h = inequalities.h - inequalities.G(Eigen::all, held) * fixed;
-    std::vector<Index> kept;
-    for (Index i = 0; i < G.rows(); ++i) {
-      if (!G.row(i).isZero(0)) kept.push_back(i);
-    }
-    of_chosen = {G(kept, Eigen::all), h(kept)};
+/// The unknowns at least squares within inequalities. @param x  where the search for them begins
+VectorXd solved(const MatrixXd& W, const VectorXd& tau, const Inequalities& inequalities,
+                const VectorXd& x) {
+  // rows that no unknown can change say nothing here
+  std::vector<Index> kept;
+  for (Index i = 0; i < inequalities.h.size(); ++i) {
+    if (!inequalities.G.row(i).isZero(0)) kept.push_back(i);
   }
-  const VectorXd rest = tau - W(Eigen::all, held) * fixed;
-  return constrained_least_squares(W(Eigen::all, chosen), rest, of_chosen, x(chosen));
+  Inequalities own;
+  if (!kept.empty()) own = {inequalities.G(kept, Eigen::all), inequalities.h(kept)};
+  return constrained_least_squares(W, tau, own, x).x;
 }
 
 bool is_linear(const EffectInstance& effect, std::size_t parameter) {
@@ -103,19 +95,20 @@ EffectConstraints EffectSearch::constraints(const EffectPoint& point,
   return constraints_at(scales_, point, unknowns, reach);
 }
 
-std::vector<int> EffectSearch::places(const EffectPoint& point, bool linear) const {
-  std::vector<bool> of_linear(static_cast<std::size_t>(unknowns_.size), false);
-  std::fill_n(of_linear.begin(), unknowns_.base, true);
+std::vector<int> EffectSearch::places_of_shapes(const EffectPoint& point) const {
+  std::vector<bool> shapes(static_cast<std::size_t>(unknowns_.size), true);
+  std::fill_n(shapes.begin(), unknowns_.base, false);
   for (std::size_t k = 0; k < point.effects.size(); ++k) {
     for (std::size_t p = 0; p < unknowns_.parameters[k].size(); ++p) {
       const int place = unknowns_.parameters[k][p];
-      if (place < 0) continue;
-      of_linear[static_cast<std::size_t>(place)] = is_linear(point.effects[k], p);
+      if (place >= 0 && is_linear(point.effects[k], p)) {
+        shapes[static_cast<std::size_t>(place)] = false;
+      }
     }
   }
   std::vector<int> result;
   for (int i = 0; i < unknowns_.size; ++i) {
-    if (of_linear[static_cast<std::size_t>(i)] == linear) result.push_back(i);
+    if (shapes[static_cast<std::size_t>(i)]) result.push_back(i);
   }
   return result;
 }
@@ -132,15 +125,13 @@ SearchState EffectSearch::evaluated(EffectPoint point, const EffectUnknowns& unk
 
 EffectSearch::Trial EffectSearch::tried(EffectPoint point) const {
   const EffectUnknowns linear = linear_among(unknowns_, point);
-  std::vector<int> all(static_cast<std::size_t>(linear.size));
-  std::iota(all.begin(), all.end(), 0);
   const bool exact = exactly_linear(point);
   SearchState best = evaluated(std::move(point), linear);
   bool first = true;
   for (int pass = 0; pass < kPasses && std::isfinite(best.cost); ++pass) {
     const StackedRows rows = stacked(best.factor, weights_);
-    VectorXd x = values_of(best.point, linear);
-    x = solve_over(all, {}, rows.W, rows.tau, constraints(best.point, linear).inequalities, x).x;
+    const VectorXd x = solved(rows.W, rows.tau, constraints(best.point, linear).inequalities,
+                              values_of(best.point, linear));
     const double promised = (rows.W * x - rows.tau).squaredNorm();
     EffectPoint solved = with_values(best.point, linear, x);
     if (exact) return {std::move(solved), promised};
@@ -163,10 +154,8 @@ SearchState EffectSearch::with_linear_solved(EffectPoint point) const {
 SearchState EffectSearch::run(EffectPoint start, const SearchOptions& options) const {
   constexpr double kMostDamping = 1e8;
   SearchState state = with_linear_solved(within_bounds(scales_, std::move(start), unknowns_));
-  const std::vector<int> shapes = places(state.point, false);
+  const std::vector<int> shapes = places_of_shapes(state.point);
   if (shapes.empty()) return state;
-  std::vector<int> everything(static_cast<std::size_t>(unknowns_.size));
-  for (std::size_t i = 0; i < everything.size(); ++i) everything[i] = static_cast<int>(i);
   double damping = 1e-3;
   state.converged = false;
   int steps = 0;
@@ -187,7 +176,7 @@ SearchState EffectSearch::run(EffectPoint start, const SearchOptions& options) c
         A(rows.W.rows() + i, place) = size;
         b[rows.W.rows() + i] = size * x[place];
       }
-      const VectorXd step = solve_over(everything, {}, A, b, inequalities, x).x - x;
+      const VectorXd step = solved(A, b, inequalities, x) - x;
       Trial next =
           tried(within_bounds(scales_, with_values(state.point, unknowns_, x + step), unknowns_));
       const double gain = state.cost - next.cost;

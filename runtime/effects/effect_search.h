@@ -71,7 +71,8 @@ class EffectSearch {
   [[nodiscard]] SearchState evaluated(EffectPoint point, const EffectUnknowns& unknowns) const;
   [[nodiscard]] EffectConstraints constraints(const EffectPoint& point,
                                               const EffectUnknowns& unknowns) const;
-  [[nodiscard]] std::vector<int> places(const EffectPoint& point, bool linear) const;
+  /// Unknowns in which the equations are not linear.
+  [[nodiscard]] std::vector<int> places_of_shapes(const EffectPoint& point) const;
 
   const EffectRecordings& data_;
   EffectSignals& signals_;

@@ -11,9 +11,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kFarthestLag = 0.25;  // of the shorter recording: the largest lag
+constexpr double kFarthestLag =
+    0.25;  // of the shorter recording: three quarters are compared at least
 constexpr Index kMostCompared = 1500;  // samples: longer recordings are thinned out for the search
-constexpr Index kFewestCompared = 16;
 
 /// Standard deviation of white noise and rounding, from third differences (a smooth motion has
 /// hardly any; noise of deviation s gives s sqrt(20)).
@@ -87,7 +87,7 @@ SameMotion compare_motions(const Eigen::Ref<const MatrixXd>& first,
   SameMotion same;
   const Index shorter = std::min(first.rows(), other.rows());
   const std::vector<MovingJoint> moving = moving_joints(first);
-  if (shorter < kFewestCompared || first.cols() != other.cols() || moving.empty()) return same;
+  if (shorter < kFewestSamples || first.cols() != other.cols() || moving.empty()) return same;
   const auto most = static_cast<Index>(kFarthestLag * static_cast<double>(shorter));
   Index stride = (shorter + kMostCompared - 1) / kMostCompared;
   MatrixXd x = scaled(first, moving, stride), y = scaled(other, moving, stride);

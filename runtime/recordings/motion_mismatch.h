@@ -12,6 +12,9 @@ namespace dyngen::runtime {
 /// is largest. 0: repeats; kRepeats: just so; with no noise, 1: unrelated.
 inline constexpr double kRepeats = 1e-4;
 
+/// Samples from which a motion can be compared.
+inline constexpr Eigen::Index kFewestSamples = 16;
+
 /// A joint that moves, and the factor by which its positions enter the mismatch.
 struct MovingJoint {
   Eigen::Index joint = 0;

@@ -247,7 +247,6 @@ Periods find_periods(const Recording& recording, std::optional<double> given) {
   const Run run = longest_run(recording);
   none.first = run.first;
   const TimeBase base = examine_time_base(recording);
-  constexpr Index kFewestSamples = 16;
   if (run.count < kFewestSamples || !(base.sample_time > 0)) {
     none.message = "too few samples to look for a period";
     return none;

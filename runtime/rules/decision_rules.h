@@ -79,7 +79,8 @@ struct EquationRules {
       "the mean of one other period is as noisy as the period itself"};
   DecisionRule period_mismatch{
       0.1, "equations.period_mismatch", "samples",
-      "By how much the last period may be off whole samples, for periods to be averaged.",
+      "By how much the last period may be off whole samples, for periods to be averaged; and the "
+      "samples of two recordings of one motion off each other.",
       "sensitivity"};
   DecisionRule heldout_motion{
       0.5, "equations.heldout_motion", "1",

@@ -112,7 +112,7 @@ struct Fitted {
       : repeated(thinned(equations(input, train.others, options, true), kLongestSample)),
         own(thinned(equations(input, train.own, options, true), kLongestSample)),
         still(still_speed(train.own, options.rows, own.joints())) {
-    find_same_motions(own);
+    find_same_motions(own, options.rules);
     for (std::size_t run = 0; run < own.runs.size(); ++run) {
       repeated.runs[run].earlier = own.runs[run].earlier;
     }

@@ -13,12 +13,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSameTime = 0.1;  // samples by which two clocks may differ at the end
-
-bool comparable(const Motion& a, const Motion& b) {
+bool comparable(const Motion& a, const Motion& b, const EquationRules& rules) {
   if (a.period > 0 || b.period > 0) return false;
   const auto samples = static_cast<double>(std::min(a.samples(), b.samples()));
-  return std::abs(a.sample_time - b.sample_time) * samples < kSameTime * a.sample_time;
+  return std::abs(a.sample_time - b.sample_time) * samples < rules.period_mismatch * a.sample_time;
 }
 
 /// The first motion of each group, and where a motion stands in it.
@@ -66,11 +64,12 @@ MatrixXd mean_or(const MatrixXd& own, const MatrixXd& sum, const VectorXd& count
 
 }  // namespace
 
-std::vector<std::optional<EarlierRun>> earlier_motions(const std::vector<const Motion*>& motions) {
+std::vector<std::optional<EarlierRun>> earlier_motions(const std::vector<const Motion*>& motions,
+                                                       const EquationRules& rules) {
   std::vector<std::optional<EarlierRun>> earlier(motions.size());
   for (std::size_t i = 0; i < motions.size(); ++i) {
     for (std::size_t other = i; other-- > 0 && !earlier[i];) {
-      if (!comparable(*motions[i], *motions[other])) continue;
+      if (!comparable(*motions[i], *motions[other], rules)) continue;
       const SameMotion same = compare_motions(motions[other]->q, motions[i]->q);
       if (same.mismatch <= kRepeats)
         earlier[i] = EarlierRun{other, same.lag * motions[i]->sample_time};
@@ -79,16 +78,16 @@ std::vector<std::optional<EarlierRun>> earlier_motions(const std::vector<const M
   return earlier;
 }
 
-void find_same_motions(EffectRecordings& data) {
+void find_same_motions(EffectRecordings& data, const EquationRules& rules) {
   std::vector<const Motion*> motions;
   for (const EffectRun& run : data.runs) motions.push_back(&run.motion);
-  const auto earlier = earlier_motions(motions);
+  const auto earlier = earlier_motions(motions, rules);
   for (std::size_t r = 0; r < earlier.size(); ++r) data.runs[r].earlier = earlier[r];
 }
 
 std::vector<std::optional<Motion>> of_same_motions(const std::vector<const Motion*>& motions,
                                                    const EquationRules& rules) {
-  const std::vector<Place> places = places_of(earlier_motions(motions));
+  const std::vector<Place> places = places_of(earlier_motions(motions, rules));
   std::vector<std::optional<Motion>> result(motions.size());
   for (std::size_t i = 0; i < motions.size(); ++i) {
     std::vector<std::size_t> others;

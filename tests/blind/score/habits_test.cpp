@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/blind/score/made_entry.h"
+
 namespace blind {
 namespace {
 
@@ -18,25 +20,11 @@ Json said(const std::string& family, int joint, std::vector<std::string> aliases
           {"probability", 0.95}};
 }
 
-Json effect(const std::string& family, int joint, double lambda) {
-  return {{"family", family}, {"joint", joint},   {"other_joint", 0}, {"lambda", lambda},
-          {"absorbed", 0.5},  {"form", "a form"}, {"own_form", true}};
-}
-
 Judged judged_case(const std::string& kind, const std::string& habit, const Json& truths,
                    const Json& findings, const Json& allowed = Json::array()) {
-  const Json truth = {{"case", "c"},
-                      {"kind", kind},
-                      {"habit", habit},
-                      {"allowed", allowed},
-                      {"excess", 0.001},
-                      {"filtered", 30.0},
-                      {"wanted_lambda", 80},
-                      {"arm", "planar2"},
-                      {"loop", "PD"},
-                      {"imitated", Json::object()},
-                      {"heldout_oracle", {1.0, 2.0}},
-                      {"truths", truths}};
+  Json truth = made_entry(kind, truths);
+  truth["habit"] = habit;
+  truth["allowed"] = allowed;
   const Json answer = {{"schema", "dynid.diagnosis/1"},
                        {"findings", findings},
                        {"unexplained", Json::array()},
@@ -63,10 +51,10 @@ TEST(Habits, DoNotHideATruthOfTheirFamily) {
   const Json late = Json::array({said("time_delay", 1)});
   const Json allowed = Json::array({"time_delay"});
   const Judged right = judged_case("single", "late_columns",
-                                   Json::array({effect("time_delay", 1, 80)}), late, allowed);
+                                   Json::array({made_effect("time_delay", 1, 80)}), late, allowed);
   EXPECT_TRUE(right.found && right.first);
-  const Judged missed =
-      judged_case("single", "late_columns", Json::array({effect("cable", 1, 80)}), late, allowed);
+  const Judged missed = judged_case("single", "late_columns",
+                                    Json::array({made_effect("cable", 1, 80)}), late, allowed);
   EXPECT_FALSE(missed.found || missed.confident_wrong);
 }
 
@@ -74,7 +62,7 @@ TEST(Habits, HaveARowEach) {
   const std::vector<Judged> all = {
       judged_case("null", "laboratory", Json::array(), Json::array()),
       judged_case("null", "chirps", Json::array(), Json::array({said("cable", 1)})),
-      judged_case("single", "chirps", Json::array({effect("cable", 1, 80)}),
+      judged_case("single", "chirps", Json::array({made_effect("cable", 1, 80)}),
                   Json::array({said("cable", 1)}))};
   const std::string text = habit_table(all);
   EXPECT_THAT(text, HasSubstr("| laboratory | 0 of 1, 0.0 % (0.0 to 97.5) | none | none | none |"));
@@ -85,8 +73,9 @@ TEST(Habits, HaveARowEach) {
 }
 
 TEST(Crowds, AreCountedByFamilyAndJoint) {
-  const Json truths = Json::array({effect("stribeck", 1, 900), effect("stribeck", 2, 300),
-                                   effect("cable", 1, 250), effect("torque_ripple", 2, 150)});
+  const Json truths =
+      Json::array({made_effect("stribeck", 1, 900), made_effect("stribeck", 2, 300),
+                   made_effect("cable", 1, 250), made_effect("torque_ripple", 2, 150)});
   const Json findings =
       Json::array({said("stribeck", 1), said("presliding", 2, {"presliding", "stribeck"}),
                    said("torque_ripple", 2), said("cable", 2)});
@@ -101,7 +90,7 @@ TEST(Crowds, AreCountedByFamilyAndJoint) {
 }
 
 TEST(Crowds, TakeEachEffectOnce) {
-  const Json truths = Json::array({effect("stribeck", 1, 900)});
+  const Json truths = Json::array({made_effect("stribeck", 1, 900)});
   const Json findings = Json::array({said("stribeck", 1), said("stribeck", 1)});
   const std::vector<Judged> all = {judged_case("crowd", "laboratory", truths, findings)};
   EXPECT_EQ(count_crowds(all).right, 1);
@@ -112,8 +101,8 @@ TEST(Crowds, TakeEachEffectOnce) {
 }
 
 TEST(Crowds, WithoutAnAnswerAreMissed) {
-  Judged none =
-      judged_case("crowd", "laboratory", Json::array({effect("stribeck", 1, 900)}), Json::array());
+  Judged none = judged_case("crowd", "laboratory", Json::array({made_effect("stribeck", 1, 900)}),
+                            Json::array());
   none.answered = false;
   const CrowdCount count = count_crowds({none});
   EXPECT_EQ(count.strong, 1);

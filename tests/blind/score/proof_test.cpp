@@ -7,6 +7,7 @@
 
 #include "tests/blind/score/estimates.h"
 #include "tests/blind/score/figures.h"
+#include "tests/blind/score/made_entry.h"
 #include "tests/blind/score/second.h"
 #include "tests/blind/score/shares.h"
 
@@ -17,21 +18,17 @@ using Json = nlohmann::json;
 using testing::HasSubstr;
 
 Json truth_of(const std::string& family, int joint, double lambda) {
-  return {{"family", family}, {"joint", joint}, {"other_joint", 0}, {"lambda", lambda},
-          {"absorbed", 0.75}, {"form", "f"},    {"own_form", false}};
+  Json truth = made_effect(family, joint, lambda);
+  truth["absorbed"] = 0.75;
+  truth["own_form"] = false;
+  return truth;
 }
 
 Json entry(const std::string& kind, const Json& truths) {
-  return {{"case", "c"},
-          {"kind", kind},
-          {"excess", 0.004},
-          {"filtered", 30.0},
-          {"wanted_lambda", 80},
-          {"arm", "planar2"},
-          {"loop", "PD"},
-          {"imitated", Json::object()},
-          {"heldout_oracle", {1.0, 1.0}},
-          {"truths", truths}};
+  Json made = made_entry(kind, truths);
+  made["excess"] = 0.004;
+  made["heldout_oracle"] = {1.0, 1.0};
+  return made;
 }
 
 Json finding(const std::string& family, int joint, const std::vector<std::string>& aliases,

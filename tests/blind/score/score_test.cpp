@@ -4,32 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/blind/score/made_entry.h"
+
 namespace blind {
 namespace {
 
 using Json = nlohmann::json;
 
 Json truth(const std::string& kind, const std::vector<std::pair<std::string, int>>& effects) {
-  Json entry = {{"case", "c"},
-                {"kind", kind},
-                {"excess", 0.001},
-                {"filtered", 30.0},
-                {"wanted_lambda", 80},
-                {"arm", "planar2"},
-                {"loop", "PD"},
-                {"imitated", Json::object()},
-                {"heldout_oracle", {1.0, 2.0}},
-                {"truths", Json::array()}};
-  for (const auto& [family, joint] : effects) {
-    entry["truths"].push_back({{"family", family},
-                               {"joint", joint},
-                               {"other_joint", 0},
-                               {"lambda", 80.0},
-                               {"absorbed", 0.5},
-                               {"form", "f"},
-                               {"own_form", true}});
-  }
-  return entry;
+  Json truths = Json::array();
+  for (const auto& [family, joint] : effects) truths.push_back(made_effect(family, joint, 80));
+  return made_entry(kind, truths);
 }
 
 Json answer(const Json& findings, const Json& unexplained = Json::array(),

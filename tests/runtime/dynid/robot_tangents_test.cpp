@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/effects/effect_signals.h"
 #include "tests/support/model_bridge.h"
 #include "tests/support/numeric_dynamics.h"
 #include "tests/support/relative_error.h"
@@ -322,6 +323,48 @@ NumericRobot with_joint_along(const NumericRobot& robot, std::size_t j, int axis
   result.joints.insert(result.joints.begin() + static_cast<std::ptrdiff_t>(j) + 1, path.begin(),
                        path.end());
   return result;
+}
+
+// a search knows them ahead by a parabola: as far as positions are wrong
+TEST_P(RobotTangents, AheadAreOnAParabolaForTheSignals) {
+  const TangentCase own(GetParam());
+  const Tangent tangent(own);
+  EffectRecordings data;
+  data.model = own.robot.linear;
+  data.robot = effect_robot(own.robot);
+  data.runs.emplace_back();
+  Motion& motion = data.runs[0].motion;
+  motion.time = VectorXd::LinSpaced(kSamples, 0, kSamples - 1);
+  motion.q = own.motion.q;
+  motion.dq = own.motion.dq;
+  motion.ddq = own.motion.ddq;
+  EffectSignals signals(data);
+  signals.set_beta(own.beta);
+  const JointModel& joint = own.robot.model.joint(2);
+  EffectInstance effect;
+  effect.law.variables = {"d_q", "d_qd", "d_qdd", "d_alpha", "d_d"};
+  effect.law.parameters.push_back({.name = "error"});
+  effect.law.midpoint = 0;
+  effect.link = 2;
+  effect.joint = joint.coordinate;
+  const auto check = [&](double further, double most) {
+    effect.parameters = VectorXd::Constant(1, 2 * further);
+    for (int target = 0; target < data.joints(); ++target) {
+      const MatrixXd found = signals.variables(0, effect, target);
+      for (Index v = 0; v < found.cols(); ++v) {
+        const std::string& name = effect.law.variables[static_cast<std::size_t>(v)];
+        const MatrixXd exact = tangent(name, 2, own.motion, own.beta, further);
+        const double size = std::max(exact.cwiseAbs().maxCoeff(), 1e-9);
+        EXPECT_LT((found.col(v) - exact.col(target)).cwiseAbs().maxCoeff(), most * size)
+            << name << " " << further;
+      }
+    }
+  };
+  check(0, 1e-12);
+  check(0.05, 1e-9);  // a point of the parabola
+  check(-0.05, 1e-9);
+  check(0.01, 1e-3);
+  check(0.15, 1e-2);
 }
 
 TEST(RobotTangents, OfAWrenchAreTorquesOfJointsAlongItsAxes) {
