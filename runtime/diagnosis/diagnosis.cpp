@@ -16,6 +16,7 @@
 #include "runtime/diagnosis/answer/heldout_verdict.h"
 #include "runtime/diagnosis/answer/unnamed_text.h"
 #include "runtime/diagnosis/answer/verdict.h"
+#include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/competition/search.h"
 #include "runtime/diagnosis/equation_sets/raw_residual.h"
 #include "runtime/diagnosis/equation_sets/sufficiency.h"
@@ -201,6 +202,9 @@ class Diagnostician {
           raw_floor(train, raw_residuals(train, after), repeats_of(train)), result());
     }
     worse_ = worsening(heldout, without, with);
+    const EffectRecordings& proof = search_.sets().proof;
+    equations_ = whitened_squares(proof, residuals_of(proof, after), result().noise)
+                     .cwiseQuotient(counted_equations(proof).cwiseMax(1.0));
   }
 
   /// What each finding lowers of the held-out torque of its joints, beside all others.
@@ -245,6 +249,7 @@ class Diagnostician {
                    heldout = counted_equations(search_.sets().proof);
     known.heldout_worth =
         known.fitted_worth.cwiseProduct(heldout).cwiseQuotient(fitted.cwiseMax(1.0));
+    known.equations = equations_;
     known.worse = worse_;
     known.away_from_stiction = search_.has_stiction();
     return contradicted(judged_, known, answer_.findings.empty(), input_.model.revolute,
@@ -283,6 +288,7 @@ class Diagnostician {
   Diagnosis answer_;
   HeldoutResidual judged_;  ///< away from stiction intervals
   VectorXd worse_;          ///< (n) worsening() of held-out torque
+  VectorXd equations_;      ///< (n) HeldoutKnowledge::equations
 };
 
 }  // namespace

@@ -26,9 +26,9 @@ void each(Rules& rules, const Visit& visit) {
     visit(*rule);
   }
   auto& answer = rules.answer;
-  for (auto* rule :
-       {&answer.unexplained_part, &answer.probable, &answer.stability, &answer.heldout_excess,
-        &answer.heldout_chance, &answer.open_parameters, &answer.printed_part}) {
+  for (auto* rule : {&answer.unexplained_part, &answer.probable, &answer.stability,
+                     &answer.heldout_excess, &answer.heldout_far, &answer.heldout_chance,
+                     &answer.open_parameters, &answer.printed_part}) {
     visit(*rule);
   }
 }

@@ -143,8 +143,12 @@ struct AnswerRules {
                          "Meinshausen and Buehlmann 2010: 0.6 to 0.9"};
   DecisionRule heldout_excess{
       1.3, "answer.heldout_excess", "1",
-      "Held-out rms over the expected one: smaller ratios are differences between motions.",
+      "Rms of held-out equations over the expected one: smaller ratios are differences of motions.",
       "sensitivity"};
+  DecisionRule heldout_far{
+      3, "answer.heldout_far", "1",
+      "The same of held-out torque at full rate: smaller ratios can be faster than the equations.",
+      "sensitivity: up to 2.5 where nothing is left out"};
   DecisionRule heldout_chance{
       1e-3, "answer.heldout_chance", "1",
       "Probability of a joint's held-out ratio, or of its worsening, if nothing is left out.",

@@ -22,14 +22,37 @@ std::string unit_of(const std::vector<bool>& revolute, Index joint) {
   return revolute[static_cast<std::size_t>(joint)] ? "N m" : "N";
 }
 
-/// Whether held-out torque is further above the floor than chance and parameters tell.
-bool far_above(double rms, double floor, double predicted, double fitted, double heldout,
-               const AnswerRules& rules) {
-  if (!(floor > 0) || !std::isfinite(rms)) return false;
-  const double ratio = rms * rms / (floor * floor * (1 + std::max(predicted, 0.0)));
-  if (ratio <= rules.heldout_excess * rules.heldout_excess) return false;
-  return variance_ratio_tail(ratio, std::max(heldout, 1.0), std::max(fitted, 1.0)) <
-         rules.heldout_chance;
+/// Whether a mean square is further above its expected value than a ratio of rms and chance tell.
+bool above(double square, double expected, double ratio, double fitted, double heldout,
+           double chance) {
+  if (!(expected > 0) || !std::isfinite(square)) return false;
+  const double excess = square / expected;
+  return excess > ratio * ratio &&
+         variance_ratio_tail(excess, std::max(heldout, 1.0), std::max(fitted, 1.0)) < chance;
+}
+
+/// What held-out data of a joint say against the findings; empty: nothing.
+std::string objection(const HeldoutResidual& rms, const HeldoutKnowledge& known, Index j,
+                      bool found_nothing, const std::string& unit, const AnswerRules& rules) {
+  const double floor = rms.floor[j], after = rms.after[j], before = rms.before[j];
+  const double expected = 1 + std::max(known.predicted[j], 0.0);
+  const double certainly = student_interval(1 - 2 * rules.heldout_chance, kHeldoutBlocks - 1);
+  const auto exceeds = [&](double square, double noise, double ratio) {
+    return above(square, noise * expected, ratio, known.fitted_worth[j], known.heldout_worth[j],
+                 rules.heldout_chance);
+  };
+  std::vector<std::string> reasons;
+  if (exceeds(after * after, floor * floor, rules.heldout_far)) {
+    reasons.push_back(fmt::format("beside a noise of {:.4g}", floor));
+  } else if (exceeds(known.equations[j], 1, rules.heldout_excess)) {
+    reasons.push_back(
+        fmt::format("{:.1f} times the noise in its equations", std::sqrt(known.equations[j])));
+  }
+  if (!found_nothing && after > (1 + rules.printed_part) * before && known.worse[j] > certainly) {
+    reasons.push_back(fmt::format("{:.4g} without the findings", before));
+  }
+  if (reasons.empty()) return {};
+  return fmt::format("{:.4g} {} of joint {}, {}", after, unit, j + 1, fmt::join(reasons, ", "));
 }
 
 }  // namespace
@@ -67,19 +90,11 @@ VectorXd worsening(const EffectRecordings& heldout, const RunResiduals& before,
 std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const HeldoutKnowledge& known,
                                        bool found_nothing, const std::vector<bool>& revolute,
                                        const AnswerRules& rules) {
-  const double certainly = student_interval(1 - 2 * rules.heldout_chance, kHeldoutBlocks - 1);
   std::vector<std::string> reasons;
   bool beyond = true;  // every joint's
   for (Index j = 0; j < rms.after.size(); ++j) {
-    const double floor = rms.floor[j], after = rms.after[j], before = rms.before[j];
-    const bool worse =
-        !found_nothing && after > (1 + rules.printed_part) * before && known.worse[j] > certainly;
-    const bool far = far_above(after, floor, known.predicted[j], known.fitted_worth[j],
-                               known.heldout_worth[j], rules);
-    if (!worse && !far) continue;
-    std::string reason = fmt::format("{:.4g} {} of joint {}", after, unit_of(revolute, j), j + 1);
-    if (far) reason += fmt::format(" beside a noise of {:.4g}", floor);
-    if (worse) reason += fmt::format(", {:.4g} without the findings", before);
+    std::string reason = objection(rms, known, j, found_nothing, unit_of(revolute, j), rules);
+    if (reason.empty()) continue;
     const bool extrapolated = known.predicted[j] > rules.open_parameters ||
                               (j < rms.visited.size() && rms.visited[j] < 1 - rules.printed_part);
     beyond = beyond && extrapolated;

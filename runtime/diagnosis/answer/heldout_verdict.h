@@ -16,6 +16,9 @@ struct HeldoutKnowledge {
   /// (n) variance that the parameters' uncertainty adds to held-out torque, over that of what the
   /// fit leaves
   Eigen::VectorXd predicted;
+  /// (n) mean square of what the findings leave of held-out equations, in units of the noise's
+  /// variance; 0: no equation counts
+  Eigen::VectorXd equations;
   /// (n) independent samples of what is left, of the fitted and of the held-out recordings
   Eigen::VectorXd fitted_worth, heldout_worth;
   /// (n) standard deviations by which blocks of held-out torque are predicted worse with the
@@ -29,10 +32,12 @@ struct HeldoutKnowledge {
 Eigen::VectorXd worsening(const EffectRecordings& heldout, const RunResiduals& before,
                           const RunResiduals& after);
 
-/// Recordings are not explained where held-out torque of a joint is further above the noise than
-/// the uncertainty of its parameters tells (Fisher's F of both rms, and a third at least), or where
-/// findings predict it worse. Where nothing was found and held-out motion goes beyond the fitted
-/// one, it is the recordings that cannot tell.
+/// Recordings are not explained where held-out equations of a joint are further above the noise
+/// than the uncertainty of its parameters tells (Fisher's F, and the ratio heldout_excess), where
+/// its held-out torque is far above the noise (the ratio heldout_far), or where findings predict it
+/// worse. Equations are what the joint state's band lets through; torque at full rate also has what
+/// the band leaves out of the motion. Where nothing was found and held-out motion goes beyond the
+/// fitted one, it is the recordings that cannot tell.
 /// @return  none: nothing speaks against what was concluded
 std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const HeldoutKnowledge& known,
                                        bool found_nothing, const std::vector<bool>& revolute,
