@@ -91,6 +91,7 @@ class Diagnostician {
     }
     if (!answer_.sentence.empty()) return std::move(answer_);
     answer_.findings = found_effects(search_, settings, progress_);
+    answer_.effort = {options_.effort, search_.work(), result().cut_off};
     answer_.fit = result().fit;
     describe_changes();
     answer_.unexplained = described(result().nameless);

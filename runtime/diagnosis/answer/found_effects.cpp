@@ -153,9 +153,10 @@ std::vector<Finding> found_effects(Search& search, const CompetitionOptions& opt
   system.surrogates = 0;
   system.with_regressor = options.with_regressor;
   system.rules = options.rules;
-  const std::vector<Naming> namings =
-      settle_names(search.sets().evidence(), search.sets().train, search.sets().proof, signals,
-                   search.hypotheses(), result, system, progress);
+  const EquationSets& sets = search.sets();
+  const NamingData data{sets.evidence(),     sets.train, sets.proof,
+                        search.hypotheses(), system,     {options.effort, sets.evidence().work}};
+  const std::vector<Naming> namings = settle_names(data, signals, result, progress);
   std::vector<Found> all;
   for (std::size_t i = 0; i < namings.size(); ++i) {
     all.push_back(found(search, i, namings[i], signals, system));

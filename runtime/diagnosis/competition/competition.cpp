@@ -8,6 +8,7 @@
 #include "runtime/diagnosis/competition/acceptance.h"
 #include "runtime/diagnosis/competition/beside_white_noise.h"
 #include "runtime/diagnosis/competition/effect_conditions.h"
+#include "runtime/diagnosis/competition/effort.h"
 #include "runtime/diagnosis/competition/likely_search.h"
 #include "runtime/diagnosis/competition/nameless_search.h"
 #include "runtime/diagnosis/competition/pair_search.h"
@@ -26,7 +27,8 @@ using Eigen::VectorXd;
 constexpr std::size_t kRefined = 12;  // candidates whose shapes are refined in a round
 constexpr double kLeastAsGood = 0.5;  // of the winner's squares: rivals that are tried with it
 constexpr std::size_t kAttempts = 4;  // effects that are fitted in a round before it gives up
-constexpr std::size_t kRivals = 5;    // that are compared again once the winner is fitted
+constexpr const char* kLikelihoods = "likelihoods of effects";
+constexpr std::size_t kRivals = 5;  // that are compared again once the winner is fitted
 
 /// One competition's data and what was found so far.
 class Competition {
@@ -43,7 +45,8 @@ class Competition {
         conditions_(data_, sought_, stiction_, result_),
         nameless_(data_, sought_, stiction_, system_options(), options_.false_alarm, result_),
         likely_(data_, sought_, screening_data_, result_,
-                [this](const EffectInstance& effect) { return fit(effects_and(effect)); }),
+                {[this](const EffectInstance& effect) { return fit(effects_and(effect)); },
+                 [this] { return exhausted(kLikelihoods); }}),
         pairs_(data_, sought_, stiction_, conditions_, options_.false_alarm, result_),
         acceptance_(data_, sought_, system_options(), result_) {}
 
@@ -86,12 +89,7 @@ class Competition {
 
   /// Whether the work that may be done is done; then a search is left out, and named.
   bool exhausted(const std::string& search) {
-    if (options_.effort <= 0 || !data_.evidence.work ||
-        data_.evidence.work->done() < options_.effort)
-      return false;
-    std::vector<std::string>& names = result_.cut_off;
-    if (std::find(names.begin(), names.end(), search) == names.end()) names.push_back(search);
-    return true;
+    return Effort(options_.effort, data_.evidence.work).spent(search, result_.cut_off);
   }
 
   [[nodiscard]] std::vector<EffectInstance> effects_and(const EffectInstance& effect) const {
@@ -343,8 +341,10 @@ class Competition {
       return accept(likely.named, screening, stiction == StictionImpulses::Part::kBecause,
                     likely.fit);
     };
-    return likely_.next({system, screening}, plain, accepts) ||
-           take(nameless_.next(system, screening)) || take(nameless_.next_likely(plain));
+    if (likely_.next({system, screening}, plain, accepts)) return true;
+    // what an effect that was not looked at explains is not without a name
+    if (exhausted(kLikelihoods)) return false;
+    return take(nameless_.next(system, screening)) || take(nameless_.next_likely(plain));
   }
 
   /// What effects read of the model (the load on a gear) is wrong as long as the model has taken up

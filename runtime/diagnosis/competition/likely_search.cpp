@@ -15,7 +15,8 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr std::size_t kFamilies = 3;  // of a joint whose likelihoods are compared
+constexpr std::size_t kFamilies = 3;    // of a joint whose likelihoods are compared
+constexpr std::size_t kFitsAtOnce = 4;  // fits between two looks at the work that is done
 
 bool meet(const std::vector<int>& a, const std::vector<int>& b) {
   return std::any_of(a.begin(), a.end(),
@@ -44,11 +45,16 @@ bool LikelySearch::next(const ModelSide& side, const ModelSide& plain,
     }
   }
   std::vector<LikelyEffect> answers(asked.size());
-  in_parallel(asked.size(), screened_.readers().size(), [&](std::size_t i, std::size_t thread) {
-    answers[i] =
-        compared(asked[i].first, ratio, *asked[i].second, screened_.readers()[thread].whole);
-  });
-  for (std::size_t i = 0; i < asked.size(); ++i) likely_[asked[i].first] = std::move(answers[i]);
+  for (std::size_t begin = 0; begin < asked.size() && !calls_.exhausted(); begin += kFitsAtOnce) {
+    const std::size_t count = std::min(kFitsAtOnce, asked.size() - begin);
+    in_parallel(count, screened_.readers().size(), [&](std::size_t piece, std::size_t thread) {
+      const auto& [place, of] = asked[begin + piece];
+      answers[begin + piece] = compared(place, ratio, *of, screened_.readers()[thread].whole);
+    });
+    for (std::size_t i = begin; i < begin + count; ++i) {
+      likely_[asked[i].first] = std::move(answers[i]);
+    }
+  }
   // what an earlier round said of other joints orders them; the best is asked again
   for (;;) {
     const auto best =
@@ -57,6 +63,7 @@ bool LikelySearch::next(const ModelSide& side, const ModelSide& plain,
         });
     if (best == likely_.end() || best->second.net <= 0) return false;
     if (!best->second.fresh) {
+      if (calls_.exhausted()) return false;
       best->second = compared(best->first, ratio, side, screened_.readers().front().whole);
       continue;
     }
@@ -78,7 +85,7 @@ LikelyEffect LikelySearch::compared(std::size_t place, const LikelihoodRatio& ra
   named.best = refined(data_.evidence, signals, side.system, hypothesis, named.best,
                        sought_.scales.of(result_.fit.point.beta, hypothesis.effect));
   try {
-    likely.fit = with_(named.best.effect);
+    likely.fit = calls_.fit_with(named.best.effect);
   } catch (const NotFiniteError&) {
     return likely;  // there is no such fit
   }

@@ -27,17 +27,21 @@ struct LikelyEffect {
 /// and compared by their likelihoods, each with a noise of its own.
 class LikelySearch {
  public:
+  struct Calls {
+    /// Fits the model and what was found with one effect more; from several threads.
+    std::function<EffectFit(const EffectInstance&)> fit_with;
+    /// Whether the work that may be done is done: then effects that were not fitted are left out.
+    std::function<bool()> exhausted;
+  };
   /// All must outlive it. @param screened  of the same evidence
   /// @param result  what was found so far
-  /// @param with    fits the model and what was found with one effect more; from several threads
   LikelySearch(const CompetitionData& data, const Sought& sought, ScreeningData& screened,
-               const CompetitionResult& result,
-               std::function<EffectFit(const EffectInstance&)> with)
+               const CompetitionResult& result, Calls calls)
       : data_(data),
         sought_(sought),
         screened_(screened),
         result_(result),
-        with_(std::move(with)) {}
+        calls_(std::move(calls)) {}
 
   /// Offers the likeliest of all by the tie rule (comes_before()), then the next, until one is
   /// taken.
@@ -57,7 +61,7 @@ class LikelySearch {
   const Sought& sought_;
   ScreeningData& screened_;
   const CompetitionResult& result_;
-  std::function<EffectFit(const EffectInstance&)> with_;
+  Calls calls_;
   std::map<std::size_t, LikelyEffect> likely_;  // by hypothesis; of this round or an earlier one
 };
 

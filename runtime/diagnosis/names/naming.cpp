@@ -22,6 +22,8 @@ namespace {
 /// theory. Odds are computed from differences that are smaller by this factor.
 constexpr double kCaution = 2;
 
+constexpr std::size_t kWinnersAtOnce = 2;  // winners between two looks at the work that is done
+
 /// Evidence of held-out recordings for a rival against a winner: the difference of their held-out
 /// chi-squares, in units of the residual level where this exceeds the noise.
 double heldout_gain(const EffectRecordings& heldout, const TorqueNoiseModel& noise,
@@ -140,23 +142,17 @@ namespace {
 /// Who stands in a winner's place once everything is found: what its round chose, or another.
 class Places {
  public:
-  Places(const EffectRecordings& evidence, const EffectRecordings& fit,
-         const EffectRecordings& heldout, EffectSignals& signals,
-         const std::vector<Hypothesis>& hypotheses, CompetitionResult& result,
-         const EvidenceSystem::Options& options)
-      : evidence_(evidence),
-        fit_(fit),
-        heldout_(heldout),
-        signals_(signals),
-        hypotheses_(hypotheses),
-        result_(result),
-        options_(options) {}
+  Places(const NamingData& data, EffectSignals& signals, CompetitionResult& result)
+      : data_(data), signals_(signals), result_(result) {}
 
   /// Whether another effect came into a winner's place.
   [[nodiscard]] bool changed() const { return changed_; }
 
-  Naming named(std::size_t winner) {
+  /// @param fits  whether other names are fitted with all that was found; else they are compared
+  ///              as the screening of the winner's round left them
+  Naming named(std::size_t winner, bool fits) {
     Naming naming = name(winner);
+    if (!fits) return naming;
     // another form of the same effect, beside all that was found since
     if (naming.kin && naming.kin->distance < -kTie) {
       const Rival kin = *naming.kin;
@@ -182,20 +178,20 @@ class Places {
   };
 
   [[nodiscard]] Naming name(std::size_t winner) {
-    return name_winner(evidence_, signals_, hypotheses_, result_, winner, options_);
+    return name_winner(data_.evidence, signals_, data_.hypotheses, result_, winner, data_.options);
   }
 
   Challenge challenged(std::size_t winner, const Rival& rival) {
-    const bool refuted =
-        result_.noise.from_periods &&
-        scatter_refutes(evidence_, signals_,
-                        system_without(evidence_, signals_, hypotheses_, result_, winner, options_),
-                        hypotheses_[rival.hypothesis], rival.trial.effect);
+    const bool refuted = result_.noise.from_periods &&
+                         scatter_refutes(data_.evidence, signals_,
+                                         system_without(data_.evidence, signals_, data_.hypotheses,
+                                                        result_, winner, data_.options),
+                                         data_.hypotheses[rival.hypothesis], rival.trial.effect);
     Challenge challenge;
-    if (!refuted) challenge.fit = with_rival(fit_, result_, winner, rival);
+    if (!refuted) challenge.fit = with_rival(data_.fit, result_, winner, rival);
     if (challenge.fit) {
       challenge.gain =
-          heldout_gain(heldout_, result_.noise, result_.fit.point, challenge.fit->point);
+          heldout_gain(data_.heldout, result_.noise, result_.fit.point, challenge.fit->point);
     }
     return challenge;
   }
@@ -220,7 +216,8 @@ class Places {
     }
     nearest.distance -= challenge.gain;
     if (nearest.distance > -kTie) return;
-    const std::string family = hypotheses_[result_.winners[winner].hypothesis].effect.law.family;
+    const std::string family =
+        data_.hypotheses[result_.winners[winner].hypothesis].effect.law.family;
     put_in_place(winner, Rival(nearest), *challenge.fit);
     naming = name(winner);
     for (Rival& rival : naming.rivals) {
@@ -228,13 +225,9 @@ class Places {
     }
   }
 
-  const EffectRecordings& evidence_;
-  const EffectRecordings& fit_;
-  const EffectRecordings& heldout_;
+  const NamingData& data_;
   EffectSignals& signals_;
-  const std::vector<Hypothesis>& hypotheses_;
   CompetitionResult& result_;
-  const EvidenceSystem::Options& options_;
   bool changed_ = false;
 };
 
@@ -247,26 +240,24 @@ struct NamedPlace {
 
 }  // namespace
 
-std::vector<Naming> settle_names(const EffectRecordings& evidence, const EffectRecordings& fit,
-                                 const EffectRecordings& heldout, EffectSignals& signals,
-                                 const std::vector<Hypothesis>& hypotheses,
-                                 CompetitionResult& result, const EvidenceSystem::Options& options,
-                                 const CompetitionProgress& progress) {
+std::vector<Naming> settle_names(const NamingData& data, EffectSignals& signals,
+                                 CompetitionResult& result, const CompetitionProgress& progress) {
   std::vector<Naming> namings;
   const std::size_t count = result.winners.size();
-  const std::size_t threads = std::min(working_threads(), count);
-  std::vector<EffectSignals> others(threads > 0 ? threads - 1 : 0, EffectSignals(evidence));
+  const std::size_t threads = std::min({working_threads(), count, kWinnersAtOnce});
+  std::vector<EffectSignals> others(threads > 0 ? threads - 1 : 0, EffectSignals(data.evidence));
   while (namings.size() < count) {
     const std::size_t first = namings.size();
     if (progress) progress("names", static_cast<double>(first) / static_cast<double>(count));
     // several winners at once, each as if those before it kept their places
-    std::vector<NamedPlace> named(std::min(threads, count - first));
+    const bool fits = !data.effort.spent("fits of other names", result.cut_off);
+    std::vector<NamedPlace> named(std::min(kWinnersAtOnce, count - first));
     in_parallel(named.size(), threads, [&](std::size_t i, std::size_t thread) {
       NamedPlace& own = named[i];
       own.result = result;
       EffectSignals& reader = thread == 0 ? signals : others[thread - 1];
-      Places places(evidence, fit, heldout, reader, hypotheses, own.result, options);
-      own.naming = places.named(first + i);
+      Places places(data, reader, own.result);
+      own.naming = places.named(first + i, fits);
       own.changed = places.changed();
     });
     for (NamedPlace& own : named) {

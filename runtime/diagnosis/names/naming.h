@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/diagnosis/competition/competition.h"
+#include "runtime/diagnosis/competition/effort.h"
 #include "runtime/diagnosis/names/rivals.h"
 
 namespace dyngen::runtime {
@@ -37,17 +38,23 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
                    const std::vector<Hypothesis>& hypotheses, const CompetitionResult& result,
                    std::size_t winner, const EvidenceSystem::Options& options);
 
+/// What names are found with. All of it outlives it.
+struct NamingData {
+  const EffectRecordings& evidence;  ///< this and the next two: of CompetitionData
+  const EffectRecordings& fit;
+  const EffectRecordings& heldout;
+  const std::vector<Hypothesis>& hypotheses;
+  EvidenceSystem::Options options{};
+  Effort effort;
+};
+
 /// Names of all winners. Another effect of the same family that explains more by now takes the
 /// winner's place, unless held-out recordings say less for it. Where the nearest rival is no more
 /// than kApart of chi-square worse, the model is fitted with it in the winner's place, and what
 /// held-out recordings say of the two is added to their distance; a rival that is better then takes
-/// the place.
-/// @param evidence  this and the next two: of CompetitionData   @param signals  of `evidence`
-/// @param result    its winners and its fit, in place
-std::vector<Naming> settle_names(const EffectRecordings& evidence, const EffectRecordings& fit,
-                                 const EffectRecordings& heldout, EffectSignals& signals,
-                                 const std::vector<Hypothesis>& hypotheses,
-                                 CompetitionResult& result, const EvidenceSystem::Options& options,
-                                 const CompetitionProgress& progress);
+/// the place. Once the effort is spent, names are compared without such fits.
+/// @param signals  of the evidence   @param result  its winners and its fit, in place
+std::vector<Naming> settle_names(const NamingData& data, EffectSignals& signals,
+                                 CompetitionResult& result, const CompetitionProgress& progress);
 
 }  // namespace dyngen::runtime

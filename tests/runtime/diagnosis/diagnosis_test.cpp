@@ -114,7 +114,7 @@ TEST(Diagnosis, EndsWhereItsEffortIsSpent) {
   EXPECT_EQ(diagnose(null, options).verdict, Verdict::kInsufficientData);
 
   // enough for the first effect, and for nothing beside it
-  options.effort = 1.01 * least.effort.done;
+  options.effort = 0.5 * (least.effort.done + all.effort.done);
   const Diagnosis some = diagnose(input, options);
   ASSERT_EQ(some.findings.size(), 1U) << some.sentence;
   EXPECT_EQ(some.findings.front().effect.law.name, spring.law.name);

@@ -31,7 +31,9 @@ EffectInstance spring_in_units_of(const std::string& name, double unit) {
 using FitWith = std::function<EffectFit(const EffectRecordings&, const EffectInstance&)>;
 
 /// Names in the order in which effects are offered, none of which is taken.
-std::vector<std::string> offered(const std::vector<EffectInstance>& effects, const FitWith& with) {
+std::vector<std::string> offered(
+    const std::vector<EffectInstance>& effects, const FitWith& with,
+    const std::function<bool()>& exhausted = [] { return false; }) {
   const EffectInstance truth = test::known(test::spring_law(), 1, {0.4});
   test::ArmCompetition arm(test::everywhere({truth}));
   std::vector<Hypothesis> hypotheses;
@@ -43,8 +45,9 @@ std::vector<std::string> offered(const std::vector<EffectInstance>& effects, con
                                               result.fit.point, result.noise, {});
   const Screening screening =
       screen(screened, system, sought.scales, result.fit.point.beta, hypotheses, {}, nullptr);
-  LikelySearch search(arm.data, sought, screened, result,
-                      [&](const EffectInstance& effect) { return with(arm.evidence, effect); });
+  LikelySearch search(
+      arm.data, sought, screened, result,
+      {[&](const EffectInstance& effect) { return with(arm.evidence, effect); }, exhausted});
   std::vector<std::string> names;
   const auto refuse = [&](const LikelyEffect& likely) {
     names.push_back(likely.named.best.effect.law.name);
@@ -77,6 +80,18 @@ TEST(LikelySearch, OffersNoEffectWithoutAFiniteFit) {
     return fit_with(data, effect);
   };
   EXPECT_EQ(offered(effects, broken), std::vector<std::string>{"whole"});
+}
+
+TEST(LikelySearch, FitsNothingOnceTheWorkIsDone) {
+  int fits = 0;
+  const auto counted = [&](const EffectRecordings& data, const EffectInstance& effect) {
+    ++fits;
+    return fit_with(data, effect);
+  };
+  EXPECT_TRUE(offered({spring_in_units_of("spring", 1)}, counted, [] { return true; }).empty());
+  EXPECT_EQ(fits, 0);
+  EXPECT_EQ(offered({spring_in_units_of("spring", 1)}, counted).size(), 1U);
+  EXPECT_EQ(fits, 1);
 }
 
 TEST(LikelySearch, PassesOnWhatTheCallerDidWrong) {
