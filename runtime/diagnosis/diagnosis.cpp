@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -103,7 +102,9 @@ class Diagnostician {
     answer_.next = next_experiment(answer_.findings);
     Conclusion conclusion = concluded(search_, answer_.findings, options_.rules.answer);
     if (conclusion.verdict == Verdict::kClean || conclusion.verdict == Verdict::kExplained) {
-      if (const std::optional<Conclusion> other = against()) conclusion = *other;
+      const auto other = contradicted(judged_, known_, answer_.findings.empty(),
+                                      input_.model.revolute, options_.rules.answer);
+      if (other) conclusion = *other;
     }
     answer_.verdict = conclusion.verdict;
     answer_.sentence = conclusion.sentence;
@@ -190,22 +191,27 @@ class Diagnostician {
     judge_heldout(before, after);
   }
 
-  /// The same away from stiction intervals, where friction can take any value.
+  /// The same away from reversals, where friction can take any value.
   void judge_heldout(const EffectPoint& before, const EffectPoint& after) {
-    const EffectRecordings &train = search_.judged_train(), &heldout = search_.judged_heldout();
+    const auto [train, heldout, proof] = search_.judged();
     const RunResiduals without = raw_residuals(heldout, before),
                        with = raw_residuals(heldout, after);
     judged_ = answer_.heldout;
-    if (search_.has_stiction()) {
-      judged_.before = raw_rms(heldout, without);
-      judged_.after = raw_rms(heldout, with);
-      judged_.floor = without_nameless(
-          raw_floor(train, raw_residuals(train, after), repeats_of(train)), result());
-    }
-    worse_ = worsening(heldout, without, with);
-    const EffectRecordings& proof = search_.sets().proof;
-    equations_ = whitened_squares(proof, residuals_of(proof, after), result().noise)
-                     .cwiseQuotient(counted_equations(proof).cwiseMax(1.0));
+    judged_.before = raw_rms(heldout, without);
+    judged_.after = raw_rms(heldout, with);
+    judged_.floor = without_nameless(
+        raw_floor(train, raw_residuals(train, after), repeats_of(train)), result());
+    known_.worse = worsening(heldout, without, with);
+    const VectorXd equations = counted_equations(proof),
+                   fitted = counted_equations(search_.sets().train);
+    known_.equations = whitened_squares(proof, residuals_of(proof, after), result().noise)
+                           .cwiseQuotient(equations.cwiseMax(1.0));
+    known_.predicted = options_.residual_only
+                           ? VectorXd::Zero(input_.model.joints())
+                           : predicted_variance(search_.sets().train, search_.sets().proof);
+    known_.fitted_worth = result().noise.worth;
+    known_.heldout_worth =
+        known_.fitted_worth.cwiseProduct(equations).cwiseQuotient(fitted.cwiseMax(1.0));
   }
 
   /// What each finding lowers of the held-out torque of its joints, beside all others.
@@ -238,25 +244,6 @@ class Diagnostician {
     }
   }
 
-  /// What held-out torque says against the answer.
-  [[nodiscard]] std::optional<Conclusion> against() const {
-    HeldoutKnowledge known;
-    const VectorXd none = VectorXd::Zero(input_.model.joints());
-    known.predicted = options_.residual_only
-                          ? none
-                          : predicted_variance(search_.sets().train, search_.sets().proof);
-    known.fitted_worth = result().noise.worth;
-    const VectorXd fitted = counted_equations(search_.sets().train),
-                   heldout = counted_equations(search_.sets().proof);
-    known.heldout_worth =
-        known.fitted_worth.cwiseProduct(heldout).cwiseQuotient(fitted.cwiseMax(1.0));
-    known.equations = equations_;
-    known.worse = worse_;
-    known.away_from_stiction = search_.has_stiction();
-    return contradicted(judged_, known, answer_.findings.empty(), input_.model.revolute,
-                        options_.rules.answer);
-  }
-
   /// (n) equations that count
   static VectorXd counted_equations(const EffectRecordings& data) {
     VectorXd counts = VectorXd::Zero(data.joints());
@@ -287,9 +274,8 @@ class Diagnostician {
   const DiagnosisObserver& observer_;
   Search search_;
   Diagnosis answer_;
-  HeldoutResidual judged_;  ///< away from stiction intervals
-  VectorXd worse_;          ///< (n) worsening() of held-out torque
-  VectorXd equations_;      ///< (n) HeldoutKnowledge::equations
+  HeldoutResidual judged_;  ///< away from reversals
+  HeldoutKnowledge known_;  ///< the same
 };
 
 }  // namespace

@@ -213,9 +213,9 @@ class RunRows {
     }
     if (late_.delay[j] != 0 && here_.motion.tau.size() > 0) {
       const double samples = late_.delay[j] / here_.motion.sample_time;
-      VectorXd recorded = shifted(here_.motion.tau.col(j), samples);
-      if (data_.model.held) recorded -= signals_.held_torque(run_).col(j);
-      tau = decimate(here_.decimator, recorded);
+      // rows have more in their torque than what was recorded (leave_as_at): the change is added
+      const VectorXd recorded = here_.motion.tau.col(j);
+      tau += decimate(here_.decimator, shifted(recorded, samples) - recorded);
     }
     if (lag != 0 && data_.model.held) {
       tau -= lag * decimate(here_.decimator, rate(signals_.held_torque(run_).col(j)));

@@ -101,8 +101,8 @@ std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const Heldout
     reasons.push_back(std::move(reason));
   }
   if (reasons.empty()) return std::nullopt;
-  std::string list = fmt::format("{}", fmt::join(reasons, "; "));
-  if (known.away_from_stiction) list += " (without the samples near stiction)";
+  const std::string list =
+      fmt::format("{} (without the samples near reversals)", fmt::join(reasons, "; "));
   if (found_nothing && beyond) {
     return Conclusion{
         Verdict::kInsufficientData,

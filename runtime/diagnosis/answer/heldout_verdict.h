@@ -11,7 +11,7 @@
 
 namespace dyngen::runtime {
 
-/// What is known of held-out torque besides its rms.
+/// What is known of held-out torque besides its rms, away from reversals.
 struct HeldoutKnowledge {
   /// (n) variance that the parameters' uncertainty adds to held-out torque, over that of what the
   /// fit leaves
@@ -24,7 +24,6 @@ struct HeldoutKnowledge {
   /// (n) standard deviations by which blocks of held-out torque are predicted worse with the
   /// findings than without; 0: they are not
   Eigen::VectorXd worse;
-  bool away_from_stiction = false;  ///< samples near reversals of joints that stick are left out
 };
 
 /// (n) The mean over blocks of the logarithm of the sum of squares with the findings over that

@@ -73,10 +73,6 @@ bool Search::look_beside(const std::vector<StictionJoint>& found) {
   const Eigen::ArrayXd left = counted_part(sets.train).array();
   if ((left < kLeastCounted * moving_.array()).any()) return false;
   if (!whole_) whole_ = Whole{std::move(sets_.train), std::move(sets_.heldout)};
-  const EquationSetOptions whole{
-      .rows = diagnosis_rows(parts_.train, decimation_), .sticking = joints, .rules = rules_};
-  away_ = Whole{away_from_stiction(whole_->train, parts_.train, whole),
-                away_from_stiction(whole_->heldout, parts_.heldout, whole)};
   seen_ = beside;
   sets_ = std::move(sets);
   count_in(sets_, work_);
@@ -85,12 +81,14 @@ bool Search::look_beside(const std::vector<StictionJoint>& found) {
 
 const EffectRecordings& Search::shown_train() const { return whole_ ? whole_->train : sets_.train; }
 
-const EffectRecordings& Search::judged_train() const {
-  return away_ ? away_->train : shown_train();
-}
-
-const EffectRecordings& Search::judged_heldout() const {
-  return away_ ? away_->heldout : shown_heldout();
+Search::Judged Search::judged() const {
+  EquationSetOptions whole{.rows = diagnosis_rows(parts_.train, decimation_), .rules = rules_};
+  EquationSetOptions own = seen_;
+  for (int joint = 0; joint < input_.model.joints(); ++joint) whole.sticking.push_back({joint});
+  own.sticking = whole.sticking;
+  return {away_from_stiction(shown_train(), parts_.train, whole),
+          away_from_stiction(shown_heldout(), parts_.heldout, whole),
+          away_from_stiction(sets_.proof, parts_.heldout, own)};
 }
 
 const EffectRecordings& Search::shown_heldout() const {

@@ -34,12 +34,14 @@ class Search {
   /// Recordings that an rms is of: all of their equations, sticks or not.
   [[nodiscard]] const EffectRecordings& shown_train() const;
   [[nodiscard]] const EffectRecordings& shown_heldout() const;
-  /// The same without stiction intervals, where friction can take any value: what a verdict is of.
-  [[nodiscard]] const EffectRecordings& judged_train() const;
-  [[nodiscard]] const EffectRecordings& judged_heldout() const;
+  /// The same, and the held-out equations (EquationSets::proof), away from the reversals of all
+  /// joints, where friction can take any value: what a verdict is of.
+  struct Judged {
+    EffectRecordings train, heldout, proof;
+  };
+  [[nodiscard]] Judged judged() const;
   /// In 1e9 multiplications.
   [[nodiscard]] double work() const { return work_->done(); }
-  [[nodiscard]] bool has_stiction() const { return away_.has_value(); }
 
  private:
   bool look_beside(const std::vector<StictionJoint>& found);
@@ -57,7 +59,7 @@ class Search {
   struct Whole {
     EffectRecordings train, heldout;
   };
-  std::optional<Whole> whole_, away_;
+  std::optional<Whole> whole_;
   std::vector<Hypothesis> hypotheses_;
   CompetitionResult result_;
 };

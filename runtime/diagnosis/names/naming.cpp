@@ -78,6 +78,32 @@ void select_from_halves(const EffectRecordings& data, EffectSignals& signals,
   for (auto& [family, rival] : rivals) rival.selected = shares[place++];
 }
 
+/// What explains more than a winner in its place explains at least the difference beside it. The
+/// winner's fit tells how much that is, also where the winner is not linear in its numbers (a long
+/// delay), so that its columns explain less than it does.
+void bound_advantages(const EffectRecordings& data, EffectSignals& signals,
+                      const std::vector<Hypothesis>& hypotheses, const CompetitionResult& result,
+                      const UnnamedRival& unnamed, const EvidenceSystem::Options& options,
+                      Naming& naming) {
+  const bool none = naming.unnamed_distance >= 0 &&
+                    std::all_of(naming.rivals.begin(), naming.rivals.end(),
+                                [](const Rival& rival) { return rival.distance >= 0; });
+  if (none) return;
+  const EvidenceSystem all =
+      system_beside(data, signals, hypotheses, result, result.fit.point, result.noise, options);
+  const auto bound = [&](double& distance, const JointColumns& columns) {
+    if (distance >= 0) return;
+    const double beside = score_of(all.products(columns, false), false).delta_chi2;
+    distance = std::max(distance, -beside);
+  };
+  bound(naming.unnamed_distance, unnamed.columns);
+  for (Rival& rival : naming.rivals) {
+    if (rival.distance >= 0) continue;
+    bound(rival.distance,
+          hypothesis_columns(data, signals, all, hypotheses[rival.hypothesis], rival.trial.effect));
+  }
+}
+
 }  // namespace
 
 double Naming::stability() const {
@@ -133,6 +159,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
     rival.distance = best - rival.distance;
     naming.rivals.push_back(std::move(rival));
   }
+  bound_advantages(data, signals, hypotheses, result, unnamed, options, naming);
   conclude(naming);
   return naming;
 }

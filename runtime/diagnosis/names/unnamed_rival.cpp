@@ -42,8 +42,8 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
     return std::find(joints.begin(), joints.end(), joint) != joints.end();
   };
   UnnamedRival best;
-  const auto consider = [&](double net, std::string what) {
-    if (net > best.net) best = {std::move(what), net};
+  const auto consider = [&](double net, std::string what, const JointColumns& columns) {
+    if (net > best.net) best = {std::move(what), net, columns};
   };
 
   std::vector<GenericStructure> structures = generic_structures(data.joints());
@@ -62,7 +62,8 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
     const JointColumns white = system.whitened(generic_columns(data, signals, structure));
     consider(net_of(structure, score_of(system.products(white, false), false), result.noise),
              fmt::format("a function of {}, which is no effect of the catalogue",
-                         fmt::join(structure.names(), " and ")));
+                         fmt::join(structure.names(), " and ")),
+             white);
   }
 
   nets.clear();
@@ -82,13 +83,16 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
         try_hypothesis(data, signals, system, hypothesis, winner.others[place].freest.effect,
                        scales.of(result.fit.point.beta, hypothesis.effect), false);
     if (trial.admissible) continue;
-    JointColumns curve = hypothesis_columns(data, signals, system, hypothesis, trial.effect);
+    const JointColumns columns =
+        hypothesis_columns(data, signals, system, hypothesis, trial.effect);
+    JointColumns curve = columns;
     for (Eigen::MatrixXd& part : curve.parts) part = part * trial.score.coefficients;
     const Imitation by_winner = imitation(system, curve, own);
     if (by_winner.left < kSameForm * by_winner.whole) continue;  // the same curve, which has a name
     consider(net_of(hypothesis, trial, result.noise),
              fmt::format("the form of {}, no name here since {}", short_name(trial.effect),
-                         trial.objection));
+                         trial.objection),
+             columns);
   }
   return best;
 }

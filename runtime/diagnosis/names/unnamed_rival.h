@@ -15,6 +15,7 @@ struct UnnamedRival {
   /// link_flexibility 2, no name here since ..."
   std::string what;
   double net = -std::numeric_limits<double>::infinity();  ///< chi-square reduction less the penalty
+  JointColumns columns{};                                 ///< whitened
 };
 
 /// Of what was strong in the winner's round, on one of its joints, what is best in its place.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "runtime/effects/effect_residual.h"
 #include "runtime/estimation/decompositions.h"
 #include "tests/runtime/effects/effect_arm.h"
 
@@ -94,6 +95,22 @@ TEST(EffectFit, TheStateAtTheBeginningIsFoundToo) {
     slip.law.evaluate(motion.dq.col(1).head(before + 1), slip.parameters, kSampleTime, state, {});
     EXPECT_NEAR(found.point.initial[run][0][0], state[0], 2e-3);
     EXPECT_GT(std::abs(state[0]), 0.01);
+  }
+}
+
+// what repeats of a motion correct (leave_as_at) stands in the torque of the equations alone
+TEST(EffectFit, AnUndoneDelayKeepsWhatEquationsHaveBesideTheRecording) {
+  const VectorXd beta = test::planar_arm_values();
+  EffectRecordings data = arm_recordings(test::measured(two_runs(), beta, {}, 0.1, 0, 5));
+  const EffectPoint point{beta, {known(test::delay_law(), -1, {0.012})}, {}};
+  const std::vector<RowBlock> recorded = without_effects(data, point);
+  for (EffectRun& run : data.runs) run.rows.tau.col(1).array() += 0.7;
+  const std::vector<RowBlock> more = without_effects(data, point);
+  for (std::size_t run = 0; run < recorded.size(); ++run) {
+    ASSERT_GT(recorded[run].counted.col(1).sum(), 100);
+    const VectorXd added = more[run].tau.col(1) - recorded[run].tau.col(1);
+    EXPECT_LT((added - 0.7 * recorded[run].counted.col(1)).cwiseAbs().maxCoeff(), 1e-12) << run;
+    EXPECT_TRUE(more[run].tau.col(0).isApprox(recorded[run].tau.col(0), 1e-12)) << run;
   }
 }
 
