@@ -187,8 +187,8 @@ class Diagnostician {
     const Eigen::ArrayXd judged = counted_part(search_.sets().proof).array();
     const Eigen::ArrayXd all = counted_part(search_.sets().heldout).array();
     answer_.heldout.visited = (all > 0).select(judged / all.max(1e-300), 0.0).matrix();
-    answer_.heldout.remarks = heldout_remarks(answer_.heldout, options_.rules.answer);
     judge_heldout(before, after);
+    answer_.heldout.remarks = heldout_remarks(answer_.heldout, judged_, options_.rules.answer);
   }
 
   /// The same away from reversals, where friction can take any value.

@@ -4,7 +4,16 @@
 #include <fmt/format.h>
 
 namespace dyngen::runtime {
-std::vector<std::string> heldout_remarks(const HeldoutResidual& rms, const AnswerRules& rules) {
+namespace {
+
+bool is_far(const HeldoutResidual& rms, Eigen::Index j, const AnswerRules& rules) {
+  return rms.after[j] > rules.heldout_far * rms.floor[j];
+}
+
+}  // namespace
+
+std::vector<std::string> heldout_remarks(const HeldoutResidual& rms, const HeldoutResidual& judged,
+                                         const AnswerRules& rules) {
   std::vector<std::string> remarks;
   for (Eigen::Index j = 0; j < rms.before.size(); ++j) {
     if (!(rms.after[j] > (1 + rules.printed_part) * rms.before[j])) continue;
@@ -17,6 +26,13 @@ std::vector<std::string> heldout_remarks(const HeldoutResidual& rms, const Answe
           100 * rms.visited[j]);
     }
     remarks.push_back(std::move(remark));
+  }
+  for (Eigen::Index j = 0; j < rms.after.size(); ++j) {
+    if (!is_far(rms, j, rules) || is_far(judged, j, rules)) continue;
+    remarks.push_back(
+        fmt::format("joint {}: most of it is near reversals, where friction can take any value; "
+                    "{:.4g} without them",
+                    j + 1, judged.after[j]));
   }
   return remarks;
 }

@@ -343,7 +343,7 @@ TEST_P(RobotTangents, AheadAreOnAParabolaForTheSignals) {
   const JointModel& joint = own.robot.model.joint(2);
   EffectInstance effect;
   effect.law.variables = {"d_q", "d_qd", "d_qdd", "d_alpha", "d_d"};
-  effect.law.parameters.push_back({.name = "error"});
+  effect.law.parameters.emplace_back().name = "error";
   effect.law.midpoint = 0;
   effect.link = 2;
   effect.joint = joint.coordinate;
