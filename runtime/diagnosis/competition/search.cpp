@@ -84,7 +84,8 @@ const EffectRecordings& Search::shown_train() const { return whole_ ? whole_->tr
 Search::Judged Search::judged() const {
   EquationSetOptions whole{.rows = diagnosis_rows(parts_.train, decimation_), .rules = rules_};
   EquationSetOptions own = seen_;
-  for (int joint = 0; joint < input_.model.joints(); ++joint) whole.sticking.push_back({joint, 0, {}});
+  for (int joint = 0; joint < input_.model.joints(); ++joint)
+    whole.sticking.push_back({joint, 0, {}});
   own.sticking = whole.sticking;
   return {away_from_stiction(shown_train(), parts_.train, whole),
           away_from_stiction(shown_heldout(), parts_.heldout, whole),
