@@ -187,21 +187,26 @@ class Diagnostician {
     const Eigen::ArrayXd judged = counted_part(search_.sets().proof).array();
     const Eigen::ArrayXd all = counted_part(search_.sets().heldout).array();
     answer_.heldout.visited = (all > 0).select(judged / all.max(1e-300), 0.0).matrix();
-    judge_heldout(before, after);
+    judge_heldout(without, with, after);
     answer_.heldout.remarks = heldout_remarks(answer_.heldout, judged_, options_.rules.answer);
   }
 
   /// The same away from reversals, where friction can take any value.
-  void judge_heldout(const EffectPoint& before, const EffectPoint& after) {
+  /// @param without, with  the findings: residuals of the held-out recordings
+  void judge_heldout(const RunResiduals& without, const RunResiduals& with,
+                     const EffectPoint& after) {
     const auto [train, heldout, proof] = search_.judged();
-    const RunResiduals without = raw_residuals(heldout, before),
-                       with = raw_residuals(heldout, after);
     judged_ = answer_.heldout;
     judged_.before = raw_rms(heldout, without);
     judged_.after = raw_rms(heldout, with);
     judged_.floor = without_nameless(
         raw_floor(train, raw_residuals(train, after), repeats_of(train)), result());
-    known_.worse = worsening(heldout, without, with);
+    known_.with_reversals = search_.seen().sticking.empty();
+    const HeldoutResidual& compared = known_.with_reversals ? answer_.heldout : judged_;
+    known_.without = compared.before;
+    known_.with = compared.after;
+    known_.worse =
+        worsening(known_.with_reversals ? search_.shown_heldout() : heldout, without, with);
     const VectorXd equations = counted_equations(proof),
                    fitted = counted_equations(search_.sets().train);
     known_.equations = whitened_squares(proof, residuals_of(proof, after), result().noise)

@@ -5,6 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "runtime/diagnosis/answer/heldout_remarks.h"
 #include "runtime/estimation/distributions.h"
@@ -31,28 +35,42 @@ bool above(double square, double expected, double ratio, double fitted, double h
          variance_ratio_tail(excess, std::max(heldout, 1.0), std::max(fitted, 1.0)) < chance;
 }
 
-/// What held-out data of a joint say against the findings; empty: nothing.
-std::string objection(const HeldoutResidual& rms, const HeldoutKnowledge& known, Index j,
-                      bool found_nothing, const std::string& unit, const AnswerRules& rules) {
-  const double floor = rms.floor[j], after = rms.after[j], before = rms.before[j];
+constexpr const char* kAway = " (without the samples near reversals)";
+
+/// How far what is left of a joint's held-out data is above the noise; empty: not far enough.
+std::string distance_from_noise(const HeldoutResidual& rms, const HeldoutKnowledge& known, Index j,
+                                const AnswerRules& rules) {
+  const double floor = rms.floor[j], after = rms.after[j];
   const double expected = 1 + std::max(known.predicted[j], 0.0);
-  const double certainly = student_interval(1 - 2 * rules.heldout_chance, kHeldoutBlocks - 1);
   const auto exceeds = [&](double square, double noise, double ratio) {
     return above(square, noise * expected, ratio, known.fitted_worth[j], known.heldout_worth[j],
                  rules.heldout_chance);
   };
-  std::vector<std::string> reasons;
   if (exceeds(after * after, floor * floor, rules.heldout_far)) {
-    reasons.push_back(fmt::format("beside a noise of {:.4g}", floor));
-  } else if (exceeds(known.equations[j], 1, rules.heldout_excess)) {
+    return fmt::format("beside a noise of {:.4g}", floor);
+  }
+  if (!exceeds(known.equations[j], 1, rules.heldout_excess)) return {};
+  return fmt::format("{:.1f} times the noise in its equations", std::sqrt(known.equations[j]));
+}
+
+/// What held-out data of a joint say against the findings.
+std::vector<std::string> objections(const HeldoutResidual& rms, const HeldoutKnowledge& known,
+                                    Index j, bool found_nothing, const std::string& unit,
+                                    const AnswerRules& rules) {
+  std::vector<std::string> reasons;
+  const std::string far = distance_from_noise(rms, known, j, rules);
+  if (!far.empty()) {
     reasons.push_back(
-        fmt::format("{:.1f} times the noise in its equations", std::sqrt(known.equations[j])));
+        fmt::format("{:.4g} {} of joint {}, {}{}", rms.after[j], unit, j + 1, far, kAway));
   }
-  if (!found_nothing && after > (1 + rules.printed_part) * before && known.worse[j] > certainly) {
-    reasons.push_back(fmt::format("{:.4g} without the findings", before));
+  const double certainly = student_interval(1 - 2 * rules.heldout_chance, kHeldoutBlocks - 1);
+  if (!found_nothing && known.with[j] > (1 + rules.printed_part) * known.without[j] &&
+      known.worse[j] > certainly) {
+    reasons.push_back(fmt::format("{:.4g} {} of joint {}, {:.4g} without the findings{}",
+                                  known.with[j], unit, j + 1, known.without[j],
+                                  known.with_reversals ? "" : kAway));
   }
-  if (reasons.empty()) return {};
-  return fmt::format("{:.4g} {} of joint {}, {}", after, unit, j + 1, fmt::join(reasons, ", "));
+  return reasons;
 }
 
 }  // namespace
@@ -93,16 +111,16 @@ std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const Heldout
   std::vector<std::string> reasons;
   bool beyond = true;  // every joint's
   for (Index j = 0; j < rms.after.size(); ++j) {
-    std::string reason = objection(rms, known, j, found_nothing, unit_of(revolute, j), rules);
-    if (reason.empty()) continue;
+    std::vector<std::string> own =
+        objections(rms, known, j, found_nothing, unit_of(revolute, j), rules);
+    if (own.empty()) continue;
     const bool extrapolated = known.predicted[j] > rules.open_parameters ||
                               (j < rms.visited.size() && rms.visited[j] < 1 - rules.printed_part);
     beyond = beyond && extrapolated;
-    reasons.push_back(std::move(reason));
+    std::move(own.begin(), own.end(), std::back_inserter(reasons));
   }
   if (reasons.empty()) return std::nullopt;
-  const std::string list =
-      fmt::format("{} (without the samples near reversals)", fmt::join(reasons, "; "));
+  const std::string list = fmt::format("{}", fmt::join(reasons, "; "));
   if (found_nothing && beyond) {
     return Conclusion{
         Verdict::kInsufficientData,

@@ -11,7 +11,8 @@
 
 namespace dyngen::runtime {
 
-/// What is known of held-out torque besides its rms, away from reversals.
+/// What is known of held-out torque besides its rms, away from reversals where nothing else is
+/// said.
 struct HeldoutKnowledge {
   /// (n) variance that the parameters' uncertainty adds to held-out torque, over that of what the
   /// fit leaves
@@ -24,6 +25,8 @@ struct HeldoutKnowledge {
   /// (n) standard deviations by which blocks of held-out torque are predicted worse with the
   /// findings than without; 0: they are not
   Eigen::VectorXd worse;
+  Eigen::VectorXd without, with;  ///< (n) rms of these samples, without and with the findings
+  bool with_reversals = false;    ///< whether reversals are in these three: where no joint sticks
 };
 
 /// (n) The mean over blocks of the logarithm of the sum of squares with the findings over that

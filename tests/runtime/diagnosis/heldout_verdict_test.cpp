@@ -14,8 +14,9 @@ using Eigen::VectorXd;
 struct Held {
   HeldoutResidual rms{VectorXd::Constant(2, 0.5), VectorXd::Constant(2, 0.1),
                       VectorXd::Constant(2, 0.1), VectorXd::Ones(2)};
-  HeldoutKnowledge known{VectorXd::Zero(2), VectorXd::Ones(2), VectorXd::Constant(2, 4000),
-                         VectorXd::Constant(2, 900), VectorXd::Zero(2)};
+  HeldoutKnowledge known{VectorXd::Zero(2),          VectorXd::Ones(2), VectorXd::Constant(2, 4000),
+                         VectorXd::Constant(2, 900), VectorXd::Zero(2), VectorXd::Constant(2, 0.5),
+                         VectorXd::Constant(2, 0.1)};
   [[nodiscard]] std::optional<Conclusion> conclusion(bool found_nothing = false) const {
     return contradicted(rms, known, found_nothing, {true, false});
   }
@@ -71,14 +72,18 @@ TEST(HeldoutVerdict, OpenParametersMayMoveIt) {
 
 TEST(HeldoutVerdict, FindingsThatMakeItWorseAreNotExplained) {
   Held held;
-  held.rms.before[0] = 0.09;
+  held.known.without[0] = 0.09;
   held.known.worse[0] = 10;
   const auto conclusion = held.conclusion();
   ASSERT_TRUE(conclusion);
   EXPECT_EQ(conclusion->sentence,
             "Effects were found, but held-out torque is not predicted: 0.1 N m of joint 1, 0.09 "
             "without the findings (without the samples near reversals).");
-  held.rms.before[0] = 0.099;  // 1 %: the digits that are printed are the same
+  held.known.with_reversals = true;
+  EXPECT_EQ(held.conclusion()->sentence,
+            "Effects were found, but held-out torque is not predicted: 0.1 N m of joint 1, 0.09 "
+            "without the findings.");
+  held.known.without[0] = 0.099;  // 1 %: the digits that are printed are the same
   EXPECT_FALSE(held.conclusion());
 }
 
