@@ -4,10 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "gen/tool/output_files.h"
 #include "runtime/diagnosis/equation_sets/equation_sets.h"
 #include "tests/baselines/baselines.h"
 #include "tests/blind/dynid/case_input.h"
@@ -34,15 +33,6 @@ std::string json_of(const std::vector<BaselineResult>& all) {
   return nlohmann::json{{"schema", "blind.baselines/1"}, {"baselines", baselines}}.dump(1) + "\n";
 }
 
-void write(const std::string& path, const std::string& text) {
-  const std::string unfinished = path + ".part";
-  std::ofstream file(unfinished);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path);
-  std::filesystem::rename(unfinished, path);
-}
-
 }  // namespace
 }  // namespace dyngen::test
 
@@ -58,8 +48,8 @@ int main(int argc, char** argv) {
   app.add_option("--json", json, "the answer")->required();
   CLI11_PARSE(app, argc, argv);
   try {
-    dyngen::test::write(json, dyngen::test::json_of(
-                                  dyngen::test::results(blind::case_input(robot, train, heldout))));
+    const auto input = blind::case_input(robot, train, heldout);
+    dyngen::write_files({{json, dyngen::test::json_of(dyngen::test::results(input))}});
   } catch (const std::exception& error) {
     fmt::print(stderr, "blind_baselines: {}\n", error.what());
     return 1;

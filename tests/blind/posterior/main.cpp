@@ -7,20 +7,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "gen/tool/output_files.h"
 #include "runtime/diagnosis/competition/search.h"
 #include "runtime/diagnosis/diagnosis.h"
 #include "runtime/diagnosis/posterior/effect_posterior.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
 #include "tests/blind/dynid/case_input.h"
+#include "tests/blind/dynid/competed.h"
 
 namespace blind {
 namespace {
@@ -93,13 +92,8 @@ Candidates candidates_of(const Search& search, EffectSignals& signals,
 }
 
 Json answer_of(const DiagnosisInput& input) {
-  const DiagnosisOptions defaults;
-  Search search(input, defaults.decimation);
-  CompetitionOptions options;
-  options.false_alarm = defaults.false_alarm;
-  options.most_winners = defaults.most_findings;
-  options.seed = defaults.seed;
-  search.compete(options, {});  // where joints stick, and the noise
+  Search search(input, DiagnosisOptions().decimation);
+  compete_by_default(search);  // where joints stick, and the noise
   CompetitionResult alone = search.result();
   alone.winners.clear();
   alone.nameless.clear();
@@ -143,15 +137,6 @@ Json answer_of(const DiagnosisInput& input) {
           {"candidates", candidates.all.size()}};
 }
 
-void write(const std::string& path, const std::string& text) {
-  const std::string unfinished = path + ".part";
-  std::ofstream file(unfinished);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path);
-  std::filesystem::rename(unfinished, path);
-}
-
 }  // namespace
 }  // namespace blind
 
@@ -166,7 +151,8 @@ int main(int argc, char** argv) {
   app.add_option("--json", json, "the answer")->required();
   CLI11_PARSE(app, argc, argv);
   try {
-    blind::write(json, blind::answer_of(blind::case_input(robot, train, heldout)).dump(1) + "\n");
+    const auto input = blind::case_input(robot, train, heldout);
+    dyngen::write_files({{json, blind::answer_of(input).dump(1) + "\n"}});
   } catch (const std::exception& error) {
     fmt::print(stderr, "blind_posterior: {}\n", error.what());
     return 1;

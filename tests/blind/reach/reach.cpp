@@ -8,6 +8,7 @@
 #include "runtime/diagnosis/competition/search.h"
 #include "runtime/diagnosis/diagnosis.h"
 #include "runtime/diagnosis/scans/repeat_scan.h"
+#include "tests/blind/dynid/competed.h"
 
 namespace blind {
 namespace {
@@ -64,11 +65,7 @@ double repeating_part(const EffectRecordings& data, const EvidenceSystem& system
 Reach reach_of(const DiagnosisInput& input, std::vector<MotionSource> without) {
   const DiagnosisOptions defaults;
   Search search(input, defaults.decimation);
-  CompetitionOptions options;
-  options.false_alarm = defaults.false_alarm;
-  options.most_winners = defaults.most_findings;
-  options.seed = defaults.seed;
-  search.compete(options, {});
+  compete_by_default(search);
   const Division parts{std::move(without), search.parts().heldout};
   const EquationSets bare = equation_sets_of(input, parts, search.seen());
   const EquationSets& sets = search.sets();
