@@ -229,7 +229,7 @@ class Diagnostician {
       std::vector<EffectInstance> others = effects;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
       EffectFitOptions settings;
-      if (result().noise.from_periods) settings.noise = result().noise.known();
+      if (result().noise.free_of_structure()) settings.noise = result().noise.known();
       const EffectFit fit = fit_effects(search_.sets().train, others, settings);
       without_one[i] = raw_rms(heldout, raw_residuals(heldout, from_rest(fit.point)));
     };

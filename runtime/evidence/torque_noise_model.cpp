@@ -76,15 +76,27 @@ RunResiduals simulated(const EffectRecordings& data, const std::vector<Autoregre
 /// What a fit of the model takes of residuals, joints weighted by their noise.
 class FittedPart {
  public:
-  FittedPart(const EffectRecordings& data, const std::vector<AutoregressiveNoise>& joints)
+  /// @param largest  columns beside the model, by joint; may be empty
+  FittedPart(const EffectRecordings& data, const std::vector<AutoregressiveNoise>& joints,
+             const std::vector<JointColumns>& largest)
       : weights_(data.joints()) {
     for (Index j = 0; j < weights_.size(); ++j) {
       weights_[j] = 1 / joints[static_cast<std::size_t>(j)].deviation;
     }
     const Index size = data.model.size();
-    MatrixXd W = MatrixXd::Zero(data.equations() * data.joints(), size);
-    Index start = 0;
+    Index columns = size;
+    for (const JointColumns& own : largest) columns += own.columns();
+    MatrixXd W = MatrixXd::Zero(data.equations() * data.joints(), columns);
+    Index start = 0, first = 0;  // of a run's rows in all, and in those of one joint
     for (const EffectRun& run : data.runs) {
+      Index column = size;
+      for (const JointColumns& own : largest) {
+        const Index j = own.joints.front(), rows = run.rows.Y.rows();
+        W.block(start + j * rows, column, rows, own.columns()) =
+            weights_[j] * own.parts.front().middleRows(first, rows);
+        column += own.columns();
+      }
+      first += run.rows.Y.rows();
       for (Index j = 0; j < data.joints(); ++j) {
         for (const int c : data.model.columns[static_cast<std::size_t>(j)]) {
           W.col(c).segment(start, run.rows.Y.rows()) =
@@ -124,8 +136,9 @@ class FittedPart {
 /// Processes whose noise, behind a fit, has the autocovariances that were observed.
 std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
                                                 const OfJoints& observed,
-                                                std::vector<AutoregressiveNoise> joints) {
-  const FittedPart fit(data, joints);
+                                                std::vector<AutoregressiveNoise> joints,
+                                                const std::vector<JointColumns>& largest) {
+  const FittedPart fit(data, joints, largest);
   std::vector<VectorXd> left;  // autocovariances
   for (const LagProducts& joint : observed) left.push_back(joint.covariance());
   std::mt19937_64 random(kNoiseSeed);
@@ -144,6 +157,14 @@ std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
       const double samples = std::max(1.0, observed[j].samples());
       joints[j] = fit_autoregression(left[j] + taken[j], samples);
     }
+  }
+  return joints;
+}
+
+std::vector<AutoregressiveNoise> processes_of(const OfJoints& all) {
+  std::vector<AutoregressiveNoise> joints;
+  for (const LagProducts& products : all) {
+    joints.push_back(fit_autoregression(products.covariance(), std::max(products.samples(), 1.0)));
   }
   return joints;
 }
@@ -223,7 +244,8 @@ KnownNoise TorqueNoiseModel::known() const {
 
 TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResiduals& residuals,
                                     const std::vector<double>& repeats, bool fitted,
-                                    const NoiseRules& rules) {
+                                    const NoiseRules& rules,
+                                    const std::vector<JointColumns>& largest) {
   TorqueNoiseModel model;
   const OfJoints all = lag_products(data, residuals);
   std::vector<PeriodDifferences> repeated(all.size(), PeriodDifferences(rules));
@@ -255,13 +277,20 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
   }
   model.of_recordings = model.of_recordings && model.from_periods;
   if (!model.from_periods) {
-    std::vector<AutoregressiveNoise> joints;
-    for (const LagProducts& products : all) {
-      joints.push_back(
-          fit_autoregression(products.covariance(), std::max(products.samples(), 1.0)));
-    }
+    std::vector<AutoregressiveNoise> joints = processes_of(all);
     refuse_no_noise(quick_noise(joints));
-    if (fitted) joints = before_the_fit(data, all, std::move(joints));
+    if (largest.empty()) {
+      if (fitted) joints = before_the_fit(data, all, std::move(joints), largest);
+    } else {
+      RunResiduals left = residuals;
+      FittedPart(data, joints, largest).take_out_of(left);
+      const OfJoints beside = lag_products(data, left);
+      joints = before_the_fit(data, beside, processes_of(beside), largest);
+      for (const JointColumns& own : largest) {
+        samples[static_cast<std::size_t>(own.joints.front())] -= static_cast<double>(own.columns());
+      }
+      model.beside_largest = true;
+    }
     model.joints = quick_noise(joints);
     know_by(model, samples, 0);
   }

@@ -6,6 +6,7 @@
 
 #include "runtime/effects/effect_recordings.h"
 #include "runtime/estimation/joint_noise.h"
+#include "runtime/evidence/joint_columns.h"
 #include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
@@ -22,6 +23,11 @@ struct TorqueNoiseModel {
   Eigen::VectorXd correlation_time;
   /// The periods are recordings of one motion, of which none repeats in itself.
   bool of_recordings = false;
+  /// From what the largest model leaves: free of all that depends smoothly on the state.
+  bool beside_largest = false;
+
+  /// Whether it is free of what a model leaves out.
+  [[nodiscard]] bool free_of_structure() const { return from_periods || beside_largest; }
 
   /// As intervals are told by it.
   [[nodiscard]] KnownNoise known() const;
@@ -45,9 +51,12 @@ using RunResiduals = std::vector<Eigen::MatrixXd>;
 /// 1993).
 /// @param repeats   of repeats_of()
 /// @param fitted    whether the model's parameters were fitted to these recordings
+/// @param largest   columns beside the model, by joint: where nothing repeats, the noise is what they
+///                  leave too
 /// @throws std::invalid_argument  if the residual of a joint is 0
 TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResiduals& residuals,
                                     const std::vector<double>& repeats, bool fitted,
-                                    const NoiseRules& rules = {});
+                                    const NoiseRules& rules = {},
+                                    const std::vector<JointColumns>& largest = {});
 
 }  // namespace dyngen::runtime

@@ -145,7 +145,7 @@ std::vector<Finding> found_effects(Search& search, const CompetitionOptions& opt
   const std::vector<EffectInstance> effects = result.fit.point.effects;
   EffectFitOptions settings;
   // where motions repeat it is free of what the model leaves out, and has slow parts
-  if (result.noise.from_periods) settings.noise = result.noise.known();
+  if (result.noise.free_of_structure()) settings.noise = result.noise.known();
   result.fit = fit_effects(search.sets().train, effects, settings);
   EffectSignals signals(search.sets().evidence());
   EvidenceSystem::Options system;

@@ -16,6 +16,7 @@
 #include "runtime/diagnosis/competition/stiction_impulses.h"
 #include "runtime/diagnosis/competition/within_rounding.h"
 #include "runtime/diagnosis/scans/in_parallel.h"
+#include "runtime/diagnosis/scans/largest_model.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -67,7 +68,7 @@ class Competition {
       result_.last = screening;
       if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
       if (exhausted("further effects")) break;
-      const bool found = result_.noise.from_periods
+      const bool found = result_.noise.free_of_structure()
                              ? next_winner(system, screening) || next_pair(system, screening) ||
                                    take(nameless_.next(system, screening))
                              : next_likely(system, screening);
@@ -112,15 +113,24 @@ class Competition {
 
   void measure_noise() {
     const RunResiduals residuals = residuals_of(data_.fit, result_.fit.point);
-    result_.noise = torque_noise_model(data_.fit, residuals, repeats_, options_.with_regressor,
-                                       options_.rules.noise);
-    if (result_.noise.from_periods || result_.nameless.empty()) return;
-    // noise is what the model leaves: structure that was found is none of it
+    const auto noise_of = [&](const RunResiduals& left, const std::vector<JointColumns>& largest) {
+      return torque_noise_model(data_.fit, left, repeats_, options_.with_regressor,
+                                options_.rules.noise, largest);
+    };
+    result_.noise = noise_of(residuals, {});
+    if (result_.noise.from_periods) return;
     EffectSignals signals(data_.fit);
-    const EvidenceSystem white =
-        beside_white_noise(data_.fit, signals, sought_.hypotheses, result_, system_options());
-    result_.noise = torque_noise_model(data_.fit, rests_of(data_.fit, white, result_.fit.rms),
-                                       repeats_, options_.with_regressor, options_.rules.noise);
+    signals.set_beta(result_.fit.point.beta);
+    const std::vector<JointColumns> largest =
+        largest_model(data_.fit, signals, options_.rules.equations);
+    if (!largest.empty()) {
+      result_.noise = noise_of(residuals, largest);
+    } else if (!result_.nameless.empty()) {
+      // noise is what the model leaves: structure that was found is none of it
+      const EvidenceSystem white =
+          beside_white_noise(data_.fit, signals, sought_.hypotheses, result_, system_options());
+      result_.noise = noise_of(rests_of(data_.fit, white, result_.fit.rms), {});
+    }
   }
 
   [[nodiscard]] EvidenceSystem::Options system_options() const {
@@ -134,7 +144,7 @@ class Competition {
   /// Whether it is asked at once which joints rest, before any effect is looked at.
   [[nodiscard]] bool asks_for_stiction() const {
     // where nothing repeats, what sticks leave is taken for noise, in which nothing is seen
-    return options_.until_stiction && (options_.sticks || !result_.noise.from_periods);
+    return options_.until_stiction && (options_.sticks || !result_.noise.free_of_structure());
   }
 
   /// Structures alone, and which joints rest by them.

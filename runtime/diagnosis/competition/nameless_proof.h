@@ -10,7 +10,8 @@
 namespace dyngen::runtime {
 
 /// Whether held-out recordings can speak of structure without a name: of a function of the motion,
-/// and of a wave; not of what depends on time or comes back in a period of its own.
+/// of a wave, of a sinusoid that goes on by itself, and of an effect that a condition rules out;
+/// not of what depends on time or comes back in a period of its own.
 bool is_provable(const Nameless& nameless);
 
 /// What they say of it, with the functions and the size that it has in the fitted ones: squares of

@@ -93,8 +93,8 @@ std::optional<Nameless> NamelessSearch::next_likely(const ModelSide& plain) cons
 }
 
 bool NamelessSearch::sure(const Screening& screening, double surprise) const {
-  // where no motion repeats, noise has much of the structure in it: the p-value is too large anyway
-  const double caution = result_.noise.from_periods ? kUnheldCaution : 1;
+  // noise of the residual has much of the structure in it: the p-value is too large anyway
+  const double caution = result_.noise.free_of_structure() ? kUnheldCaution : 1;
   return screening.family_wise(surprise) <= caution * false_alarm_;
 }
 

@@ -40,10 +40,13 @@ std::string sticks(const std::vector<StictionJoint>& joints, const std::vector<M
 std::string noise_sentence(const TorqueNoiseModel& noise, const std::vector<MotionSource>& train,
                            const std::vector<StictionJoint>& left_out,
                            const std::vector<StictionJoint>& impulses) {
-  return (noise.of_recordings  ? "from the differences between recordings of the same motion"
-          : noise.from_periods ? "from the differences between periods of the same motion"
-                               : "from the residual of the last model, since no motion repeats: an "
-                                 "upper bound of the noise") +
+  return (noise.of_recordings    ? "from the differences between recordings of the same motion"
+          : noise.from_periods   ? "from the differences between periods of the same motion"
+          : noise.beside_largest ? "from what smooth functions of the joints' states leave too, "
+                                   "since no motion repeats"
+                                 : "from the residual of the last model, since no motion repeats: "
+                                   "an upper bound of the "
+                                   "noise") +
          sticks(left_out, train, "these equations are excluded") +
          sticks(impulses, train, "an impulse at each reversal is excluded");
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "runtime/diagnosis/competition/half_band_test.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
@@ -98,6 +99,55 @@ TEST(NamelessProof, WhatNoiseGaveSeldomHelps) {
   EXPECT_LE(helped, 9);
 }
 
+constexpr double kHertz = 7.3;
+
+/// A sinusoid on joint 2 that goes on by itself.
+EffectInstance line_of(double size, double phase) {
+  const EffectLaw law =
+      test::algebraic_law("foreign", {"t"}, {{"a", EffectRole::kLinear, -10, 10, 0, 1}},
+                          [phase](const VectorXd& v, const VectorXd& p) {
+                            return p[0] * std::sin(2 * std::numbers::pi * kHertz * v[0] + phase);
+                          });
+  return test::known(law, 1, {size});
+}
+
+/// Fitted recordings with such a sinusoid, and held-out ones with another size and phase of it.
+HeldoutProof proof_of_line(double fitted, double heldout, unsigned seed) {
+  const EffectRecordings train =
+      test::arm_recordings(test::two_recordings({line_of(fitted, 0.7 * seed)}, seed));
+  const EffectRecordings other = heldout_recordings({line_of(heldout, 1.9 * seed)}, seed + 1000);
+  EffectSignals signals(train);
+  Nameless nameless;
+  nameless.structure = {1, {}, Form::kLine};
+  nameless.structure.frequency[0] = kHertz;
+  const EvidenceSystem system = test::arm_system(train);
+  nameless.score = score_of(
+      system.products(system.whitened(generic_columns(train, signals, nameless.structure)), false),
+      false);
+  CompetitionResult result;
+  result.fit.point.beta = test::planar_arm_values();
+  HalfBandTest half_band(train);
+  const CompetitionData data{train, signals, train, half_band, other};
+  return nameless_proof(data, {}, result, test::arm_noise(), nameless, {});
+}
+
+/// A sinusoid that goes on by itself does so in held-out recordings, in any phase.
+TEST(NamelessProof, ALineIsInHeldOutRecordingsToo) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const HeldoutProof there = proof_of_line(0.02, 0.02, seed);
+    EXPECT_TRUE(there.informs()) << seed;
+    EXPECT_TRUE(is_supported(there, false)) << seed;
+    EXPECT_TRUE(is_supported(there, true)) << seed;
+  }
+  int helped = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const HeldoutProof gone = proof_of_line(0.02, 0, seed);
+    EXPECT_TRUE(gone.informs()) << seed;
+    helped += gone.helps();
+  }
+  EXPECT_LE(helped, 3);  // 5 % of noise: more than 6 of chi-square with 2 degrees
+}
+
 TEST(NamelessProof, IsOfWhatBelongsToTheMotion) {
   Nameless nameless;
   const auto provable = [&](GenericStructure structure) {
@@ -108,7 +158,7 @@ TEST(NamelessProof, IsOfWhatBelongsToTheMotion) {
   EXPECT_TRUE(provable({0, {{Kind::kLoad, 0}}, Form::kFriction}));
   EXPECT_TRUE(provable({0, {{Kind::kPosition, 0}, {Kind::kPosition, 1}}, Form::kWave}));
   EXPECT_FALSE(provable({0, {{Kind::kTime, -1}}, Form::kFunction}));
-  EXPECT_FALSE(provable({0, {}, Form::kLine}));
+  EXPECT_TRUE(provable({0, {}, Form::kLine}));
   EXPECT_FALSE(provable({0, {}, Form::kRepeats}));
   EXPECT_FALSE(provable({0, {}, Form::kImpulses}));
 }
