@@ -160,7 +160,7 @@ std::vector<JointNoise> noise_of_periods(const std::vector<PeriodDifferences>& j
   std::vector<JointDifferences> without = differences;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     std::optional<CommonCourse> course = joints[j].common_course();
-    if (!course || chi_square(*course, noise[j]) < rules.course_candidate) continue;
+    if (!course) continue;
     without[j] = course->without;
     drifting.push_back(j);
     courses.push_back(std::move(*course));

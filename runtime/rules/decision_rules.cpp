@@ -10,7 +10,7 @@ void each(Rules& rules, const Visit& visit) {
   auto& noise = rules.noise;
   for (auto* rule : {&noise.least_independent, &noise.line_transmission, &noise.slow_part_price,
                      &noise.density_ratio, &noise.density_floor, &noise.likelihood_loss,
-                     &noise.course_runs, &noise.course_candidate, &noise.course_chi_square}) {
+                     &noise.course_runs, &noise.course_chi_square}) {
     visit(*rule);
   }
   auto& equations = rules.equations;

@@ -49,11 +49,6 @@ struct NoiseRules {
       3, "noise.course_runs", "1",
       "Runs from which a drift common to all of them can be told from their noise.",
       "two runs cannot outvote one another"};
-  DecisionRule course_candidate{
-      5, "noise.course_candidate", "1",
-      "Chi-square of the common drift (4 degrees) beside noise that contains it, from which it is "
-      "looked at.",
-      "the median of 4 degrees is 3.4"};
   DecisionRule course_chi_square{
       25, "noise.course_chi_square", "1",
       "Chi-square of the common drift (4 degrees) beside noise without it, above which it is no "

@@ -131,6 +131,7 @@ Found found(const Search& search, std::size_t place, const Naming& naming, Effec
     finding.tests.push_back({remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound",
                              false, remark.text, true});
   }
+  finding.uncertain = finding.probability < rules.probable;
   finding.why = why(finding, naming);
   return {std::move(finding), std::move(where)};
 }

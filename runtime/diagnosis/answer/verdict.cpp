@@ -29,7 +29,7 @@ std::string explanation(const std::vector<Finding>& findings, double probable) {
   const auto changes = std::count_if(findings.begin(), findings.end(),
                                      [](const Finding& own) { return own.since_reference; });
   const auto uncertain = std::count_if(findings.begin(), findings.end(), [&](const Finding& own) {
-    return !own.since_reference && own.probability < probable;
+    return !own.since_reference && own.uncertain;
   });
   const auto effects = static_cast<std::ptrdiff_t>(findings.size()) - changes - uncertain;
   std::string text;
@@ -83,6 +83,11 @@ Conclusion concluded(const Search& search, const std::vector<Finding>& findings,
   const bool doubted = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
     return !finding.since_reference && finding.doubted;
   });
+  // no other name is as good as an uncertain one: what is as good has none
+  const bool without_name =
+      std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+        return !finding.since_reference && finding.uncertain && finding.aliases.size() <= 1;
+      });
   if (open) {
     return {Verdict::kUnexplainedStructure,
             findings.empty() ? "There is structure that no effect of the catalogue explains."
@@ -93,6 +98,11 @@ Conclusion concluded(const Search& search, const std::vector<Finding>& findings,
     return {Verdict::kUnexplainedStructure,
             "There is structure beside the model; the effect that is nearest to it has a condition "
             "against it."};
+  }
+  if (without_name) {
+    return {Verdict::kUnexplainedStructure,
+            explanation(findings, rules.probable) +
+                " Structure without a name explains as much as an uncertain one."};
   }
   if (!findings.empty()) return {Verdict::kExplained, explanation(findings, rules.probable)};
   return {Verdict::kClean, "Nothing above the noise: the model explains these recordings."};

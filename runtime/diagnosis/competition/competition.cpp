@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/competition/competition.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -66,7 +68,11 @@ class Competition {
       Screening screening = screen_beside(system, round == 0, structure);
       if (round == 0) result_.first = screening;
       result_.last = screening;
-      if (static_cast<int>(result_.winners.size()) >= options_.most_winners) break;
+      if (static_cast<int>(result_.winners.size()) >= options_.most_winners) {
+        result_.cut_off.push_back(
+            fmt::format("effects beyond the first {}", options_.most_winners));
+        break;
+      }
       if (exhausted("further effects")) break;
       const bool found = result_.noise.free_of_structure()
                              ? next_winner(system, screening) || next_pair(system, screening) ||
@@ -121,9 +127,15 @@ class Competition {
     if (result_.noise.from_periods) return;
     EffectSignals signals(data_.fit);
     signals.set_beta(result_.fit.point.beta);
-    const std::vector<JointColumns> largest =
-        largest_model(data_.fit, signals, options_.rules.equations);
+    std::vector<JointColumns> largest = largest_model(data_.fit, signals, options_.rules.equations);
     if (!largest.empty()) {
+      // structure that was found without a name is no noise either
+      for (const Nameless& nameless : result_.nameless) {
+        const JointColumns own = nameless_columns(data_.fit, signals, nameless);
+        for (std::size_t i = 0; i < own.joints.size(); ++i) {
+          largest.push_back(columns_of_joint(own.joints[i], own.parts[i]));
+        }
+      }
       result_.noise = noise_of(residuals, largest);
     } else if (!result_.nameless.empty()) {
       // noise is what the model leaves: structure that was found is none of it

@@ -24,8 +24,7 @@ double counted_of(const EffectRecordings& data, int joint) {
 /// A sinusoid that goes on by itself has a phase of its own in held-out recordings too: its
 /// chi-square there is as much as it has in as many fitted equations. By Akaike (1974) its cosine
 /// and sine of each run cost twice their number.
-HeldoutProof line_proof(const CompetitionData& data, const Nameless& nameless,
-                        const Products& products) {
+HeldoutProof line_proof(const ProofData& data, const Nameless& nameless, const Products& products) {
   const int joint = nameless.structure.joint;
   const Score there = score_of(products, false);
   HeldoutProof proof;
@@ -34,6 +33,26 @@ HeldoutProof line_proof(const CompetitionData& data, const Nameless& nameless,
   proof.change = std::max(0.0, nameless.score.delta_chi2 - nameless.score.degrees) * part;
   proof.before = there.delta_chi2;
   proof.after = 2.0 * there.degrees;
+  return proof;
+}
+
+/// The model and what was found, on the held-out recordings.
+EvidenceSystem heldout_system(const ProofData& data, EffectSignals& signals,
+                              const std::vector<Hypothesis>& hypotheses,
+                              const CompetitionResult& result, const TorqueNoiseModel& noise,
+                              EvidenceSystem::Options options) {
+  options.surrogates = 0;
+  EffectPoint point = result.fit.point;
+  point.initial.clear();
+  return system_beside(data.heldout, signals, hypotheses, result, point, noise, options);
+}
+
+/// @param size  of the columns
+HeldoutProof proof_of_size(const Products& products, const VectorXd& size) {
+  HeldoutProof proof;
+  proof.change = size.dot(products.left * size);
+  proof.before = 2 * size.dot(products.rest);  // more than what it does not change
+  proof.after = proof.change;
   return proof;
 }
 
@@ -50,34 +69,32 @@ bool is_provable(const Nameless& nameless) {
                       });
 }
 
-HeldoutProof nameless_proof(const CompetitionData& data, const std::vector<Hypothesis>& hypotheses,
+HeldoutProof nameless_proof(const ProofData& data, const std::vector<Hypothesis>& hypotheses,
                             const CompetitionResult& result, const TorqueNoiseModel& noise,
                             const Nameless& nameless, EvidenceSystem::Options options) {
-  options.surrogates = 0;
-  EffectPoint point = result.fit.point;
-  point.initial.clear();
   EffectSignals own(data.heldout);
-  const EvidenceSystem system =
-      system_beside(data.heldout, own, hypotheses, result, point, noise, options);
-  const auto products = [&](const JointColumns& columns) {
-    return system.products(system.whitened(columns), false);
-  };
-  if (!nameless.ruled_out && nameless.structure.form == Form::kLine) {
-    return line_proof(data, nameless, products(nameless_columns(data.heldout, own, nameless)));
-  }
-  const Products there =
-      nameless.ruled_out ? products(nameless_columns(data.heldout, own, nameless))
-                         : products(generic_columns(
-                               data.heldout, own, nameless.structure,
-                               structure_knots(data.evidence, data.signals, nameless.structure)));
-  const VectorXd& size = nameless.score.coefficients;
-  HeldoutProof proof;
-  proof.change = size.dot(there.left * size);
-  proof.before = 2 * size.dot(there.rest);  // more than what it does not change
-  proof.after = proof.change;
+  const EvidenceSystem system = heldout_system(data, own, hypotheses, result, noise, options);
+  const bool is_line = !nameless.ruled_out && nameless.structure.form == Form::kLine;
+  const JointColumns columns =
+      nameless.ruled_out || is_line
+          ? nameless_columns(data.heldout, own, nameless)
+          : generic_columns(data.heldout, own, nameless.structure,
+                            structure_knots(data.evidence, data.signals, nameless.structure));
+  const Products products = system.products(system.whitened(columns), false);
+  if (is_line) return line_proof(data, nameless, products);
+  HeldoutProof proof = proof_of_size(products, nameless.score.coefficients);
   proof.parameters = nameless.score.degrees;
   proof.fitted = nameless.score.delta_chi2;
   return proof;
+}
+
+HeldoutProof effect_proof(const ProofData& data, const std::vector<Hypothesis>& hypotheses,
+                          const CompetitionResult& result, const TorqueNoiseModel& noise,
+                          const EffectInstance& effect, EvidenceSystem::Options options) {
+  EffectSignals own(data.heldout);
+  const EvidenceSystem system = heldout_system(data, own, hypotheses, result, noise, options);
+  const JointColumns torque = effect_columns(data.heldout, own, effect, {0});
+  return proof_of_size(system.products(system.whitened(torque), false), VectorXd::Ones(1));
 }
 
 bool is_supported(const HeldoutProof& proof, bool beyond_doubt) {

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "runtime/diagnosis/competition/competition_data.h"
 #include "runtime/diagnosis/competition/competition_result.h"
 #include "runtime/diagnosis/competition/heldout.h"
 
@@ -14,12 +13,24 @@ namespace dyngen::runtime {
 /// not of what depends on time or comes back in a period of its own.
 bool is_provable(const Nameless& nameless);
 
+/// The recordings of a proof. All of them outlive it.
+struct ProofData {
+  const EffectRecordings& evidence;  ///< that the size is from
+  EffectSignals& signals;            ///< of these
+  const EffectRecordings& heldout;
+};
+
 /// What they say of it, with the functions and the size that it has in the fitted ones: squares of
 /// what a refit of the model, and of all else that was found, leaves of them.
 /// @param noise  of the torque, which need not be that of the result
-HeldoutProof nameless_proof(const CompetitionData& data, const std::vector<Hypothesis>& hypotheses,
+HeldoutProof nameless_proof(const ProofData& data, const std::vector<Hypothesis>& hypotheses,
                             const CompetitionResult& result, const TorqueNoiseModel& noise,
                             const Nameless& nameless, EvidenceSystem::Options options);
+
+/// The same of an effect with its estimated parameters, beside a result that lacks it.
+HeldoutProof effect_proof(const ProofData& data, const std::vector<Hypothesis>& hypotheses,
+                          const CompetitionResult& result, const TorqueNoiseModel& noise,
+                          const EffectInstance& effect, EvidenceSystem::Options options);
 
 /// Whether that is enough to say it. They have to have it too; of what is beyond doubt in the
 /// fitted ones they must not speak against it. A form without a name is a sketch: where they have

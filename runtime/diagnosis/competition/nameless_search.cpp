@@ -15,6 +15,7 @@ namespace dyngen::runtime {
 namespace {
 
 using Eigen::VectorXd;
+using Form = GenericStructure::Form;
 
 constexpr double kUnheldCaution = 0.01;  // of the false alarms: nothing held out speaks for it
 constexpr std::ptrdiff_t kCandidates = 4;
@@ -28,10 +29,12 @@ std::vector<const GenericResult*> NamelessSearch::candidates(const Screening& sc
   std::vector<const GenericResult*> strongest;
   for (const GenericResult& generic : screening.generic) {
     const GenericStructure& structure = sought_.structures[generic.structure];
-    const bool known =
-        structure.form == GenericStructure::Form::kImpulses && stiction_.sticks(structure.joint);
+    const bool known = structure.form == Form::kImpulses && stiction_.sticks(structure.joint);
+    // where nothing repeats, what depends on time alone is noise
+    const bool of_time = !result_.noise.from_periods && structure.form == Form::kFunction &&
+                         structure.variables.front().kind == StructureVariable::Kind::kTime;
     const double squares = generic.score.delta_chi2 - generic.score.degrees;
-    if (known || squares < stiction_.unseen_on({structure.joint})) continue;
+    if (known || of_time || squares < stiction_.unseen_on({structure.joint})) continue;
     if (screening.family_wise(generic.surprise) <= false_alarm_) strongest.push_back(&generic);
   }
   std::stable_sort(strongest.begin(), strongest.end(),
@@ -193,7 +196,8 @@ Nameless NamelessSearch::nameless_of(const GenericResult& generic,
 bool NamelessSearch::is_proved(const Nameless& nameless, const TorqueNoiseModel& noise,
                                bool needs_proof) const {
   if (!is_provable(nameless)) return !needs_proof;
-  return is_supported(nameless_proof(data_, sought_.hypotheses, result_, noise, nameless, options_),
+  const ProofData data{data_.evidence, data_.signals, data_.heldout};
+  return is_supported(nameless_proof(data, sought_.hypotheses, result_, noise, nameless, options_),
                       !needs_proof);
 }
 

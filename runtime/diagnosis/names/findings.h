@@ -59,6 +59,7 @@ struct Finding {
   std::string elsewhere;
   std::string unnamed;     ///< what has no name and is not told apart either; empty: nothing
   double probability = 0;  ///< that the family is right, 0 .. 1
+  bool uncertain = false;  ///< a probability below AnswerRules::probable: listed apart
   /// A change since the reference recordings: part of the model's own parameters, no row of
   /// effects.
   bool since_reference = false;

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "runtime/diagnosis/competition/heldout.h"
+#include "runtime/diagnosis/competition/nameless_proof.h"
 #include "runtime/diagnosis/competition/sandwich_test.h"
 #include "runtime/diagnosis/competition/tie_rule.h"
 #include "runtime/diagnosis/names/rivals.h"
@@ -154,6 +156,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   UnnamedRival unnamed =
       unnamed_rival(data, signals, hypotheses, result, own, rivals.own.effect, system);
   naming.unnamed = std::move(unnamed.what);
+  naming.unnamed_form = std::move(unnamed.form);
   naming.unnamed_distance = best - unnamed.net;
   for (auto& [other, rival] : best_of) {
     rival.distance = best - rival.distance;
@@ -193,6 +196,11 @@ class Places {
       settle(winner, naming);
       conclude(naming);
     }
+    if (naming.unnamed_distance < kApart && !unnamed_predicts_better(winner, naming)) {
+      naming.unnamed.clear();
+      naming.unnamed_distance = std::numeric_limits<double>::infinity();
+      conclude(naming);
+    }
     return naming;
   }
 
@@ -221,6 +229,23 @@ class Places {
           heldout_gain(data_.heldout, result_.noise, result_.fit.point, challenge.fit->point);
     }
     return challenge;
+  }
+
+  /// Whether held-out recordings say more for what has no name, in a winner's place, than for the
+  /// winner; also where they cannot speak of it.
+  [[nodiscard]] bool unnamed_predicts_better(std::size_t winner, const Naming& naming) {
+    const Nameless& unnamed = naming.unnamed_form;
+    const Hypothesis& hypothesis = data_.hypotheses[result_.winners[winner].hypothesis];
+    if (hypothesis.windowed || !is_provable(unnamed)) return true;
+    CompetitionResult rest = result_;
+    rest.winners.erase(rest.winners.begin() + static_cast<std::ptrdiff_t>(winner));
+    rest.fit.point = without(rest.fit.point, winner);
+    const ProofData recordings{data_.evidence, signals_, data_.heldout};
+    const auto gain = [](const HeldoutProof& proof) { return proof.before - proof.after; };
+    return gain(nameless_proof(recordings, data_.hypotheses, rest, rest.noise, unnamed,
+                               data_.options)) >
+           gain(effect_proof(recordings, data_.hypotheses, rest, rest.noise,
+                             result_.fit.point.effects[winner], data_.options));
   }
 
   void put_in_place(std::size_t winner, const Rival& rival, const EffectFit& fit) {

@@ -19,6 +19,7 @@ struct Naming {
   std::optional<Rival> kin;           ///< the best other one of the winner's family, on its joint
   std::vector<Rival> elsewhere;       ///< of the same family, on joints that are not told apart
   std::string unnamed;                ///< what has no name and comes nearest (UnnamedRival)
+  Nameless unnamed_form;              ///< the same
   double unnamed_distance = std::numeric_limits<double>::infinity();  ///< by which it is worse
   double probability = 0;  ///< of the winner's family, 0 .. 1
   double lambda = 0;       ///< chi-square reduction of the winner beside all else, less its degrees
@@ -52,7 +53,8 @@ struct NamingData {
 /// winner's place, unless held-out recordings say less for it. Where the nearest rival is no more
 /// than kApart of chi-square worse, the model is fitted with it in the winner's place, and what
 /// held-out recordings say of the two is added to their distance; a rival that is better then takes
-/// the place. Once the effort is spent, names are compared without such fits.
+/// the place. What has no name is a rival only if it predicts held-out recordings better than the
+/// winner does. Once the effort is spent, names are compared without such fits.
 /// @param signals  of the evidence   @param result  its winners and its fit, in place
 std::vector<Naming> settle_names(const NamingData& data, EffectSignals& signals,
                                  CompetitionResult& result, const CompetitionProgress& progress);

@@ -42,8 +42,9 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
     return std::find(joints.begin(), joints.end(), joint) != joints.end();
   };
   UnnamedRival best;
-  const auto consider = [&](double net, std::string what, const JointColumns& columns) {
-    if (net > best.net) best = {std::move(what), net, columns};
+  const auto consider = [&](double net, std::string what, const JointColumns& columns,
+                            Nameless form) {
+    if (net > best.net) best = {std::move(what), net, columns, std::move(form)};
   };
 
   std::vector<GenericStructure> structures = generic_structures(data.joints());
@@ -60,10 +61,14 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
   for (const std::size_t place : largest(std::move(nets))) {
     const GenericStructure& structure = structures[place];
     const JointColumns white = system.whitened(generic_columns(data, signals, structure));
-    consider(net_of(structure, score_of(system.products(white, false), false), result.noise),
+    Nameless form;
+    form.structure = structure;
+    form.score = score_of(system.products(white, false), false);
+    const double net = net_of(structure, form.score, result.noise);
+    consider(net,
              fmt::format("a function of {}, which is no effect of the catalogue",
                          fmt::join(structure.names(), " and ")),
-             white);
+             white, std::move(form));
   }
 
   nets.clear();
@@ -89,10 +94,14 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
     for (Eigen::MatrixXd& part : curve.parts) part = part * trial.score.coefficients;
     const Imitation by_winner = imitation(system, curve, own);
     if (by_winner.left < kSameForm * by_winner.whole) continue;  // the same curve, which has a name
+    Nameless form;
+    form.structure.joint = columns.joints.front();
+    form.score = trial.score;
+    form.ruled_out = trial.effect;
     consider(net_of(hypothesis, trial, result.noise),
              fmt::format("the form of {}, no name here since {}", short_name(trial.effect),
                          trial.objection),
-             columns);
+             columns, std::move(form));
   }
   return best;
 }

@@ -16,6 +16,7 @@ struct UnnamedRival {
   std::string what;
   double net = -std::numeric_limits<double>::infinity();  ///< chi-square reduction less the penalty
   JointColumns columns{};                                 ///< whitened
+  Nameless form{};                                        ///< with its score in the winner's place
 };
 
 /// Of what was strong in the winner's round, on one of its joints, what is best in its place.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <unsupported/Eigen/FFT>
 #include <vector>
 
@@ -16,6 +17,8 @@ using Eigen::VectorXd;
 
 constexpr double kFinest = 2;     // frequencies for each that the longest run resolves
 constexpr double kReached = 0.9;  // of half the rate of the equations
+// Lines around one, in units of what the longest run resolves: the nearest are a part of it.
+constexpr double kNearest = 2, kFarthest = 10;
 
 /// The next length whose Fourier transform is quick: of factors 2, 3 and 5.
 Index quick_length(Index length) {
@@ -53,6 +56,38 @@ class Periodogram {
   Index lines_;
   Eigen::FFT<double> fft_;
 };
+
+/// Part of a line's chi-square that it has so many lines beside its own.
+double leaked(Index lines) {
+  const double x = std::numbers::pi * static_cast<double>(lines) / kFinest;
+  return std::pow(std::sin(x) / x, 2);
+}
+
+/// Chi-squares of lines over the mean of those around them, where that is above noise: the noise
+/// model may be too low in a part of the band, and what is broad is no line.
+/// @param degrees  of each line
+VectorXd over_neighbours(const VectorXd& squares, double degrees) {
+  VectorXd sums(squares.size() + 1);  // of all lines before
+  sums[0] = 0;
+  for (Index k = 0; k < squares.size(); ++k) sums[k + 1] = sums[k] + squares[k];
+  const auto near = static_cast<Index>(kFinest * kNearest),
+             far = static_cast<Index>(kFinest * kFarthest);
+  VectorXd over = squares;
+  for (Index k = 0; k < squares.size(); ++k) {
+    double sum = 0, count = 0;
+    const auto add = [&](Index from, Index to) {
+      from = std::max<Index>(from, 1);  // a constant is no line
+      to = std::min(to, squares.size());
+      for (Index other = from; other < to; ++other) sum -= squares[k] * leaked(other - k);
+      if (to > from) sum += sums[to] - sums[from];
+      count += static_cast<double>(std::max<Index>(0, to - from));
+    };
+    add(k - far, k - near + 1);
+    add(k + near, k + far + 1);
+    if (count > 0) over[k] /= std::max(1.0, sum / (count * degrees));
+  }
+  return over;
+}
 
 }  // namespace
 
@@ -92,6 +127,7 @@ LineScan scan_lines(const EffectRecordings& data, const EvidenceSystem& system, 
   }
   if (scan.score.degrees == 0) return scan;
   Index best = 0;
+  squares = over_neighbours(squares, scan.score.degrees);
   scan.score.delta_chi2 = squares.tail(lines - first).maxCoeff(&best);
   scan.frequency = static_cast<double>(first + best) / duration;
   scan.score.part_left = 1;

@@ -6,8 +6,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
-#include "runtime/diagnosis/competition/half_band_test.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
@@ -54,8 +54,7 @@ Trial trial(double fitted, double heldout, unsigned seed) {
   CompetitionResult result;
   result.fit.point.beta = test::planar_arm_values();
   const EffectRecordings other = heldout_recordings({drag_of_the_other(heldout)}, seed + 1000);
-  HalfBandTest half_band(train);
-  const CompetitionData data{train, signals, train, half_band, other};
+  const ProofData data{train, signals, other};
   trial.proof = nameless_proof(data, {}, result, test::arm_noise(), trial.nameless, {});
   return trial;
 }
@@ -126,8 +125,7 @@ HeldoutProof proof_of_line(double fitted, double heldout, unsigned seed) {
       false);
   CompetitionResult result;
   result.fit.point.beta = test::planar_arm_values();
-  HalfBandTest half_band(train);
-  const CompetitionData data{train, signals, train, half_band, other};
+  const ProofData data{train, signals, other};
   return nameless_proof(data, {}, result, test::arm_noise(), nameless, {});
 }
 
@@ -146,6 +144,25 @@ TEST(NamelessProof, ALineIsInHeldOutRecordingsToo) {
     helped += gone.helps();
   }
   EXPECT_LE(helped, 3);  // 5 % of noise: more than 6 of chi-square with 2 degrees
+}
+
+TEST(NamelessProof, AnEffectGainsWhatItExplainsOfHeldOutRecordings) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const EffectInstance effect = drag_of_the_other(0.06);
+    const EffectRecordings train = test::arm_recordings(test::two_recordings({effect}, seed));
+    EffectSignals signals(train);
+    CompetitionResult result;
+    result.fit.point.beta = test::planar_arm_values();
+    const auto gain_of = [&](double there) {
+      const EffectRecordings other = heldout_recordings({drag_of_the_other(there)}, seed + 1000);
+      const HeldoutProof proof =
+          effect_proof({train, signals, other}, {}, result, test::arm_noise(), effect, {});
+      return std::pair(proof.before - proof.after, proof.change);
+    };
+    const auto [there, change] = gain_of(0.06);
+    EXPECT_NEAR(there, change, 4 * 2 * std::sqrt(change)) << seed;
+    EXPECT_NEAR(gain_of(0).first, -change, 4 * 2 * std::sqrt(change)) << seed;
+  }
 }
 
 TEST(NamelessProof, IsOfWhatBelongsToTheMotion) {

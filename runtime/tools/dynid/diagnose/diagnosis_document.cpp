@@ -322,8 +322,11 @@ ReportDocument diagnosis_document(const DiagnosisReport& report) {
   std::replace(document.state_text.begin(), document.state_text.end(), '_', ' ');
   document.origin = origin_words(report);
   document.sections.push_back(first_section(report));
-  for (std::size_t i = 0; i < diagnosis.findings.size(); ++i) {
-    document.sections.push_back(finding_section(report, i));
+  for (const bool uncertain : {false, true}) {
+    for (std::size_t i = 0; i < diagnosis.findings.size(); ++i) {
+      if (diagnosis.findings[i].uncertain != uncertain) continue;
+      document.sections.push_back(finding_section(report, i));
+    }
   }
   add_unexplained(report, document.sections);
   add_heldout(report, document.sections);

@@ -196,16 +196,22 @@ std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style
       coloured(fmt::format("{}: {}", report.robot, diagnosis.sentence), TextColour::kMark, style) +
       "\n";
   if (!report.joint_legend.empty()) text += "  " + report.joint_legend + "\n";
-  for (std::size_t i = 0; i < diagnosis.findings.size(); ++i) {
-    text += finding_line(report, i);
-    if (i < kMostShapes) text += shape_lines(report, i, style);
+  for (const bool uncertain : {false, true}) {
+    bool first = true;
+    for (std::size_t i = 0; i < diagnosis.findings.size(); ++i) {
+      if (diagnosis.findings[i].uncertain != uncertain) continue;
+      if (uncertain && first) text += "uncertain, and not counted as an explanation:\n";
+      first = false;
+      text += finding_line(report, i);
+      if (i < kMostShapes) text += shape_lines(report, i, style);
+    }
   }
   text += heldout_table(report, style) + forward_table(report);
   if (!diagnosis.noise.how.empty()) text += "noise: " + diagnosis.noise.how + "\n";
   if (diagnosis.effort.most > 0) {
     text += fmt::format("effort: {:.3g} of {:.3g}\n", diagnosis.effort.done, diagnosis.effort.most);
   }
-  text += list_text("not searched, since the effort was spent:", diagnosis.effort.cut_off);
+  text += list_text("not searched:", diagnosis.effort.cut_off);
   for (const std::string& note : report.notes) text += note + "\n";
   text += list_text("unexplained:", unexplained_lines(report));
   text += list_text("cannot be decided:", undecidable_lines(diagnosis));

@@ -39,7 +39,8 @@ class FindingWriter {
     ReportSection section;
     section.id = fmt::format("finding-{}", place_ + 1);
     section.kind = ReportSection::Kind::kFinding;
-    section.title = fmt::format("{}. {}", place_ + 1, finding_.effect.law.name);
+    section.title = fmt::format("{}. {}{}", place_ + 1, finding_.uncertain ? "Uncertain: " : "",
+                                finding_.effect.law.name);
     section.title += " of " + answer_place(finding_.effect);
     section.parts = {where(), what(), how_much(), model(), proof(), changed(), next()};
     return section;

@@ -183,8 +183,8 @@ class ForwardSimulation {
                   .control;
     if (model.joints != tuned.joints()) {
       throw std::invalid_argument(fmt::format("{} has {} joints, {} has {}",
-                                              task_.controller_model.path,
-                                              model.joints, tuned.name, tuned.joints()));
+                                              task_.controller_model.path, model.joints, tuned.name,
+                                              tuned.joints()));
     }
     if (first) result.before = errors_of(before, *first, tuned, model, 0);
     const EffectPoint& point = report.diagnosis.fit.point;
