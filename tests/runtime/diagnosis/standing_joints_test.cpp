@@ -14,6 +14,7 @@
 #include "runtime/diagnosis/diagnosis.h"
 #include "runtime/diagnosis/equation_sets/sufficiency.h"
 #include "runtime/estimation/covariance.h"
+#include "runtime/estimation/unseen.h"
 #include "runtime/evidence/torque_noise_model.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
@@ -155,6 +156,29 @@ TEST(StandingJoints, HaveNoNoiseThatLimitsOthers) {
   EXPECT_NEAR(noise.joints[0].deviation(), test::kArmNoise, 0.01);
   EXPECT_GT(noise.worth[0], 1000);
   EXPECT_EQ(noise.worth[1], 0);
+}
+
+// joint 2 stands: joint 1 shows inertia, two moments of gravity, friction and offset. The sums in
+// them are named; without standing joints held still, noise would give every parameter a number.
+TEST(StandingJoints, HideCombinationsThatAFitNames) {
+  std::vector<MotionSource> sources = recorded({sweep(0, 25, 0.3)}, {});
+  const LinearModel arm = test::planar_arm();
+  const auto fitted = [&] {
+    return weighted_least_squares(
+        factor_of(rows_of(arm, sources.front(), {1}), arm.columns, arm.size()));
+  };
+  EXPECT_GT(fitted().rank, 6);
+  hold_standing_joints(kRevolute, sources, {});
+  const Estimate estimate = fitted();
+  EXPECT_EQ(estimate.rank, 6);
+  EXPECT_EQ(estimate.status, EstimateStatus::kRankDeficient);
+  MotionExtent extent;
+  sources.front().pieces([&](const StreamPiece& piece) {
+    extent.add(piece.motion.q, piece.motion.dq, piece.motion.ddq);
+  });
+  const std::vector<UnseenCombination> unseen = name_unseen(estimate, arm, extent);
+  EXPECT_EQ(unseen.size(), static_cast<std::size_t>(arm.size() - 6));
+  for (const UnseenCombination& own : unseen) EXPECT_FALSE(own.advice.empty()) << own.text;
 }
 
 TEST(Diagnosis, OfASweptJointFindsItsEffect) {
