@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -24,12 +25,15 @@
 #include "runtime/diagnosis/names/reference.h"
 #include "runtime/diagnosis/names/undecidable.h"
 #include "runtime/diagnosis/scans/in_parallel.h"
+#include "runtime/identification/standing_joints.h"
 
 namespace dyngen::runtime {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// A point whose states begin as their laws say.
 EffectPoint from_rest(EffectPoint point) {
@@ -65,7 +69,8 @@ class Diagnostician {
 
   Diagnosis run() {
     answer_.condition = condition_lines(input_, search_.parts(), &search_.shown_train());
-    answer_.sentence = why_too_few(search_.sets().train, options_.rules.equations);
+    answer_.not_judged = search_.unjudged();
+    answer_.sentence = why_too_few(answer_.not_judged, input_.model.joints());
     if (!answer_.sentence.empty()) return std::move(answer_);
     const std::string too_little = why_not_clean();
     CompetitionOptions settings;
@@ -108,6 +113,9 @@ class Diagnostician {
     }
     answer_.verdict = conclusion.verdict;
     answer_.sentence = conclusion.sentence;
+    const std::string beside = not_judged_sentence(answer_.not_judged);
+    if (!beside.empty()) answer_.sentence += " " + beside;
+    blank_masked();
     show();
     return std::move(answer_);
   }
@@ -136,11 +144,11 @@ class Diagnostician {
   }
 
   std::vector<StructureTest> tests_of(const Screening& screening) const {
-    const std::vector<GenericStructure> structures =
-        generic_structures(search_.sets().train.joints());
+    const std::vector<GenericStructure> structures = structures_of(search_.sets().train);
     std::vector<StructureTest> tests;
     const double threshold = screening.threshold(options_.false_alarm);
     for (int j = 0; j < search_.sets().train.joints(); ++j) {
+      if (search_.sets().train.is_masked(j)) continue;
       StructureTest test{j, 0, threshold, ""};
       for (const GenericResult& generic : screening.generic) {
         const GenericStructure& structure = structures[generic.structure];
@@ -167,8 +175,10 @@ class Diagnostician {
     const VectorXd& before = result().base.point.beta;
     const VectorXd deviation = answer_.fit.base.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     for (Index i = 0; i < before.size(); ++i) {
+      const bool seen = !is_unseen(answer_.fit.base, static_cast<int>(i));
       answer_.base_parameters.push_back({input_.model.parameters[static_cast<std::size_t>(i)].name,
-                                         before[i], answer_.fit.point.beta[i], deviation[i]});
+                                         before[i], answer_.fit.point.beta[i],
+                                         seen ? deviation[i] : kNoNumber});
     }
   }
 
@@ -196,6 +206,7 @@ class Diagnostician {
   void judge_heldout(const RunResiduals& without, const RunResiduals& with,
                      const EffectPoint& after) {
     const auto [train, heldout, proof] = search_.judged();
+    known_.masked = search_.sets().train.masked;
     judged_ = answer_.heldout;
     judged_.before = raw_rms(heldout, without);
     judged_.after = raw_rms(heldout, with);
@@ -241,11 +252,23 @@ class Diagnostician {
       const VectorXd& without = without_one[i];
       double all = 0, left = 0;
       for (const int joint : joints_of(effects[i], input_.model.joints())) {
+        if (search_.sets().train.is_masked(joint)) continue;
         const double floor = std::max(answer_.heldout.after[joint], 1e-300);
         all += std::pow(without[joint] / floor, 2);
         left += 1;
       }
       answer_.findings[i].evidence.heldout_gain = all > 0 ? 1 - std::sqrt(left / all) : 0;
+    }
+  }
+
+  /// Nothing is known of joints that are not judged.
+  void blank_masked() {
+    for (const UnjudgedJoint& own : answer_.not_judged) {
+      HeldoutResidual& rms = answer_.heldout;
+      for (VectorXd* values : {&rms.before, &rms.after, &rms.floor, &answer_.noise.deviation,
+                               &answer_.noise.correlation_time, &answer_.noise.worth}) {
+        if (own.joint < values->size()) (*values)[own.joint] = kNoNumber;
+      }
     }
   }
 
@@ -300,9 +323,11 @@ void DiagnosisOptions::validate() const {
   }
 }
 
-Diagnosis diagnose(const DiagnosisInput& input, const DiagnosisOptions& options,
+Diagnosis diagnose(const DiagnosisInput& given, const DiagnosisOptions& options,
                    const DiagnosisProgress& progress, const DiagnosisObserver& observer) {
   options.validate();
+  DiagnosisInput input = given;
+  hold_standing_joints(input.model.revolute, input.train, {&input.heldout, &input.reference});
   try {
     return Diagnostician(input, options, progress, observer).run();
   } catch (const TooLittleDataError& error) {

@@ -173,7 +173,8 @@ AtlasNoise residual_noise(const EffectRecordings& data, const VectorXd& beta) {
   const ResidualAutocovariance covariance = residual_autocovariance(rows, beta, kLags);
   AtlasNoise noise;
   for (Index j = 0; j < covariance.lags.cols(); ++j) {
-    noise.joints.push_back(fit_autoregression(covariance.lags.col(j), covariance.samples));
+    noise.joints.push_back(
+        fit_autoregression(covariance.lags.col(j), std::max(covariance.samples[j], 1.0)));
     if (noise.joints.back().innovation > 0) continue;
     throw std::invalid_argument(
         fmt::format("atlas: the residual of joint {} is 0: noise must be given", j + 1));

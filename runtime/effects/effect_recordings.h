@@ -74,12 +74,17 @@ struct EffectRecordings {
   EffectRobot robot;
   std::vector<EffectRun> runs;  ///< those that give at least one equation
   double row_time = 0;          ///< s between equations; the mean where recordings differ
+  /// (n) joints whose equations are all left out: nothing is said of them. Empty: none.
+  std::vector<bool> masked{};
   /// What is computed of them is added here; nothing: it is not counted.
   std::shared_ptr<WorkCount> work{};
 
   [[nodiscard]] int joints() const { return model.joints(); }
   [[nodiscard]] bool acts_in(const EffectInstance& effect, std::size_t run) const {
     return effect.recording < 0 || effect.recording == runs[run].recording;
+  }
+  [[nodiscard]] bool is_masked(int joint) const {
+    return !masked.empty() && masked[static_cast<std::size_t>(joint)];
   }
   /// Adds to the work, if it is counted; as WorkCount::add().
   void count_work(Eigen::Index rows, Eigen::Index columns, Eigen::Index each) const {

@@ -40,10 +40,6 @@ std::vector<std::string> names_of(const EffectRecordings& data, const EffectPoin
   return names;
 }
 
-bool is_unseen(const Estimate& all, int place) {
-  return place >= 0 && all.unseen.cols() > 0 && all.unseen.row(place).norm() >= kUnseenPart;
-}
-
 std::vector<EffectRemark> remarks_on_unseen(const EffectRecordings& data, const EffectPoint& point,
                                             const EffectUnknowns& unknowns, const Estimate& all) {
   const std::vector<std::string> names = names_of(data, point, unknowns);
@@ -132,6 +128,10 @@ std::string name_of(const EffectInstance& effect) {
   std::string text = fmt::format("{} of joint {}", effect.law.name, joint);
   if (effect.law.scope == EffectScope::kPair) text += fmt::format(" and {}", effect.other + 1);
   return text;
+}
+
+bool is_unseen(const Estimate& all, int place) {
+  return place >= 0 && all.unseen.cols() > 0 && all.unseen.row(place).norm() >= kUnseenPart;
 }
 
 std::vector<bool> unseen_among(const Estimate& all, const EffectUnknowns& unknowns) {

@@ -20,6 +20,9 @@ struct EffectRemark {
 /// "stribeck of joint 2", "base_tilt"
 std::string name_of(const EffectInstance& effect);
 
+/// Whether an unknown is part of a combination that the recordings do not determine.
+bool is_unseen(const Estimate& all, int place);
+
 /// Unknowns of effects that the recordings do not determine. @return one for each unknown
 std::vector<bool> unseen_among(const Estimate& all, const EffectUnknowns& unknowns);
 

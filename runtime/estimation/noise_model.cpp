@@ -176,10 +176,13 @@ AutoregressiveNoise fit_autoregression(const VectorXd& autocovariance, double sa
 ResidualAutocovariance residual_autocovariance(const RowSource& source, const VectorXd& beta,
                                                Index most_lags) {
   MatrixXd sums, past;  // past: the last residuals of the run
-  double samples = 0;
+  VectorXd samples;
   source([&](const RowBlock& block) {
     const MatrixXd rest = residual(block, beta);
-    if (sums.size() == 0) sums = MatrixXd::Zero(most_lags + 1, rest.cols());
+    if (sums.size() == 0) {
+      sums = MatrixXd::Zero(most_lags + 1, rest.cols());
+      samples = VectorXd::Zero(rest.cols());
+    }
     if (!block.continues_run) past.resize(0, rest.cols());
     MatrixXd joined(past.rows() + rest.rows(), rest.cols());
     joined << past, rest;
@@ -194,9 +197,9 @@ ResidualAutocovariance residual_autocovariance(const RowSource& source, const Ve
       }
     }
     past = joined.bottomRows(std::min(most_lags, joined.rows()));
-    samples += static_cast<double>(rest.rows());
+    samples += counted_rows(block);
   });
-  if (samples > 0) sums /= samples;
+  if (sums.size() > 0) sums *= samples.cwiseMax(1).cwiseInverse().asDiagonal();
   return {sums, samples};
 }
 
@@ -215,16 +218,16 @@ NoiseFactor noise_factor(const RowSource& source, const std::vector<std::vector<
                          const VectorXd& beta) {
   NoiseFactor factor = empty_noise(columns);
   const auto [covariances, samples] = residual_autocovariance(source, beta, kMostOrder);
-  if (samples == 0) return factor;
+  if (covariances.size() == 0) return factor;
   KnownNoise noise;
   noise.correlation_time.resize(covariances.cols());
   for (Index j = 0; j < covariances.cols(); ++j) {
-    noise.parts.push_back({fit_autoregression(covariances.col(j), samples)});
+    noise.parts.push_back({fit_autoregression(covariances.col(j), std::max(samples[j], 1.0))});
     noise.correlation_time[j] = noise.parts.back().front().correlation_time;
   }
   factor = noise_factor(source, columns, static_cast<int>(beta.size()), noise);
   // of all that is left, whatever part of it the process has
-  factor.power = samples * covariances.row(0).transpose();
+  factor.power = samples.cwiseProduct(covariances.row(0).transpose());
   factor.correlated_power = factor.power.cwiseProduct(noise.correlation_time);
   return factor;
 }

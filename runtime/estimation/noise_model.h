@@ -25,10 +25,10 @@ struct AutoregressiveNoise {
 /// Source: the Levinson-Durbin recursion on the Yule-Walker equations.
 AutoregressiveNoise fit_autoregression(const Eigen::VectorXd& autocovariance, double samples);
 
-/// Of the residual of every joint; runs are not joined.
+/// Of the residual of every joint, over the equations that it has; runs are not joined.
 struct ResidualAutocovariance {
-  Eigen::MatrixXd lags;  ///< (most_lags + 1 x n), from lag 0; 0 x 0 where there are no samples
-  double samples = 0;
+  Eigen::MatrixXd lags;     ///< (most_lags + 1 x n), from lag 0; 0 x 0 where there are no samples
+  Eigen::VectorXd samples;  ///< (n) equations that each joint has; empty: there are none
 };
 ResidualAutocovariance residual_autocovariance(const RowSource& source, const Eigen::VectorXd& beta,
                                                Eigen::Index most_lags);

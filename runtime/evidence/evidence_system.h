@@ -90,7 +90,9 @@ class EvidenceSystem {
   [[nodiscard]] Eigen::MatrixXd absorbed(const JointColumns& whitened, Eigen::Index from,
                                          Eigen::Index to) const;
   /// Independent samples that the noise of a joint is known by.
-  [[nodiscard]] double worth(int joint) const { return worth_[joint]; }
+  /// Independent samples that a joint's noise is known by; many of a joint without equations, which
+  /// limits no test.
+  [[nodiscard]] double worth(int joint) const { return worth_[joint] > 0 ? worth_[joint] : kMany; }
   /// Those of scans.
   [[nodiscard]] const ScanRules& rules() const { return rules_; }
   [[nodiscard]] int surrogates() const { return static_cast<int>(noise_.cols()); }
@@ -108,11 +110,12 @@ class EvidenceSystem {
       whiteners_;  // of each joint in each run
   std::shared_ptr<const std::vector<std::deque<UnknownTorque>>> unknown_;  // the same
   std::vector<std::shared_ptr<const LocalReflections>> left_out_;  // of each joint; or nothing
-  Eigen::VectorXd worth_;                                          // (n)
-  Eigen::Index rows_ = 0;                                          // of one joint
-  Eigen::MatrixXd basis_;                                          // (n rows x rank) orthonormal
-  Eigen::VectorXd rest_;                                           // (n rows)
-  Eigen::MatrixXd noise_;                                          // (n rows x m)
+  static constexpr double kMany = 1e9;
+  Eigen::VectorXd worth_;  // (n)
+  Eigen::Index rows_ = 0;  // of one joint
+  Eigen::MatrixXd basis_;  // (n rows x rank) orthonormal
+  Eigen::VectorXd rest_;   // (n rows)
+  Eigen::MatrixXd noise_;  // (n rows x m)
 };
 
 }  // namespace dyngen::runtime

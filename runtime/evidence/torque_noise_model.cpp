@@ -161,10 +161,53 @@ std::vector<AutoregressiveNoise> before_the_fit(const EffectRecordings& data,
   return joints;
 }
 
+/// Whether a joint has equations.
+std::vector<bool> joints_with_equations(const OfJoints& products) {
+  std::vector<bool> has;
+  for (const LagProducts& joint : products) has.push_back(joint.samples() > 0);
+  return has;
+}
+
+AutoregressiveNoise unit_noise() {
+  AutoregressiveNoise white;
+  white.innovation = white.deviation = 1;
+  return white;
+}
+
+/// Noise of all joints. @param seen  of those that have equations
+std::vector<JointNoise> of_all(std::vector<JointNoise> seen, const std::vector<bool>& has) {
+  std::vector<JointNoise> joints;
+  auto next = seen.begin();
+  for (const bool own : has) joints.push_back(own ? *next++ : JointNoise{unit_noise(), {}});
+  return joints;
+}
+
+/// A joint without equations has white noise of unit variance, which no equation meets, and is
+/// worth no sample.
+void settle_unseen(const std::vector<bool>& has, TorqueNoiseModel& model) {
+  for (std::size_t j = 0; j < has.size(); ++j) {
+    if (has[j]) continue;
+    model.joints[j] = {unit_noise(), {}};
+    model.correlation_time[static_cast<Index>(j)] = 1;
+    model.worth[static_cast<Index>(j)] = 0;
+  }
+}
+
+/// Least of the joints that have equations.
+double least_worth(const VectorXd& worth, const std::vector<bool>& has) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < has.size(); ++j) {
+    if (has[j]) least = std::min(least, worth[static_cast<Index>(j)]);
+  }
+  return least;
+}
+
 std::vector<AutoregressiveNoise> processes_of(const OfJoints& all) {
   std::vector<AutoregressiveNoise> joints;
   for (const LagProducts& products : all) {
-    joints.push_back(fit_autoregression(products.covariance(), std::max(products.samples(), 1.0)));
+    joints.push_back(products.samples() > 0
+                         ? fit_autoregression(products.covariance(), products.samples())
+                         : unit_noise());
   }
   return joints;
 }
@@ -258,22 +301,28 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
       add_periods(data, residuals, repeats, static_cast<Index>(j), repeated[j]);
     }
   }
+  const std::vector<bool> has = joints_with_equations(all);
   std::vector<double> differences, samples;
+  std::vector<PeriodDifferences> seen;
+  double fewest = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < all.size(); ++j) {
     differences.push_back(repeated[j].samples());
     samples.push_back(all[j].samples());
+    if (!has[j]) continue;
+    fewest = std::min(fewest, repeated[j].samples());
+    seen.push_back(repeated[j]);
   }
   const double period =
       model.of_recordings ? std::numeric_limits<double>::infinity() : mean_period(repeats);
-  if (period > 0 &&
-      *std::min_element(differences.begin(), differences.end()) >= rules.least_independent) {
+  if (period > 0 && !seen.empty() && fewest >= rules.least_independent) {
     double longest = 0;
     for (const EffectRun& run : data.runs) {
       longest = std::max(longest, static_cast<double>(run.rows.Y.rows()));
     }
-    model.joints = noise_of_periods(repeated, {period, longest}, rules);
+    model.joints = of_all(noise_of_periods(seen, {period, longest}, rules), has);
     know_by(model, differences, 1 / period);
-    model.from_periods = model.worth.minCoeff() >= rules.least_independent;
+    settle_unseen(has, model);
+    model.from_periods = least_worth(model.worth, has) >= rules.least_independent;
   }
   model.of_recordings = model.of_recordings && model.from_periods;
   if (!model.from_periods) {
@@ -293,6 +342,7 @@ TorqueNoiseModel torque_noise_model(const EffectRecordings& data, const RunResid
     }
     model.joints = quick_noise(joints);
     know_by(model, samples, 0);
+    settle_unseen(has, model);
   }
   refuse_no_noise(model.joints);
   return model;

@@ -15,7 +15,7 @@ namespace dyngen::runtime {
 struct TorqueNoiseModel {
   std::vector<JointNoise> joints;
   /// (n) independent samples that the noise is known by: of the differences between periods where
-  /// it is from these, else of the equations
+  /// it is from these, else of the equations; 0: the joint has no equations, and no noise is known
   Eigen::VectorXd worth;
   bool from_periods = false;  ///< from differences between periods: free of what repeats
   /// (n) samples that are worth one, for what is as slow as the motion: density at its period, or

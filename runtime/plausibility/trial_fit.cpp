@@ -111,7 +111,9 @@ TrialFit TrialSamples::fit(const LinearModel& model, const Reading& reading) con
     unit.col(j).setOnes();
     model.regressor(postures, zero, unit, accelerated);
     const MatrixXd inertia = (accelerated - standing).middleCols(j * nb, nb);
-    fit.inertia[j] = (inertia * fit.estimate.beta).mean();
+    // at postures in which the joint moves: what others' hide of it is not determined
+    const VectorXd moves = block.counted(some, j);
+    fit.inertia[j] = (inertia * fit.estimate.beta).dot(moves) / std::max(1.0, moves.sum());
     for (const int c : model.columns[static_cast<std::size_t>(j)]) {
       const ParameterKind kind = model.parameters[static_cast<std::size_t>(c)].kind;
       if (kind != ParameterKind::kViscous && kind != ParameterKind::kCoulomb) continue;

@@ -27,9 +27,10 @@ struct Reading {
 struct TrialFit {
   TorqueFactor equations;
   Estimate estimate;
-  Eigen::VectorXd left;     ///< (n) residual norm over torque norm; 0 without torque
-  Eigen::VectorXd inertia;  ///< (n) mean of the mass matrix's diagonal, kg m^2 or kg
-  Eigen::VectorXd power;    ///< (n) mean power that friction takes, W
+  Eigen::VectorXd left;  ///< (n) residual norm over torque norm; 0 without torque
+  Eigen::VectorXd
+      inertia;  ///< (n) mean of the mass matrix's diagonal where the joint moves, kg m^2 or kg
+  Eigen::VectorXd power;  ///< (n) mean power that friction takes, W
 };
 
 /// (nb) Standard deviations of its parameters, as if what is left were white; 0 of what is not

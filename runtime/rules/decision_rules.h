@@ -87,8 +87,8 @@ struct EquationRules {
       "sensitivity"};
   DecisionRule least_equations{
       30, "equations.least_equations", "1",
-      "Equations of a joint beyond twice the number of its parameters, with fewer nothing is "
-      "tested.",
+      "Equations of a joint beyond twice the number of parameters that they determine; with fewer "
+      "the joint is not judged.",
       "sensitivity"};
   DecisionRule most_predicted{
       0.4, "equations.most_predicted", "1",

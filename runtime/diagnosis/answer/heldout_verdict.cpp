@@ -111,6 +111,7 @@ std::optional<Conclusion> contradicted(const HeldoutResidual& rms, const Heldout
   std::vector<std::string> reasons;
   bool beyond = true;  // every joint's
   for (Index j = 0; j < rms.after.size(); ++j) {
+    if (!known.masked.empty() && known.masked[static_cast<std::size_t>(j)]) continue;
     std::vector<std::string> own =
         objections(rms, known, j, found_nothing, unit_of(revolute, j), rules);
     if (own.empty()) continue;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "runtime/diagnosis/answer/verdict.h"
 #include "runtime/diagnosis/equation_sets/raw_residual.h"
@@ -26,6 +27,7 @@ struct HeldoutKnowledge {
   /// findings than without; 0: they are not
   Eigen::VectorXd worse;
   Eigen::VectorXd without, with;  ///< (n) rms of these samples, without and with the findings
+  std::vector<bool> masked{};     ///< (n) joints that are not judged; empty: all are
   bool with_reversals = false;    ///< whether reversals are in these three: where no joint sticks
 };
 

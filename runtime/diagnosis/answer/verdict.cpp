@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace dyngen::runtime {
 namespace {
@@ -59,8 +60,14 @@ bool found_nothing(const CompetitionResult& result) {
 }
 
 std::string why_too_slow(const CompetitionResult& result, const NoiseRules& rules) {
+  const Eigen::VectorXd& worth = result.noise.worth;
   Eigen::Index joint = 0;
-  const double least = result.noise.worth.minCoeff(&joint);
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index j = 0; j < worth.size(); ++j) {
+    if (!(worth[j] > 0) || worth[j] >= least) continue;  // 0: a joint without equations
+    joint = j;
+    least = worth[j];
+  }
   if (least >= rules.least_independent) return {};
   return fmt::format(
       "What the model leaves of joint {} is so slow that the recordings are worth {:.0f} "
@@ -72,6 +79,21 @@ std::string why_cut_off(const CompetitionResult& result) {
   if (result.cut_off.empty()) return {};
   return fmt::format("Nothing was found before the effort was spent; not searched: {}.",
                      fmt::join(result.cut_off, ", "));
+}
+
+std::string not_judged_sentence(const std::vector<UnjudgedJoint>& unjudged) {
+  if (unjudged.empty()) return {};
+  std::vector<int> joints;
+  bool stand = true;
+  for (const UnjudgedJoint& own : unjudged) {
+    joints.push_back(own.joint + 1);
+    stand = stand && !(own.equations > 0);
+  }
+  const bool one = joints.size() == 1;
+  return fmt::format("Joint{} {} {}: {} not judged.", one ? "" : "s", fmt::join(joints, ", "),
+                     stand ? (one ? "stands" : "stand")
+                           : (one ? "has too few equations" : "have too few equations"),
+                     one ? "it is" : "they are");
 }
 
 Conclusion concluded(const Search& search, const std::vector<Finding>& findings,

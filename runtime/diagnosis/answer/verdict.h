@@ -26,6 +26,9 @@ std::string why_too_slow(const CompetitionResult& result, const NoiseRules& rule
 /// was.
 std::string why_cut_off(const CompetitionResult& result);
 
+/// What a verdict does not speak of, in a sentence; empty: it speaks of all joints.
+std::string not_judged_sentence(const std::vector<UnjudgedJoint>& unjudged);
+
 /// @param findings  of the winners, in their order, then those since the reference
 Conclusion concluded(const Search& search, const std::vector<Finding>& findings,
                      const AnswerRules& rules);

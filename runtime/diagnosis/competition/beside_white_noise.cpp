@@ -13,7 +13,9 @@ EvidenceSystem beside_white_noise(const EffectRecordings& data, EffectSignals& s
                                   const CompetitionResult& result,
                                   EvidenceSystem::Options options) {
   TorqueNoiseModel white = result.noise;
-  white.joints = quick_noise(white_noise(result.fit.rms).joints);
+  // a joint without equations leaves nothing, and has noise of unit variance
+  const VectorXd rms = (result.fit.rms.array() > 0).select(result.fit.rms, 1.0);
+  white.joints = quick_noise(white_noise(rms).joints);
   options.surrogates = 0;
   return system_beside(data, signals, hypotheses, result, result.fit.point, white, options);
 }

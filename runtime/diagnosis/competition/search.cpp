@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/competition/search.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "runtime/diagnosis/competition/half_band_test.h"
+#include "runtime/diagnosis/equation_sets/left_out_rows.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -16,6 +18,14 @@ Eigen::VectorXd model_alone(const EffectRecordings& train) {
   EffectFitOptions once;
   once.most_rounds = 1;
   return fit_effects(train, {}, once).point.beta;
+}
+
+/// Whether an effect is of a joint that is masked, or of a pair with one.
+bool acts_on_masked(const EffectRecordings& data, const EffectInstance& effect) {
+  const auto masked = [&](int joint) {
+    return joint >= 0 && joint < data.joints() && data.is_masked(joint);
+  };
+  return masked(effect.joint) || masked(effect.other);
 }
 
 /// What is computed of any of them is added there.
@@ -35,15 +45,30 @@ Search::Search(const DiagnosisInput& input, Eigen::Index decimation, const Equat
       parts_(input.heldout.empty() ? divided(input.train, rules)
                                    : Division{input.train, input.heldout}),
       seen_{.rows = diagnosis_rows(parts_.train, decimation), .rules = rules},
-      sets_(equation_sets_of(input, parts_, seen_)),
-      moving_(counted_part(sets_.train)) {
+      sets_(equation_sets_of(input, parts_, seen_)) {
+  mask_joints();
+  moving_ = counted_part(sets_.train);
   count_in(sets_, work_);
+}
+
+/// Takes joints with too few equations out of all sets.
+void Search::mask_joints() {
+  unjudged_ = unjudged_joints(sets_.train, rules_);
+  for (const UnjudgedJoint& own : unjudged_) masked_.push_back(own.joint);
+  leave_out_joints(sets_, masked_);
+  seen_.masked = masked_;
+}
+
+/// Equations as they are before joints are found to stick.
+EquationSetOptions Search::plain() const {
+  return {.rows = diagnosis_rows(parts_.train, decimation_), .rules = rules_, .masked = masked_};
 }
 
 void Search::compete(CompetitionOptions options, const CompetitionProgress& progress) {
   const ScaleTable scales(sets_.train);
   const Eigen::VectorXd alone = model_alone(sets_.train);
   for (const EffectInstance& effect : input_.hypotheses) {
+    if (acts_on_masked(sets_.train, effect)) continue;
     hypotheses_.push_back(hypothesis_of(effect, scales.of(alone, effect)));
   }
   options.until_stiction = true;
@@ -67,8 +92,7 @@ void Search::compete(CompetitionOptions options, const CompetitionProgress& prog
 bool Search::look_beside(const std::vector<StictionJoint>& found) {
   std::vector<StictionJoint> joints = seen_.sticking;
   if (!join(joints, found)) return false;
-  const EquationSetOptions beside = beside_stiction(
-      {.rows = diagnosis_rows(parts_.train, decimation_), .rules = rules_}, parts_.train, joints);
+  const EquationSetOptions beside = beside_stiction(plain(), parts_.train, joints);
   EquationSets sets = equation_sets_of(input_, parts_, beside);
   const Eigen::ArrayXd left = counted_part(sets.train).array();
   if ((left < kLeastCounted * moving_.array()).any()) return false;
@@ -82,7 +106,7 @@ bool Search::look_beside(const std::vector<StictionJoint>& found) {
 const EffectRecordings& Search::shown_train() const { return whole_ ? whole_->train : sets_.train; }
 
 Search::Judged Search::judged() const {
-  EquationSetOptions whole{.rows = diagnosis_rows(parts_.train, decimation_), .rules = rules_};
+  EquationSetOptions whole = plain();
   EquationSetOptions own = seen_;
   for (int joint = 0; joint < input_.model.joints(); ++joint)
     whole.sticking.push_back({joint, 0, {}});

@@ -11,6 +11,7 @@
 #include "runtime/diagnosis/equation_sets/diagnosis_input.h"
 #include "runtime/diagnosis/equation_sets/division.h"
 #include "runtime/diagnosis/equation_sets/equation_sets.h"
+#include "runtime/diagnosis/equation_sets/sufficiency.h"
 
 namespace dyngen::runtime {
 
@@ -28,6 +29,8 @@ class Search {
   [[nodiscard]] const Division& parts() const { return parts_; }
   [[nodiscard]] const EquationSetOptions& seen() const { return seen_; }
   [[nodiscard]] const EquationSets& sets() const { return sets_; }
+  /// Joints without equations enough, which all sets are without.
+  [[nodiscard]] const std::vector<UnjudgedJoint>& unjudged() const { return unjudged_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
   [[nodiscard]] const CompetitionResult& result() const { return result_; }
   [[nodiscard]] CompetitionResult& result() { return result_; }
@@ -45,6 +48,8 @@ class Search {
 
  private:
   bool look_beside(const std::vector<StictionJoint>& found);
+  void mask_joints();
+  [[nodiscard]] EquationSetOptions plain() const;
 
   const DiagnosisInput& input_;
   Eigen::Index decimation_;
@@ -53,7 +58,9 @@ class Search {
   EquationSetOptions seen_;
   std::shared_ptr<WorkCount> work_ = std::make_shared<WorkCount>();
   EquationSets sets_;
-  Eigen::VectorXd moving_;  ///< (n) part of the equations in which a joint does not stand still
+  std::vector<UnjudgedJoint> unjudged_;
+  std::vector<int> masked_;  ///< the same, from 0
+  Eigen::VectorXd moving_;   ///< (n) part of the equations in which a joint does not stand still
   /// Recordings with the joint state that was chosen and where joints rest, if the sets are
   /// others.
   struct Whole {

@@ -22,7 +22,7 @@ Standing Sought::standing(const NamedResult& named, const TorqueNoiseModel& nois
 }
 
 Sought sought_in(const EffectRecordings& evidence, const std::vector<Hypothesis>& hypotheses) {
-  return {hypotheses, generic_structures(evidence.joints()), ScaleTable(evidence)};
+  return {hypotheses, structures_of(evidence), ScaleTable(evidence)};
 }
 
 }  // namespace dyngen::runtime

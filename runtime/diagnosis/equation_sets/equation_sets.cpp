@@ -90,6 +90,7 @@ EffectRecordings equations(const DiagnosisInput& input, const std::vector<Motion
     leave_out_standstill(run, still, options.rules);
     if (!fitted) leave_out_stiction(run, still, sticking_in(options, kAny));
   }
+  leave_out_joints(data, options.masked);
   return data;
 }
 
@@ -213,6 +214,13 @@ VectorXd counted_part(const EffectRecordings& data) {
 EffectRecordings equations_of(const DiagnosisInput& input, const std::vector<MotionSource>& sources,
                               const EquationSetOptions& options) {
   return equations(input, seen(sources, options), options, false);
+}
+
+void leave_out_joints(EquationSets& sets, const std::vector<int>& joints) {
+  for (EffectRecordings* own : {&sets.train, &sets.heldout, &sets.proof, &sets.slow}) {
+    leave_out_joints(*own, joints);
+  }
+  if (sets.beside) leave_out_joints(*sets.beside, joints);
 }
 
 EquationSets equation_sets_of(const DiagnosisInput& input, const Division& parts,

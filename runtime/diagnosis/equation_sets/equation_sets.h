@@ -28,6 +28,8 @@ struct EquationSetOptions {
   /// Of the sampling frequency: such a filter's highest cut-off, of all recordings alike.
   double highest = 0;
   EquationRules rules{};
+  /// Joints without equations: nothing is said of them. From 0, ascending.
+  std::vector<int> masked{};
 };
 
 /// The equation set of recordings whose joints stick. In a stiction interval friction may take any
@@ -71,6 +73,10 @@ struct EquationSets {
   EffectRecordings proof;    ///< what is held out, where the fitted recordings have been
   EffectRecordings slow;     ///< the fitted ones again, in half the band: the half_band
 };
+
+/// Takes the equations of joints out of all sets. @param joints  from 0
+void leave_out_joints(EquationSets& sets, const std::vector<int>& joints);
+
 EquationSets equation_sets_of(const DiagnosisInput& input, const Division& parts,
                               const EquationSetOptions& options);
 

@@ -45,6 +45,18 @@ void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed,
   }
 }
 
+void leave_out_joints(EffectRecordings& data, const std::vector<int>& joints) {
+  if (joints.empty()) return;
+  data.masked.resize(static_cast<std::size_t>(data.joints()), false);
+  for (const int j : joints) {
+    data.masked[static_cast<std::size_t>(j)] = true;
+    for (EffectRun& run : data.runs) {
+      const Index size = run.rows.Y.cols() / run.motion.joints();
+      for (Index k = 0; k < run.rows.Y.rows(); ++k) leave_out(run.rows, k, j, size);
+    }
+  }
+}
+
 namespace {
 
 /// Samples around an equation that it is made of.

@@ -25,6 +25,10 @@ void leave_out_standstill(EffectRun& run, const Eigen::VectorXd& still_speed,
 void leave_out_stiction(EffectRun& run, const Eigen::VectorXd& still_speed,
                         const std::vector<int>& joints);
 
+/// Takes out all equations of joints, which are masked from then on.
+/// @param joints  from 0
+void leave_out_joints(EffectRecordings& data, const std::vector<int>& joints);
+
 /// Adds the stiction intervals of joints to the unknown samples of a run; its equations stay.
 /// @param run          its `unknown` grows
 /// @param motion       in which the joints stick, of the same samples

@@ -172,8 +172,10 @@ VectorXd raw_floor(const EffectRecordings& data, const RunResiduals& residuals,
       }
     }
   }
-  if (counts.minCoeff() < 1) return raw_rms(data, residuals);
-  return squares.cwiseQuotient(counts).cwiseSqrt();
+  for (int j = 0; j < data.joints(); ++j) {
+    if (counts[j] < 1 && !data.is_masked(j)) return raw_rms(data, residuals);
+  }
+  return squares.cwiseQuotient(counts.cwiseMax(1)).cwiseSqrt();
 }
 
 }  // namespace dyngen::runtime

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "runtime/effects/effect_fit.h"
 
@@ -15,16 +17,60 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// As in least squares: a direction below this part of the largest one is not seen.
+constexpr double kUnseen = 1e-9;
+
+/// Parameters that the counted equations of a joint determine: the rank of its regressor, columns
+/// of unit norm.
+double determined_parameters(const EffectRecordings& train, int joint) {
+  const std::vector<int>& columns = train.model.columns[static_cast<std::size_t>(joint)];
+  MatrixXd W(train.equations(), static_cast<Index>(columns.size()));
+  Index start = 0;
+  for (const EffectRun& run : train.runs) {
+    const auto counted = run.rows.counted.col(joint);
+    for (Index i = 0; i < W.cols(); ++i) {
+      const Index column = Index{joint} * train.model.size() + columns[static_cast<std::size_t>(i)];
+      W.col(i).segment(start, counted.size()) = run.rows.Y.col(column).cwiseProduct(counted);
+    }
+    start += counted.size();
+  }
+  for (auto column : W.colwise()) {
+    const double norm = column.norm();
+    if (norm > 0) column /= norm;
+  }
+  if (W.size() == 0) return 0;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(W.rows(), W.cols());
+  qr.setThreshold(kUnseen);
+  return static_cast<double>(qr.compute(W).rank());
+}
+
+/// Combinations of parameters that an estimate does not see. Each may be as large as those that it
+/// sees are on average. @return (nb x combinations), each of that size
+MatrixXd hidden_combinations(const Estimate& estimate) {
+  if (estimate.unseen.cols() == 0) return MatrixXd::Zero(estimate.beta.size(), 0);
+  const VectorXd scaled =
+      (estimate.scale.array() > 0).select(estimate.beta.array() / estimate.scale.array(), 0.0);
+  const double size = scaled.norm() / std::sqrt(std::max(1.0, static_cast<double>(estimate.rank)));
+  return size * (estimate.scale.asDiagonal() * estimate.unseen);
+}
+
+double equations_of_joint(const EffectRecordings& data, int joint) {
+  double rows = 0;
+  for (const EffectRun& run : data.runs) rows += run.rows.counted.col(joint).sum();
+  return rows;
+}
+
 }  // namespace
 
 VectorXd predicted_variance(const EffectRecordings& train, const EffectRecordings& heldout) {
   const EffectFit fit = fit_effects(train, {});
   const Index nb = train.model.size();
   VectorXd sums = VectorXd::Zero(train.joints()), counts = sums;
+  const MatrixXd hidden = hidden_combinations(fit.base);
   for (const EffectRun& run : heldout.runs) {
     for (Index j = 0; j < sums.size(); ++j) {
       const MatrixXd Y = run.rows.Y.middleCols(j * nb, nb);
-      sums[j] += (Y * fit.base.covariance).cwiseProduct(Y).sum();
+      sums[j] += (Y * fit.base.covariance).cwiseProduct(Y).sum() + (Y * hidden).squaredNorm();
       counts[j] += run.rows.counted.col(j).sum();
     }
   }
@@ -32,19 +78,33 @@ VectorXd predicted_variance(const EffectRecordings& train, const EffectRecording
   return sums.cwiseQuotient(counts.cwiseMax(1)).cwiseQuotient(squares);
 }
 
-std::string why_too_few(const EffectRecordings& train, const EquationRules& rules) {
+std::vector<UnjudgedJoint> unjudged_joints(const EffectRecordings& train,
+                                           const EquationRules& rules) {
+  std::vector<UnjudgedJoint> unjudged;
   for (int j = 0; j < train.joints(); ++j) {
-    double rows = 0;
-    for (const EffectRun& run : train.runs) rows += run.rows.counted.col(j).sum();
-    const auto parameters =
-        static_cast<double>(train.model.columns[static_cast<std::size_t>(j)].size());
-    if (rows >= rules.least_equations + 2 * parameters) continue;
-    return fmt::format(
-        "The recordings hold {:.0f} equations of joint {} for {:.0f} parameters: too few to test "
-        "what the model leaves.",
-        rows, j + 1, parameters);
+    UnjudgedJoint own{j, equations_of_joint(train, j), rules.least_equations, {}};
+    const double parameters = own.equations > 0 ? determined_parameters(train, j) : 0;
+    own.needed += 2 * parameters;
+    if (own.equations >= own.needed) continue;
+    own.why = own.equations > 0
+                  ? fmt::format(
+                        "joint {} has {:.0f} fitted equations for {:.0f} parameters, of "
+                        "{:.0f} that it needs",
+                        j + 1, own.equations, parameters, own.needed)
+                  : fmt::format("joint {} stands in all fitted recordings", j + 1);
+    unjudged.push_back(std::move(own));
   }
-  return {};
+  return unjudged;
+}
+
+std::string why_too_few(const std::vector<UnjudgedJoint>& unjudged, int joints) {
+  if (unjudged.size() < static_cast<std::size_t>(joints)) return {};
+  std::vector<std::string> reasons;
+  for (const UnjudgedJoint& own : unjudged) reasons.push_back(own.why);
+  return fmt::format(
+      "No joint has equations enough to test what the model leaves: {}. Record motions in which "
+      "at least one joint moves longer, or through more of its range and speeds.",
+      fmt::join(reasons, "; "));
 }
 
 std::string why_too_little_motion(const EffectRecordings& train, const EffectRecordings& heldout,

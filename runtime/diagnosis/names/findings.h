@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/diagnosis/equation_sets/sufficiency.h"
 #include "runtime/effects/effect_fit.h"
 #include "runtime/effects/effect_law.h"
 
@@ -98,12 +99,12 @@ struct CertificateLine {
 struct BaseShift {
   std::string name;
   double before = 0, after = 0;
-  double stddev = 0;  ///< of `after`
+  double stddev = 0;  ///< of `after`; NaN: the recordings do not determine it alone
 };
 
 /// rms of the recorded torque less the model, of recordings that no parameter was fitted to.
 struct HeldoutResidual {
-  Eigen::VectorXd before, after, floor;  ///< (n) N m or N
+  Eigen::VectorXd before, after, floor;  ///< (n) N m or N; NaN: of a joint that is not judged
   /// (n) 0 .. 1: part of each joint's equations where it is within the positions of the fitted
   /// recordings. Findings are judged there alone.
   Eigen::VectorXd visited;
@@ -112,7 +113,7 @@ struct HeldoutResidual {
 
 /// How large the noise of the torque is, and how that is known.
 struct NoiseFloor {
-  Eigen::VectorXd deviation;         ///< (n) N m or N, of the raw torque
+  Eigen::VectorXd deviation;  ///< (n) N m or N, of the raw torque; NaN: as of HeldoutResidual
   Eigen::VectorXd correlation_time;  ///< (n) samples that are worth one
   Eigen::VectorXd worth;             ///< (n) independent samples of the equations
   bool from_periods = false;         ///< else from what model and structure leave
@@ -152,6 +153,7 @@ struct Diagnosis {
   Verdict verdict = Verdict::kInsufficientData;
   std::string sentence;  ///< the verdict in words
   std::vector<ConditionLine> condition;
+  std::vector<UnjudgedJoint> not_judged;  ///< joints of which nothing is said
   NoiseFloor noise;
   std::vector<StructureTest> before, after;  ///< of every joint: of the model alone, with findings
   std::vector<Finding> findings;

@@ -47,7 +47,7 @@ UnnamedRival unnamed_rival(const EffectRecordings& data, EffectSignals& signals,
     if (net > best.net) best = {std::move(what), net, columns, std::move(form)};
   };
 
-  std::vector<GenericStructure> structures = generic_structures(data.joints());
+  std::vector<GenericStructure> structures = structures_of(data);
   std::vector<std::pair<double, std::size_t>> nets;
   for (const GenericResult& generic : winner.generic) {
     GenericStructure& structure = structures[generic.structure];

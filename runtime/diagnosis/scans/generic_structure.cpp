@@ -126,6 +126,18 @@ std::vector<GenericStructure> generic_structures(int joints) {
   return structures;
 }
 
+std::vector<GenericStructure> structures_of(const EffectRecordings& data) {
+  std::vector<GenericStructure> structures = generic_structures(data.joints());
+  std::erase_if(structures, [&](const GenericStructure& structure) {
+    const auto masked = [&](const StructureVariable& variable) {
+      return variable.joint >= 0 && data.is_masked(variable.joint);
+    };
+    return data.is_masked(structure.joint) ||
+           std::any_of(structure.variables.begin(), structure.variables.end(), masked);
+  });
+  return structures;
+}
+
 VectorXd travelled_sign_of(const EffectRecordings& data, std::size_t run, int joint) {
   const EffectRun& here = data.runs[run];
   return travelled_sign(here.motion.q.col(joint), here.motion.dq.col(joint),

@@ -63,6 +63,10 @@ struct GenericStructure {
 /// of velocities alone and with a position, impulses at reversals, lines, waves and what repeats.
 std::vector<GenericStructure> generic_structures(int joints);
 
+/// The same of recordings, in their order: without those on masked joints, or of variables of such
+/// joints.
+std::vector<GenericStructure> structures_of(const EffectRecordings& data);
+
 /// Impulses at each reversal of a joint.
 GenericStructure impulses_at_reversals(int joint);
 

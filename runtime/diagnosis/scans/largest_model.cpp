@@ -60,10 +60,11 @@ std::vector<JointColumns> largest_model(const EffectRecordings& data, EffectSign
                                         const EquationRules& rules) {
   std::vector<JointColumns> all;
   for (int j = 0; j < data.joints(); ++j) {
-    all.push_back(counted_columns(data, j, shapes_of_joint(data, signals, j)));
-    const std::size_t parameters = data.model.columns[static_cast<std::size_t>(j)].size();
     double counted = 0;
     for (const EffectRun& run : data.runs) counted += run.rows.counted.col(j).sum();
+    if (counted == 0) continue;  // it stands
+    all.push_back(counted_columns(data, j, shapes_of_joint(data, signals, j)));
+    const std::size_t parameters = data.model.columns[static_cast<std::size_t>(j)].size();
     if (counted < rules.least_equations + 2 * static_cast<double>(parameters) +
                       2 * static_cast<double>(all.back().columns())) {
       return {};

@@ -74,7 +74,7 @@ Candidates candidates_of(const Search& search, EffectSignals& signals,
           hypothesis_columns(data, signals, system, hypothesis, trial->effect));
     }
   }
-  const std::vector<GenericStructure> structures = generic_structures(data.joints());
+  const std::vector<GenericStructure> structures = structures_of(data);
   std::size_t hypothesis = search.hypotheses().size();
   for (const GenericResult& each : search.result().first.generic) {
     GenericStructure structure = structures[each.structure];

@@ -54,6 +54,16 @@ TEST(HeldoutVerdict, EquationsAboveTheNoiseAreNotExplained) {
             "times the noise in its equations (without the samples near reversals).");
 }
 
+TEST(HeldoutVerdict, AJointThatIsNotJudgedSaysNothing) {
+  Held held;
+  held.rms.after[1] = 0.4;
+  held.known.masked = {true, false};
+  EXPECT_TRUE(held.conclusion());
+  held.known.masked = {false, true};
+  EXPECT_FALSE(held.conclusion());
+  EXPECT_FALSE(held.conclusion(true));
+}
+
 // Fisher's F: the same ratio of few equations is chance
 TEST(HeldoutVerdict, FewEquationsAreChance) {
   Held held;

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "runtime/identification/standing_joints.h"
 #include "runtime/import/imported_rows.h"
 #include "runtime/import/map_file.h"
 #include "runtime/plausibility/derivative_remarks.h"
@@ -189,6 +190,25 @@ TEST(ImportedData, NothingIsSaidOfKinovasVelocities) {
   expect_no_remark("kinova", "kinova_raw/joint_4_trapez.csv.gz", 7);
   expect_no_remark("kinova", "kinova_raw/RunTrajectory1.csv.gz", 7);
 }
+
+/// Drives give way by 0.4 % of the speed of the joint that moves.
+TEST(ImportedData, OneJointMovesInEachOfKinovasSweeps) {
+  std::vector<runtime::MotionSource> sweeps;
+  for (const char* name : {"joint_2_trapez", "joint_4_trapez"}) {
+    const auto log = shared_data(std::string("kinova_raw/") + name + ".csv.gz");
+    if (!log) GTEST_SKIP() << skip_sentence("kinova_raw");
+    sweeps.push_back(runtime::motion_of(imported_log("kinova", *log, 7), {}));
+  }
+  const std::vector<bool> revolute(7, true);
+  const auto all_but = [](std::size_t joint) {
+    runtime::StandingJoints standing(7, true);
+    standing[joint - 1] = false;
+    return standing;
+  };
+  EXPECT_EQ(runtime::standing_joints(sweeps, revolute, sweeps),
+            (std::vector<runtime::StandingJoints>{all_but(2), all_but(4)}));
+}
+
 /// The servo filters its speed: that alone is said, 21 ms.
 TEST(ImportedData, TheLagOfTheServosSpeedIsSaid) {
   const auto log = shared_data("xl330/raw_one.json");

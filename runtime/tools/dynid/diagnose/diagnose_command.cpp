@@ -10,6 +10,7 @@
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/tool/output_files.h"
 #include "runtime/diagnosis/equation_sets/division.h"
+#include "runtime/identification/standing_joints.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_document.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_recordings.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_report.h"
@@ -240,6 +241,7 @@ int run_diagnose(const ToolOptions& options) {
   };
   try {
     input.train = read(options.recordings, "fitted");
+    hold_standing_joints(input.model.revolute, input.train, {});
     if (!settings.residual_only) {
       judge_recordings(robot, input.train, options, progress);
       refuse_dead_torque(input.train);

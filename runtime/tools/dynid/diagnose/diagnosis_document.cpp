@@ -82,6 +82,7 @@ void add_heldout(const DiagnosisReport& report, std::vector<ReportSection>& sect
   if (rms.before.size() == 0) return;
   ReportTable table{{"", "model alone", "with the findings", "noise", "", "change"}, {}, 0};
   for (int j = 0; j < report.joints(); ++j) {
+    if (!std::isfinite(entry_of(rms.after, j))) continue;  // not judged
     table.rows.push_back({joint_words(j), entry_of(rms.before, j), entry_of(rms.after, j),
                           entry_of(rms.floor, j), report.unit(j),
                           change_words(entry_of(rms.before, j), entry_of(rms.after, j))});
@@ -93,6 +94,7 @@ void add_heldout(const DiagnosisReport& report, std::vector<ReportSection>& sect
   }
   if (!report.views.heldout.empty()) {
     for (int j = 0; j < report.joints(); ++j) {
+      if (!std::isfinite(entry_of(rms.after, j))) continue;  // not judged
       section.parts.front().blocks.emplace_back(
           proof_chart(report.views.heldout, j, entry_of(rms.floor, j), report.unit(j),
                       fmt::format("heldout-joint-{}", j + 1)));
@@ -148,6 +150,15 @@ void add_forward(const DiagnosisReport& report, std::vector<ReportSection>& sect
   }
   if (!table.rows.empty()) blocks.emplace_back(std::move(table));
   sections.push_back(section_of("simulated", "Simulated before and after", std::move(blocks)));
+}
+
+void add_not_judged(const Diagnosis& diagnosis, std::vector<ReportSection>& sections) {
+  if (diagnosis.not_judged.empty()) return;
+  ReportTable table{{"", "fitted equations", "needed", "why"}, {}, 0};
+  for (const UnjudgedJoint& own : diagnosis.not_judged) {
+    table.rows.push_back({joint_words(own.joint), own.equations, own.needed, own.why});
+  }
+  sections.push_back(section_of("not-judged", "Joints that are not judged", {std::move(table)}));
 }
 
 void add_undecidable(const Diagnosis& diagnosis, std::vector<ReportSection>& sections) {
@@ -250,6 +261,7 @@ void add_noise(const DiagnosisReport& report, std::vector<ReportSection>& sectio
   std::vector<ReportBlock> blocks = {ReportText{sentence(noise.how)}};
   ReportTable table{{"", "deviation", "", "samples worth one", "independent samples"}, {}, 0};
   for (int j = 0; j < report.joints() && j < noise.deviation.size(); ++j) {
+    if (!std::isfinite(noise.deviation[j])) continue;  // not judged
     table.rows.push_back({joint_words(j), noise.deviation[j], report.unit(j),
                           entry_of(noise.correlation_time, j), entry_of(noise.worth, j)});
   }
@@ -333,6 +345,7 @@ ReportDocument diagnosis_document(const DiagnosisReport& report) {
   add_forward(report, document.sections);
   add_next(report, document.sections);
   add_certificate(report, document.sections);
+  add_not_judged(diagnosis, document.sections);
   add_undecidable(diagnosis, document.sections);
   add_cut_off(diagnosis, document.sections);
   add_base(diagnosis, document.sections);

@@ -63,10 +63,16 @@ std::string torque_unit(const DiagnosisReport& report) {
 
 std::string diagnosis_json(const DiagnosisReport& report) {
   const Diagnosis& diagnosis = report.diagnosis;
-  Json findings = Json::array(), undecidable = Json::array(), unexplained = Json::array(),
-       certificate = Json::array(), base = Json::array();
+  Json findings = Json::array(), not_judged = Json::array(), undecidable = Json::array(),
+       unexplained = Json::array(), certificate = Json::array(), base = Json::array();
   for (std::size_t i = 0; i < diagnosis.findings.size(); ++i) {
     findings.push_back(finding_json(diagnosis.findings[i], report.words[i]));
+  }
+  for (const UnjudgedJoint& own : diagnosis.not_judged) {
+    not_judged.push_back({{"joint", own.joint + 1},
+                          {"equations", number(own.equations)},
+                          {"needed", number(own.needed)},
+                          {"why", own.why}});
   }
   for (const Undecidable& own : diagnosis.undecidable) {
     undecidable.push_back({{"families", own.families}, {"joint", own.joint + 1}, {"why", own.why}});
@@ -96,6 +102,7 @@ std::string diagnosis_json(const DiagnosisReport& report) {
                {"joints", report.joints()},
                {"verdict", verdict_name(diagnosis.verdict)},
                {"findings", std::move(findings)},
+               {"not_judged", std::move(not_judged)},
                {"undecidable", std::move(undecidable)},
                {"unexplained", std::move(unexplained)},
                {"certificate", std::move(certificate)},

@@ -107,6 +107,10 @@ std::string heldout_table(const DiagnosisReport& report, const TextStyle& style)
   };
   for (int j = 0; j < report.joints(); ++j) {
     const double before = rms.before[j], after = rms.after[j], floor = rms.floor[j];
+    if (!std::isfinite(after)) {
+      text += fmt::format("  {:<11}not judged\n", fmt::format("joint {}", j + 1));
+      continue;
+    }
     const double most = std::max({before, after, std::isfinite(floor) ? floor : 0, 1e-300});
     text += fmt::format("  {:<11}{}|{:>12}{:>19}{:>9} {}\n", fmt::format("joint {}", j + 1),
                         coloured(text_bar(after / most, kWidth, style), TextColour::kAfter, style),
@@ -178,6 +182,15 @@ std::vector<std::string> undecidable_lines(const Diagnosis& diagnosis) {
   return lines;
 }
 
+/// Joints that move, but too little; those that stand are in the sentence of the verdict.
+std::vector<std::string> not_judged_lines(const Diagnosis& diagnosis) {
+  std::vector<std::string> lines;
+  for (const UnjudgedJoint& own : diagnosis.not_judged) {
+    if (own.equations > 0) lines.push_back(own.why);
+  }
+  return lines;
+}
+
 std::vector<std::string> unexplained_lines(const DiagnosisReport& report) {
   std::vector<std::string> lines;
   for (const Unexplained& own : report.diagnosis.unexplained) {
@@ -213,6 +226,7 @@ std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style
   }
   text += list_text("not searched:", diagnosis.effort.cut_off);
   for (const std::string& note : report.notes) text += note + "\n";
+  text += list_text("not judged:", not_judged_lines(diagnosis));
   text += list_text("unexplained:", unexplained_lines(report));
   text += list_text("cannot be decided:", undecidable_lines(diagnosis));
   if (!diagnosis.next.purpose.empty()) {

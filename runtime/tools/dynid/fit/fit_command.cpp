@@ -9,6 +9,7 @@
 
 #include "gen/tool/progress_line.h"
 #include "runtime/identification/simulated_motion.h"
+#include "runtime/identification/standing_joints.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/recordings/trajectory_file.h"
 #include "runtime/tools/dynid/fit/consistent_fit.h"
@@ -54,6 +55,19 @@ void hold_out_parts(double part, LoadedRecordings& train, LoadedRecordings& held
     train.lines[i] = describe(train.sources[i], options, false);
     heldout.lines.push_back(describe(last, options, true));
     heldout.sources.push_back(std::move(last));
+  }
+}
+
+/// Joints that stand all through a recording are still there, unless the caller says at which speed
+/// a joint stands.
+void hold_standing(const LinearModel& model, LoadedRecordings& train, LoadedRecordings& heldout,
+                   const ToolOptions& options) {
+  if (options.rows.still_speed >= 0) return;
+  hold_standing_joints(model.revolute, train.sources, {&heldout.sources});
+  for (LoadedRecordings* loaded : {&train, &heldout}) {
+    for (std::size_t i = 0; i < loaded->sources.size(); ++i) {
+      loaded->lines[i] = describe(loaded->sources[i], options, loaded->lines[i].heldout);
+    }
   }
 }
 
@@ -314,6 +328,7 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     const ToolOptions reading = task.reading(options);
     train = load_recordings(options.recordings, reading, false, progress);
     heldout = load_recordings(options.heldout, reading, true, progress);
+    hold_standing(model, train, heldout, options);
     hold_out_parts(options.heldout_part, train, heldout, options);
     settle_cutoff(with_effects || model.held ? nullptr : &model, train, heldout, reading, progress);
     for (std::string& remark : judge_recordings(report.robot, train.sources, options, progress)) {
