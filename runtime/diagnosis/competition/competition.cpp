@@ -185,6 +185,9 @@ class Competition {
 
   /// What may be a remnant of what was found has to be beyond doubt.
   [[nodiscard]] bool is_remnant(const NamedResult& named, const Screening& screening) const {
+    if (is_part_of_found_event(result_, sought_.hypotheses, named.hypothesis, named.best.effect)) {
+      return true;
+    }
     return may_be_remnant(result_, sought_.hypotheses, named.hypothesis) &&
            !nameless_.sure(screening, named.surprise);
   }
@@ -336,8 +339,12 @@ class Competition {
       }
       const StictionImpulses::Part stiction = stiction_.part_in(
           white, beside, sought_.hypotheses[likely.named.hypothesis], likely.named);
-      if (stiction == StictionImpulses::Part::kAll || conditions_.is_no_event(white, likely.named))
+      if (stiction == StictionImpulses::Part::kAll ||
+          conditions_.is_no_event(white, likely.named) ||
+          is_part_of_found_event(result_, sought_.hypotheses, likely.named.hypothesis,
+                                 likely.named.best.effect)) {
         return false;
+      }
       return accept(likely.named, screening, stiction == StictionImpulses::Part::kBecause,
                     likely.fit);
     };
