@@ -20,6 +20,16 @@ bool EffectFile::acts_on_all() const {
          });
 }
 
+bool EffectFile::acts_inward() const {
+  bool inward = false;
+  for (const std::string& read : variables) {
+    if (find_effect_variable(read)->source != VariableSource::kEveryJoint) continue;
+    if (!read.starts_with("contact_")) return false;
+    inward = true;
+  }
+  return inward;
+}
+
 bool EffectFile::runs_in_controller() const {
   if (kind != EffectKind::kAlgebraic && kind != EffectKind::kStateful) return false;
   return std::all_of(variables.begin(), variables.end(), [](const std::string& read) {

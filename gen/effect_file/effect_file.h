@@ -123,6 +123,8 @@ struct EffectFile {
 
   /// Made of derivatives of the rigid model: it acts on every joint.
   [[nodiscard]] bool acts_on_all() const;
+  /// Made of forces and moments on a link (contact_*) alone: joints beyond the link carry nothing.
+  [[nodiscard]] bool acts_inward() const;
   /// Algebraic or stateful, and everything that it reads is known in a controller.
   [[nodiscard]] bool runs_in_controller() const;
 };

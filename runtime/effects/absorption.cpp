@@ -217,8 +217,6 @@ std::vector<EffectInstance> atlas_effects(const LinearModel& model,
       add(-1, -1);
     } else if (law.scope == EffectScope::kPair) {
       for (const auto& [joint, other] : coupled) add(joint, other);
-    } else if (law.family == "contact") {
-      add(n - 1, -1);
     } else {
       for (int j = 0; j < n; ++j) add(j, -1);
     }

@@ -59,8 +59,7 @@ struct AbsorptionAtlas {
 };
 
 /// Which effects to look at: each law on each joint it can be on; of scope pair on neighbouring
-/// joints and on the given pairs, both ways; of scope robot once; a force on a link (contact) on
-/// the last one.
+/// joints and on the given pairs, both ways; of scope robot once.
 std::vector<EffectInstance> atlas_effects(const LinearModel& model,
                                           const std::vector<EffectLaw>& laws,
                                           const std::vector<std::pair<int, int>>& pairs = {});

@@ -91,6 +91,8 @@ struct EffectLaw {
   /// is then right to the second order.
   int midpoint = -1;
   bool acts_on_all = false;
+  /// Of what acts on all joints: a force on the joint's link, which joints beyond do not carry.
+  bool acts_inward = false;
   bool revolute_only = false;
   bool dissipates = false;
   bool proportional = false;  ///< no torque where all parameters of role kLinear are 0

@@ -45,7 +45,7 @@ struct Application {
 std::vector<Application> applications(const EffectInstance& effect, int joints) {
   std::vector<Application> all;
   if (effect.law.acts_on_all || effect.joint < 0) {
-    for (int i = 0; i < joints; ++i) all.push_back({i, {i}});
+    for (const int i : joints_of(effect, joints)) all.push_back({i, {i}});
   } else if (effect.law.outputs == 2) {
     all.push_back({effect.joint, {effect.joint, effect.other}});
   } else {
@@ -399,7 +399,8 @@ std::string short_name(const EffectInstance& effect) {
 
 std::vector<int> joints_of(const EffectInstance& effect, int joints) {
   if (effect.law.acts_on_all || effect.joint < 0) {
-    std::vector<int> all(static_cast<std::size_t>(joints));
+    const bool inward = effect.law.acts_inward && effect.joint >= 0;
+    std::vector<int> all(static_cast<std::size_t>(inward ? effect.joint + 1 : joints));
     std::iota(all.begin(), all.end(), 0);
     return all;
   }

@@ -273,6 +273,13 @@ TEST(BoundEffect, SaysWhatIsWrongInARow) {
   EXPECT_EQ(bound_message("effect contact joint=3 fz=5"), "");
 }
 
+TEST(EffectCatalogueTest, OnlyAForceOnALinkEndsAtItsJoint) {
+  const EffectCatalogue catalogue;
+  for (const auto& effect : catalogue.all()) {
+    EXPECT_EQ(effect->acts_inward(), effect->family == "contact") << effect->name;
+  }
+}
+
 TEST(EffectCatalogueTest, HoldsItsOwnEffectsInTheOrderOfTheFamilies) {
   const EffectCatalogue catalogue;
   EXPECT_GE(catalogue.all().size(), 60U);

@@ -19,19 +19,24 @@ std::string where_it_acts(const EffectInstance& effect) {
   if (effect.other >= 0) {
     return fmt::format("joints {} and {}", effect.joint + 1, effect.other + 1);
   }
-  return fmt::format("joint {}", effect.joint + 1);
+  return fmt::format("{}joint {}", effect.law.acts_inward ? "the link of " : "", effect.joint + 1);
 }
 
 std::string when_it_acts(const EffectLocation& where) {
   return where.recording.empty() ? "" : " in " + where.recording;
 }
 
-/// "the same of joint 2 (gain = -0.0428)": linear parameters of effects on other joints.
+/// "the same of joint 2 (gain = -0.0428)": linear parameters of effects on other joints. A force on
+/// another link has six, which are left out.
 std::string elsewhere(const Naming& naming, const std::vector<Hypothesis>& hypotheses) {
   std::vector<std::string> places;
   for (const Rival& rival : naming.elsewhere) {
     std::vector<std::string> numbers;
     const EffectInstance& effect = rival.trial.effect;
+    if (effect.law.acts_inward) {
+      places.push_back("the same of " + where_it_acts(effect));
+      continue;
+    }
     for (const int p : hypotheses[rival.hypothesis].linear) {
       numbers.push_back(fmt::format("{} = {:.4g}",
                                     effect.law.parameters[static_cast<std::size_t>(p)].name,

@@ -207,6 +207,9 @@ class Competition {
 
   /// What may be a remnant of what was found has to be beyond doubt.
   [[nodiscard]] bool is_remnant(const NamedResult& named, const Screening& screening) const {
+    if (is_part_of_found_event(result_, sought_.hypotheses, named.hypothesis, named.best.effect)) {
+      return true;
+    }
     return may_be_remnant(result_, sought_.hypotheses, named.hypothesis) &&
            !nameless_.sure(screening, named.surprise);
   }
@@ -254,7 +257,8 @@ class Competition {
         continue;
       }
       stopped.insert(attempted.begin(), attempted.end());
-      const NamedResult best = settled(named, order, stopped, screening);
+      const NamedResult best =
+          on_nearest_link(settled(named, order, stopped, screening), system, screening, attempted);
       attempted.insert(best.hypothesis);
       if (accept(best, screening, stiction == StictionImpulses::Part::kBecause)) return true;
     }
@@ -358,10 +362,19 @@ class Competition {
       }
       const StictionImpulses::Part stiction = stiction_.part_in(
           white, beside, sought_.hypotheses[likely.named.hypothesis], likely.named);
-      if (stiction == StictionImpulses::Part::kAll || conditions_.is_no_event(white, likely.named))
+      if (stiction == StictionImpulses::Part::kAll ||
+          conditions_.is_no_event(white, likely.named) ||
+          is_part_of_found_event(result_, sought_.hypotheses, likely.named.hypothesis,
+                                 likely.named.best.effect)) {
         return false;
-      return accept(likely.named, screening, stiction == StictionImpulses::Part::kBecause,
-                    likely.fit);
+      }
+      const bool at_stiction = stiction == StictionImpulses::Part::kBecause;
+      const NamedResult nearest = on_nearest_link(likely.named, white, beside, {});
+      if (nearest.hypothesis != likely.named.hypothesis &&
+          accept(nearest, screening, at_stiction)) {
+        return true;
+      }
+      return accept(likely.named, screening, at_stiction, likely.fit);
     };
     if (likely_.next({system, screening}, plain, accepts)) return true;
     // what an effect that was not looked at explains is not without a name
@@ -411,6 +424,41 @@ class Competition {
       first = false;
     }
     return best;
+  }
+
+  /// A force that seems to act on a link whose own joint carries no torque acts on the link before
+  /// it. The force is constant between two times in the model, and seldom in the world: the link
+  /// further out has more parameters, and explains more of its course.
+  /// @param refused  as of settled()
+  [[nodiscard]] NamedResult on_nearest_link(NamedResult named, const EvidenceSystem& system,
+                                            const Screening& screening,
+                                            const std::set<std::size_t>& refused) {
+    for (;;) {
+      const Hypothesis& own = sought_.hypotheses[named.hypothesis];
+      const EffectInstance& event = named.best.effect;
+      if (!own.windowed || !event.law.acts_inward || event.joint < 1) return named;
+      if (conditions_.carries_torque(system, named, event.joint)) {
+        return named;
+      }
+      const auto nearer = std::find_if(
+          screening.named.begin(), screening.named.end(), [&](const NamedResult& other) {
+            const EffectInstance& effect = sought_.hypotheses[other.hypothesis].effect;
+            return effect.law.name == event.law.name && effect.joint == event.joint - 1;
+          });
+      if (nearer == screening.named.end() || refused.contains(nearer->hypothesis)) return named;
+      if (!nearer->seen || !nearer->best.admissible || is_winner(result_, nearer->hypothesis) ||
+          nearer->best.score.delta_chi2 < kLeastAsGood * named.best.score.delta_chi2 ||
+          screening.family_wise(nearer->surprise) > options_.false_alarm ||
+          conditions_.is_no_event(system, *nearer)) {
+        return named;
+      }
+      NamedResult next = *nearer;
+      const Hypothesis& hypothesis = sought_.hypotheses[next.hypothesis];
+      next.best = refined(data_.evidence, data_.signals, system, hypothesis, next.best,
+                          sought_.scales.of(result_.fit.point.beta, hypothesis.effect));
+      next.surprise = surprise_of_refined(next, hypothesis);
+      named = std::move(next);
+    }
   }
 
   /// Fits the model with one more effect, and keeps it if nothing speaks against it.

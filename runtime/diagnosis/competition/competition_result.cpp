@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "runtime/diagnosis/competition/heldout.h"
@@ -106,6 +107,39 @@ bool may_be_remnant(const CompetitionResult& result, const std::vector<Hypothesi
   };
   return !result.nameless.empty() ||
          std::any_of(result.winners.begin(), result.winners.end(), changes_with_time);
+}
+
+namespace {
+
+struct Times {
+  double begin = 0, end = 0;
+};
+
+/// Of an event; what only begins has no end.
+Times times_of(const Hypothesis& hypothesis, const EffectInstance& event) {
+  const double begin = event.parameters[hypothesis.shapes.front()];
+  if (hypothesis.shapes.size() < 2) return {begin, std::numeric_limits<double>::infinity()};
+  return {begin, event.parameters[hypothesis.shapes[1]]};
+}
+
+}  // namespace
+
+bool is_part_of_found_event(const CompetitionResult& result,
+                            const std::vector<Hypothesis>& hypotheses, std::size_t hypothesis,
+                            const EffectInstance& event) {
+  const Hypothesis& own = hypotheses[hypothesis];
+  if (!own.windowed) return false;
+  const Times times = times_of(own, event);
+  for (std::size_t i = 0; i < result.winners.size() && i < result.fit.point.effects.size(); ++i) {
+    const Hypothesis& other = hypotheses[result.winners[i].hypothesis];
+    const EffectInstance& found = result.fit.point.effects[i];
+    if (!other.windowed || other.effect.law.family != own.effect.law.family) continue;
+    const bool together =
+        event.recording < 0 || found.recording < 0 || event.recording == found.recording;
+    const Times known = times_of(other, found);
+    if (together && times.begin < known.end && known.begin < times.end) return true;
+  }
+  return false;
 }
 
 EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,

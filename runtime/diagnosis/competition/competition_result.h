@@ -69,6 +69,13 @@ bool has_nameless(const CompetitionResult& result, int joint);
 bool may_be_remnant(const CompetitionResult& result, const std::vector<Hypothesis>& hypotheses,
                     std::size_t hypothesis);
 
+/// Whether an event overlaps one of its family that was found, in the same recording: the form of
+/// an event's course is not known, and what it leaves is no second event.
+/// @param event  an estimate of a hypothesis
+bool is_part_of_found_event(const CompetitionResult& result,
+                            const std::vector<Hypothesis>& hypotheses, std::size_t hypothesis,
+                            const EffectInstance& event);
+
 /// The model with what is given beside it: regressor, and effects at their estimates with the
 /// columns of all their unknown parameters.
 EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,

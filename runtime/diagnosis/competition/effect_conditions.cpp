@@ -56,6 +56,30 @@ bool EffectConditions::is_no_event(const EvidenceSystem& system, const NamedResu
                                                         named.best.effect, {0})));
 }
 
+bool EffectConditions::carries_torque(const EvidenceSystem& system, const NamedResult& named,
+                                      int joint) const {
+  Hypothesis hypothesis = sought_.hypotheses[named.hypothesis];
+  std::vector<int> wanted;
+  for (const int p : hypothesis.linear) wanted.push_back(1 + p);
+  const EffectInstance& event = named.best.effect;
+  const JointColumns all =
+      effect_columns(data_.evidence, data_.signals, event, wanted, hypothesis.held);
+  const auto place = std::find(all.joints.begin(), all.joints.end(), joint);
+  if (place == all.joints.end()) return false;
+  const Eigen::MatrixXd& own = all.parts[static_cast<std::size_t>(place - all.joints.begin())];
+  const auto acting = static_cast<double>((own.rowwise().squaredNorm().array() > 0).count());
+  JointColumns columns;
+  columns.joints = {joint};
+  columns.parts = {own};
+  const Products products = system.products(system.whitened(std::move(columns)), false);
+  hypothesis.shapes.clear();  // its times are known
+  TrialScore trial;
+  trial.score = score_of(products, false);
+  trial.few = squares_of_few(products);
+  trial.part = acting / static_cast<double>(own.rows() * data_.evidence.joints());
+  return net_of(hypothesis, trial, result_.noise) > 0;
+}
+
 bool EffectConditions::outdone(const NamedResult& named, const EvidenceSystem& system,
                                const Screening& screening) const {
   return outdone(sought_.net(named, result_.noise), sought_.joints(named.hypothesis), system,

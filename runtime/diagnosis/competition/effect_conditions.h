@@ -24,6 +24,13 @@ class EffectConditions {
   /// Whether what would be an event is a wild value, or too little: nothing held out speaks for it.
   [[nodiscard]] bool is_no_event(const EvidenceSystem& system, const NamedResult& named) const;
 
+  /// Whether an event shows on one of its joints: its columns on this joint alone have a positive
+  /// net chi-square, without the penalty of its times. The last joint that carries torque tells the
+  /// link of a force (Haddadin, De Luca and Albu-Schaeffer 2017).
+  /// @param joint  coordinate, from 0
+  [[nodiscard]] bool carries_torque(const EvidenceSystem& system, const NamedResult& named,
+                                    int joint) const;
+
   /// Whether what has no name explains more on the same joint: an effect that its file rules out,
   /// since the structure is something else then, of that form; or a function of the motion.
   [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,

@@ -36,15 +36,24 @@ bool on_the_same_joints(const EffectInstance& a, const EffectInstance& b) {
   return std::minmax(a.joint, a.other) == std::minmax(b.joint, b.other);
 }
 
+/// Whether a rival is a force on a link beyond the winner's. Such a force has the torques of the
+/// winner's among its own: it imitates the winner on any data, by torques on the joints between
+/// that happen to be 0. The penalty of its further parameters is what tells it from the winner.
+bool is_beyond(const EffectInstance& rival, const EffectInstance& winner) {
+  return rival.law.acts_inward && winner.law.acts_inward && rival.joint > winner.joint;
+}
+
 /// Of each joint the nearest, where these data do not tell it from the winner's.
 /// @param elsewhere  distance is by what they are worse
 std::vector<Rival> nearest_of_joints(std::vector<Rival> elsewhere,
-                                     const std::vector<Hypothesis>& hypotheses) {
+                                     const std::vector<Hypothesis>& hypotheses,
+                                     const EffectInstance& winner) {
   std::map<int, Rival> nearest;
   for (Rival& rival : elsewhere) {
-    if (rival.distance >= kApart && rival.apart >= kSeparable) continue;
-    const auto [entry, added] =
-        nearest.try_emplace(hypotheses[rival.hypothesis].effect.joint, rival);
+    const EffectInstance& effect = hypotheses[rival.hypothesis].effect;
+    const bool separable = rival.apart >= kSeparable || is_beyond(effect, winner);
+    if (rival.distance >= kApart && separable) continue;
+    const auto [entry, added] = nearest.try_emplace(effect.joint, rival);
     if (!added && rival.distance < entry->second.distance) entry->second = std::move(rival);
   }
   std::vector<Rival> all;
@@ -112,7 +121,7 @@ RivalsOfWinner rivals_of(const EffectRecordings& data, EffectSignals& signals,
                         .left;
     }
   }
-  rivals.elsewhere = nearest_of_joints(std::move(rivals.elsewhere), hypotheses);
+  rivals.elsewhere = nearest_of_joints(std::move(rivals.elsewhere), hypotheses, winning.effect);
   return rivals;
 }
 

@@ -65,9 +65,11 @@ TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score s
   for (Index i = 0; i < k; ++i) {
     if (!(shown[i] > kShownPart * shown.sum())) result.typical[i] = 0;
   }
-  // of friction that the machine does not have no size is typical: one that would just be seen
-  if (k > 0 && result.typical.isZero() && products.left(0, 0) > 0) {
-    result.typical[0] = 1 / std::sqrt(products.left(0, 0));
+  // of friction that the machine does not have no size is typical, nor of a force that meets its
+  // joint's axis: one that would just be seen
+  for (Index i = 0; i < k && result.typical.isZero(); ++i) {
+    if (!(products.left(i, i) > kShownPart * products.whole(i, i))) continue;
+    result.typical[i] = 1 / std::sqrt(products.left(i, i));
   }
   result.typical_lambda = result.typical.dot(products.left * result.typical);
   const EffectSizes sizes = trial.law.sizes(scales);

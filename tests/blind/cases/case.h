@@ -18,6 +18,7 @@ struct CaseOptions {
   double lambda = 80;            ///< wanted strength of each effect; crowds draw it
   bool noisy = true;             ///< false: sensors without noise, to prove the simulation
   std::string family;            ///< empty: drawn
+  int joint = 0;                 ///< of the effects, from 1, also where none is drawn; 0: drawn
   std::string arm;               ///< empty: drawn; "small": drawn of planar2 and twisted4
   std::string habit;             ///< of recording (habit.h); empty: the laboratory's
   std::optional<Colour> colour;  ///< of the torque's noise; nothing: drawn

@@ -37,12 +37,13 @@ struct Choice {
   Index joint = 0;
 };
 
-/// A kind of physics, evenly among the families, and a joint where it is possible.
+/// A kind of physics, evenly among the families, and a joint where it is possible, or the wanted
+/// one.
 std::optional<Choice> choose(const std::vector<Physics>& all, const Machine& machine,
-                             const std::string& family, Random& random) {
+                             const CaseOptions& options, Random& random) {
   std::vector<const Physics*> candidates;
   for (const Physics& physics : all) {
-    if (family.empty() || physics.family == family) candidates.push_back(&physics);
+    if (options.family.empty() || physics.family == options.family) candidates.push_back(&physics);
   }
   if (candidates.empty()) return {};
   const Physics* const physics = candidates[random.below(candidates.size())];
@@ -50,6 +51,8 @@ std::optional<Choice> choose(const std::vector<Physics>& all, const Machine& mac
   for (Index j = 0; j < machine.joints(); ++j) {
     if (!physics->possible || physics->possible(machine, j)) joints.push_back(j);
   }
+  if (options.joint > machine.joints()) return {};
+  if (options.joint > 0) joints = {options.joint - 1};
   if (joints.empty()) return {};
   return Choice{physics, joints[random.below(joints.size())]};
 }
@@ -179,7 +182,7 @@ std::optional<Draft> draw_case(const CaseOptions& options, const std::string& ar
   const std::size_t count = options.kind == "null" ? 0 : options.kind == "pair" ? 2 : 1;
   Random truths = random.part(4);
   while (draft.truths.size() < count) {
-    const auto choice = choose(all, draft.machine, options.family, truths);
+    const auto choice = choose(all, draft.machine, options, truths);
     if (!choice) return {};
     const bool again =
         !draft.truths.empty() && (draft.truths.front().family == choice->physics->family ||

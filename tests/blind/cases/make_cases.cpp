@@ -69,6 +69,8 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"null", "single", "pair", "hidden", "foreign", "passing", "crowd"}));
   app.add_option("--lambda", order.options.lambda, "wanted strength")->check(CLI::PositiveNumber);
   app.add_option("--family", order.options.family, "of single effects; else drawn");
+  app.add_option("--joint", order.options.joint, "of the effects, from 1; else drawn")
+      ->check(CLI::PositiveNumber);
   app.add_option("--arm", order.options.arm,
                  "planar2 twisted4 puma560 ur10e panda; small: one of the first two; else drawn");
   std::vector<std::string> names;

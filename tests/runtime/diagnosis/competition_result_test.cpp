@@ -38,6 +38,32 @@ TEST(MayBeRemnant, IsAnEventBesideWhatChangesWithTime) {
   EXPECT_FALSE(may_be_remnant(with_winner(kPush), all, kPush));
 }
 
+/// Two forces on links, with the first found from 10 s to 12 s of the second recording.
+TEST(IsPartOfFoundEvent, IsWhatOverlapsItInItsRecording) {
+  std::vector<Hypothesis> all(3);
+  for (const std::size_t place : {0U, 1U, 2U}) {
+    all[place].effect = test::unknown(test::contact_law(), place == 0 ? 0 : 1);
+    all[place].shapes = {3, 4};
+    all[place].windowed = true;
+  }
+  all[2].effect.law.family = "payload_change";
+  CompetitionResult result = with_winner(0);
+  result.fit.point.effects = {test::known(test::contact_law(), 0, {0, 0, 1, 10, 12})};
+  result.fit.point.effects[0].recording = 1;
+  const auto is_part = [&](double begin, double end, int recording, std::size_t place = 1) {
+    EffectInstance event = test::known(test::contact_law(), 1, {0, 0, 1, begin, end});
+    event.recording = recording;
+    return is_part_of_found_event(result, all, place, event);
+  };
+  EXPECT_TRUE(is_part(11, 13, 1));
+  EXPECT_TRUE(is_part(9, 10.5, -1));
+  EXPECT_FALSE(is_part(12, 13, 1));
+  EXPECT_FALSE(is_part(11, 13, 0));
+  EXPECT_FALSE(is_part(11, 13, 1, 2));
+  result.winners.clear();
+  EXPECT_FALSE(is_part(11, 13, 1));
+}
+
 TEST(MayBeRemnant, IsAnEventBesideStructureWithoutAName) {
   const std::vector<Hypothesis> all = push_drift_and_spring();
   CompetitionResult result = with_winner(kSpring);

@@ -79,6 +79,28 @@ TEST(EffectConditions, DemandMostOfTheStructureOfTheEffectsJoints) {
   EXPECT_DOUBLE_EQ(scene.least_of_spring(), 700);
 }
 
+/// A moment on the first link is none on the second joint, although a force on the second link
+/// explains it.
+TEST(EffectConditions, AskWhetherAJointCarriesTheTorqueOfAForce) {
+  for (const int link : {1, 2}) {
+    EffectInstance truth = test::known(test::contact_law(), link - 1, {0, 0, 0.5, 5, 15});
+    truth.link = link;
+    test::ArmCompetition arm(test::everywhere({truth}));
+    EffectInstance second = test::unknown(test::contact_law(), 1);
+    second.link = 2;
+    std::vector<Hypothesis> hypotheses = {arm.hypothesis(second)};
+    hypotheses[0].effect.parameters << 0, 0, 0, 5, 15;
+    const Sought sought = sought_in(arm.evidence, hypotheses);
+    const CompetitionResult result = arm.nothing_found();
+    const StictionImpulses stiction(arm.data, sought, result.sticking, 0.01);
+    const EffectConditions conditions(arm.data, sought, stiction, result);
+    const EvidenceSystem system = test::arm_system(arm.evidence);
+    const NamedResult named = arm.named(sought, 0);
+    EXPECT_TRUE(conditions.carries_torque(system, named, 0));
+    EXPECT_EQ(conditions.carries_torque(system, named, 1), link == 2);
+  }
+}
+
 TEST(EffectConditions, CountStictionImpulsesThatAreMoreThanNoise) {
   ConditionScene scene;
   scene.add(GenericStructure::Form::kImpulses, 1, 190, 100);

@@ -66,6 +66,20 @@ TEST_F(TryHypothesis, OfAProportionalLawIsTheSameWithoutItsTorque) {
   EXPECT_EQ(without.typical_lambda, by_torque.typical_lambda);
 }
 
+/// Forces of the typical size meet the first joint's axis. A moment is seen there.
+TEST_F(TryHypothesis, GivesASizeToTheFirstParameterThatIsSeen) {
+  EffectInstance effect = test::unknown(test::contact_law(), 0);
+  effect.link = 1;
+  const EffectScales scales = ScaleTable(data_).of(test::planar_arm_values(), effect);
+  const Hypothesis hypothesis = hypothesis_of(effect, scales);
+  const TrialScore score =
+      try_hypothesis(data_, signals_, system_, hypothesis, hypothesis.effect, scales, false);
+  EXPECT_EQ(score.typical[0], 0);
+  EXPECT_EQ(score.typical[1], 0);
+  EXPECT_GT(score.typical[2], 0);
+  EXPECT_NEAR(score.typical_lambda, 1, 1e-9);
+}
+
 TEST_F(TryHypothesis, GivesNoSizeToWhatMovesNothing) {
   EffectLaw law = wave_law(0);
   law.proportional = true;

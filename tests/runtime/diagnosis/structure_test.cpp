@@ -335,6 +335,25 @@ TEST(Diagnosis, NamesAnEventOfOneRecording) {
   EXPECT_NEAR(diagnosis.heldout.after[0] / diagnosis.heldout.before[0], 1, 0.01);
 }
 
+/// A force on the second link can leave the second joint without torque. The first link's explains
+/// such a torque with fewer parameters. Torque on both joints is none of a force on the first link.
+TEST(Diagnosis, NamesTheLinkOnWhichAForceActs) {
+  for (const int link : {1, 2}) {
+    EffectInstance event = test::known(test::contact_law(), link - 1, {0, 0, 0.2, 12, 14});
+    event.link = link;
+    const Diagnosis diagnosis =
+        diagnose(test::arm_input(with_event_in(1, event, 3), {}, {test::contact_law()}),
+                 test::every_sample());
+    ASSERT_EQ(diagnosis.findings.size(), 1U) << diagnosis.sentence;
+    const Finding& finding = diagnosis.findings.front();
+    EXPECT_EQ(finding.effect.joint, link - 1) << finding.why;
+    EXPECT_EQ(finding.elsewhere, "") << finding.why;
+    EXPECT_NE(finding.why.find("contact on the link of joint " + std::to_string(link)),
+              std::string::npos)
+        << finding.why;
+  }
+}
+
 TEST(Diagnosis, ASinusoidOfItsOwnFrequencyHasNoName) {
   const EffectInstance hum = test::known(hum_law(), 1, {0.05, 3.3});
   const Diagnosis diagnosis =

@@ -139,6 +139,18 @@ TEST(Absorption, AnEffectIsMostLikeItsOwnCopy) {
   EXPECT_LT(atlas.likeness(0, 1), 0.9);
 }
 
+TEST(Absorption, OfAForceOnEveryLink) {
+  const auto effects = atlas_effects(test::planar_arm(), {test::contact_law()});
+  ASSERT_EQ(effects.size(), 2u);
+  EXPECT_EQ(effects[0].joint, 0);
+  EXPECT_EQ(effects[1].joint, 1);
+  // joints beyond the link carry nothing
+  EXPECT_EQ(joints_of(effects[0], 2), std::vector<int>{0});
+  EXPECT_EQ(joints_of(effects[1], 2), (std::vector<int>{0, 1}));
+  EffectLaw tilt = test::tilt_law();
+  EXPECT_EQ(joints_of(test::unknown(tilt, -1), 2), (std::vector<int>{0, 1}));
+}
+
 TEST(Absorption, OfPairsBothWaysAndOfRobotsOnce) {
   EffectLaw pair = test::spring_law();
   pair.scope = EffectScope::kPair;

@@ -118,6 +118,17 @@ EffectRobot planar_arm_tangents() {
       torque.col(1).setZero();
       return {{wanted, torque}};
     }
+    if (name.starts_with("contact_")) {
+      MatrixXd x = MatrixXd::Zero(torque.rows(), 2), y = x, moment = x;
+      moment.leftCols(wanted.second).setOnes();
+      if (wanted.second == 2) {
+        x.col(0) = -kLength * q1.sin();
+        y.col(0) = kLength * q1.cos();
+      }
+      return {{{"contact_fx", wanted.second}, x},
+              {{"contact_fy", wanted.second}, y},
+              {{"contact_nz", wanted.second}, moment}};
+    }
     // gravity (gx, gy) of the arm's plane: g is its y
     const double turn = name == "d_gx" ? std::acos(-1.0) / 2 : 0;
     torque.col(1) = beta[4] * (q12 + turn).cos() - beta[5] * (q12 + turn).sin();
@@ -286,6 +297,23 @@ EffectLaw payload_law() {
   law.kind = EffectKind::kTangent;
   law.scope = EffectScope::kRobot;
   law.acts_on_all = true;
+  return law;
+}
+
+EffectLaw contact_law() {
+  EffectLaw law = algebraic_law("contact", {"t", "contact_fx", "contact_fy", "contact_nz"},
+                                {{"fx", EffectRole::kLinear, -kInfinite, kInfinite, 0, 1},
+                                 {"fy", EffectRole::kLinear, -kInfinite, kInfinite, 0, 1},
+                                 {"nz", EffectRole::kLinear, -kInfinite, kInfinite, 0, 0},
+                                 {"t_on", EffectRole::kScanned, 0, 30, 15, 15, false, 200},
+                                 {"t_off", EffectRole::kScanned, 0, 30, 16, 16, false, 200}},
+                                [](const VectorXd& v, const VectorXd& p) {
+                                  const bool on = v[0] > p[3] && v[0] <= p[4];
+                                  return on ? p.head(3).dot(v.tail(3)) : 0.0;
+                                });
+  law.parameters[3].unit = law.parameters[4].unit = "s";
+  law.kind = EffectKind::kTangent;
+  law.acts_on_all = law.acts_inward = true;
   return law;
 }
 

@@ -16,7 +16,8 @@ namespace dyngen::test {
 runtime::LinearModel planar_arm();
 /// Parameters of it: (13).
 Eigen::VectorXd planar_arm_values();
-/// d_gx, d_gy, payload_M of it (a mass in the second frame's origin), all by hand.
+/// d_gx, d_gy, payload_M of it (a mass in the second frame's origin), contact_fx, contact_fy and
+/// contact_nz of each link, all by hand.
 runtime::EffectRobot planar_arm_tangents();
 
 /// A motion of both joints that is a sum of sines, derivatives exact.
@@ -51,6 +52,9 @@ runtime::EffectLaw ripple_law();             ///< a cos(n q) + b sin(n q), n sca
 runtime::EffectLaw coulomb_asymmetry_law();  ///< a |sign_qd|
 runtime::EffectLaw tilt_law();               ///< x d_gx + y d_gy, on all joints
 runtime::EffectLaw payload_law();  ///< m payload_M between t1 and t2 (given), on all joints
+/// A force in the arm's plane and a moment on a link between two times (scanned), on the joint of
+/// the link and those before it.
+runtime::EffectLaw contact_law();
 /// k z with dz/dt = qd, |z| <= reach: an element that sticks and slips.
 runtime::EffectLaw slip_law();
 runtime::EffectLaw delay_law();  ///< of all joints

@@ -157,6 +157,7 @@ EffectLaw effect_law(const EffectFile& effect) {
   law.kind = static_cast<EffectKind>(effect.kind);
   law.scope = static_cast<EffectScope>(effect.scope);
   law.acts_on_all = effect.acts_on_all();
+  law.acts_inward = effect.acts_inward();
   law.revolute_only = effect.revolute_only;
   law.dissipates = effect.dissipates;
   law.variables = effect.variables;
