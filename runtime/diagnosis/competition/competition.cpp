@@ -426,6 +426,21 @@ class Competition {
     return best;
   }
 
+  /// The model with a force on another link at the times of an event: what the event makes the
+  /// parameters of the model do to other joints is taken out.
+  [[nodiscard]] EvidenceSystem beside_same_event(const EvidenceSystem& system,
+                                                 const Hypothesis& other, const Hypothesis& own,
+                                                 const EffectInstance& event) {
+    EffectInstance same = other.effect;
+    for (std::size_t i = 0; i < other.shapes.size(); ++i) {
+      same.parameters[other.shapes[i]] = event.parameters[own.shapes[i]];
+    }
+    same.recording = event.recording;
+    EvidenceSystem beside = system;
+    beside.add(hypothesis_columns(data_.evidence, data_.signals, system, other, same));
+    return beside;
+  }
+
   /// A force that seems to act on a link whose own joint carries no torque acts on the link before
   /// it. The force is constant between two times in the model, and seldom in the world: the link
   /// further out has more parameters, and explains more of its course.
@@ -437,9 +452,6 @@ class Competition {
       const Hypothesis& own = sought_.hypotheses[named.hypothesis];
       const EffectInstance& event = named.best.effect;
       if (!own.windowed || !event.law.acts_inward || event.joint < 1) return named;
-      if (conditions_.carries_torque(system, named, event.joint)) {
-        return named;
-      }
       const auto nearer = std::find_if(
           screening.named.begin(), screening.named.end(), [&](const NamedResult& other) {
             const EffectInstance& effect = sought_.hypotheses[other.hypothesis].effect;
@@ -452,8 +464,12 @@ class Competition {
           conditions_.is_no_event(system, *nearer)) {
         return named;
       }
+      const Hypothesis& hypothesis = sought_.hypotheses[nearer->hypothesis];
+      if (conditions_.carries_torque(beside_same_event(system, hypothesis, own, event), named,
+                                     event.joint)) {
+        return named;
+      }
       NamedResult next = *nearer;
-      const Hypothesis& hypothesis = sought_.hypotheses[next.hypothesis];
       next.best = refined(data_.evidence, data_.signals, system, hypothesis, next.best,
                           sought_.scales.of(result_.fit.point.beta, hypothesis.effect));
       next.surprise = surprise_of_refined(next, hypothesis);

@@ -27,7 +27,9 @@ class EffectConditions {
   /// Whether an event shows on one of its joints: its columns on this joint alone have a positive
   /// net chi-square, without the penalty of its times. The last joint that carries torque tells the
   /// link of a force (Haddadin, De Luca and Albu-Schaeffer 2017).
-  /// @param joint  coordinate, from 0
+  /// @param system  the model and a force on the link before, at the same times: without it, the
+  ///                parameters of the model carry the event to other joints
+  /// @param joint   coordinate, from 0
   [[nodiscard]] bool carries_torque(const EvidenceSystem& system, const NamedResult& named,
                                     int joint) const;
 

@@ -94,9 +94,12 @@ TEST(EffectConditions, AskWhetherAJointCarriesTheTorqueOfAForce) {
     const CompetitionResult result = arm.nothing_found();
     const StictionImpulses stiction(arm.data, sought, result.sticking, 0.01);
     const EffectConditions conditions(arm.data, sought, stiction, result);
-    const EvidenceSystem system = test::arm_system(arm.evidence);
+    EvidenceSystem system = test::arm_system(arm.evidence);
     const NamedResult named = arm.named(sought, 0);
     EXPECT_TRUE(conditions.carries_torque(system, named, 0));
+    EffectInstance first = test::known(test::contact_law(), 0, {0, 0, 0, 5, 15});
+    first.link = 1;
+    system.add(system.whitened(effect_columns(arm.evidence, arm.signals, first, {3})));
     EXPECT_EQ(conditions.carries_torque(system, named, 1), link == 2);
   }
 }

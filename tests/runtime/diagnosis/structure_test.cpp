@@ -339,7 +339,7 @@ TEST(Diagnosis, NamesAnEventOfOneRecording) {
 /// such a torque with fewer parameters. Torque on both joints is none of a force on the first link.
 TEST(Diagnosis, NamesTheLinkOnWhichAForceActs) {
   for (const int link : {1, 2}) {
-    EffectInstance event = test::known(test::contact_law(), link - 1, {0, 0, 0.2, 12, 14});
+    EffectInstance event = test::known(test::contact_law(), link - 1, {0, 0, 0.2, 12, 15});
     event.link = link;
     const Diagnosis diagnosis =
         diagnose(test::arm_input(with_event_in(1, event, 3), {}, {test::contact_law()}),
