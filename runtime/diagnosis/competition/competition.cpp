@@ -127,7 +127,11 @@ class Competition {
     if (result_.noise.from_periods) return;
     EffectSignals signals(data_.fit);
     signals.set_beta(result_.fit.point.beta);
-    std::vector<JointColumns> largest = largest_model(data_.fit, signals, options_.rules.equations);
+    // what another simulator leaves has no model of its own, beside which a larger one would stand
+    std::vector<JointColumns> largest;
+    if (options_.with_regressor) {
+      largest = largest_model(data_.fit, signals, options_.rules.equations);
+    }
     if (!largest.empty()) {
       // structure that was found without a name is no noise either
       for (const Nameless& nameless : result_.nameless) {

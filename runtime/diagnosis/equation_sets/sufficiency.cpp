@@ -102,8 +102,8 @@ std::string why_too_few(const std::vector<UnjudgedJoint>& unjudged, int joints) 
   std::vector<std::string> reasons;
   for (const UnjudgedJoint& own : unjudged) reasons.push_back(own.why);
   return fmt::format(
-      "No joint has equations enough to test what the model leaves: {}. Record motions in which "
-      "at least one joint moves longer, or through more of its range and speeds.",
+      "Every joint has too few equations to test what the model leaves: {}. Record motions in "
+      "which at least one joint moves longer, or through more of its range and speeds.",
       fmt::join(reasons, "; "));
 }
 

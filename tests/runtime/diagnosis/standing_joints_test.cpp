@@ -139,7 +139,7 @@ TEST(StandingJoints, AskForEquationsByTheParametersThatTheyShow) {
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].needed, 30 + 2 * 6);
   EXPECT_THAT(why_too_few(all, 2),
-              testing::AllOf(testing::HasSubstr("No joint has equations enough"),
+              testing::AllOf(testing::HasSubstr("Every joint has too few equations"),
                              testing::HasSubstr("joint 1 has 38 fitted equations"),
                              testing::HasSubstr("joint 2 stands in all fitted recordings"),
                              testing::HasSubstr("Record motions in which at least one joint")));

@@ -108,6 +108,9 @@ Check schema() {
        {"verdict", one_of({"clean", "explained", "not_explained", "unexplained_structure",
                            "insufficient_data"})},
        {"findings", array_of(finding)},
+       {"not_judged",
+        array_of(
+            object({{"joint", joint}, {"equations", number}, {"needed", number}, {"why", text}}))},
        {"undecidable", array_of(object({{"families", texts}, {"joint", joint}, {"why", text}}))},
        {"unexplained", array_of(object({{"joint", joint},
                                         {"variables", texts},

@@ -71,7 +71,7 @@ TEST(Rules, OfAFileDecideTheAnswer) {
   const std::string call = "diagnose " + cases + "gap/arm2.robot " + cases + "gap/run.csv.gz";
   const fs::path rules = written_rules("equations.least_equations 1e7  # none has as many\n");
   const test::Outcome outcome = test::dynid(call + " --rules " + rules.string());
-  EXPECT_NE(outcome.out.find("too few to test what the model leaves"), std::string::npos)
+  EXPECT_NE(outcome.out.find("too few equations to test what the model leaves"), std::string::npos)
       << outcome.out;
 }
 
