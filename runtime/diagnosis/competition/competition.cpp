@@ -11,6 +11,7 @@
 #include "runtime/diagnosis/competition/beside_white_noise.h"
 #include "runtime/diagnosis/competition/effect_conditions.h"
 #include "runtime/diagnosis/competition/effort.h"
+#include "runtime/diagnosis/competition/event_links.h"
 #include "runtime/diagnosis/competition/likely_search.h"
 #include "runtime/diagnosis/competition/nameless_search.h"
 #include "runtime/diagnosis/competition/pair_search.h"
@@ -28,7 +29,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kRefined = 12;  // candidates whose shapes are refined in a round
-constexpr double kLeastAsGood = 0.5;  // of the winner's squares: rivals that are tried with it
 constexpr std::size_t kAttempts = 4;  // effects that are fitted in a round before it gives up
 constexpr const char* kLikelihoods = "likelihoods of effects";
 constexpr std::size_t kRivals = 5;  // that are compared again once the winner is fitted
@@ -46,6 +46,7 @@ class Competition {
         repeats_(repeats_of(data.fit)),
         stiction_(data_, sought_, result_.sticking, options_.false_alarm),
         conditions_(data_, sought_, stiction_, result_),
+        links_(data_, sought_, conditions_, options_.false_alarm, result_),
         nameless_(data_, sought_, stiction_, system_options(), options_.false_alarm, result_),
         likely_(data_, sought_, screening_data_, result_,
                 {[this](const EffectInstance& effect) { return fit(effects_and(effect)); },
@@ -261,8 +262,8 @@ class Competition {
         continue;
       }
       stopped.insert(attempted.begin(), attempted.end());
-      const NamedResult best =
-          on_nearest_link(settled(named, order, stopped, screening), system, screening, attempted);
+      const NamedResult best = links_.on_nearest(settled(named, order, stopped, screening), system,
+                                                 screening, attempted);
       attempted.insert(best.hypothesis);
       if (accept(best, screening, stiction == StictionImpulses::Part::kBecause)) return true;
     }
@@ -373,7 +374,7 @@ class Competition {
         return false;
       }
       const bool at_stiction = stiction == StictionImpulses::Part::kBecause;
-      const NamedResult nearest = on_nearest_link(likely.named, white, beside, {});
+      const NamedResult nearest = links_.on_nearest(likely.named, white, beside, {});
       if (nearest.hypothesis != likely.named.hypothesis &&
           accept(nearest, screening, at_stiction)) {
         return true;
@@ -430,57 +431,6 @@ class Competition {
     return best;
   }
 
-  /// The model with a force on another link at the times of an event: what the event makes the
-  /// parameters of the model do to other joints is taken out.
-  [[nodiscard]] EvidenceSystem beside_same_event(const EvidenceSystem& system,
-                                                 const Hypothesis& other, const Hypothesis& own,
-                                                 const EffectInstance& event) {
-    EffectInstance same = other.effect;
-    for (std::size_t i = 0; i < other.shapes.size(); ++i) {
-      same.parameters[other.shapes[i]] = event.parameters[own.shapes[i]];
-    }
-    same.recording = event.recording;
-    EvidenceSystem beside = system;
-    beside.add(hypothesis_columns(data_.evidence, data_.signals, system, other, same));
-    return beside;
-  }
-
-  /// A force that seems to act on a link whose own joint carries no torque acts on the link before
-  /// it. The force is constant between two times in the model, and seldom in the world: the link
-  /// further out has more parameters, and explains more of its course.
-  /// @param refused  as of settled()
-  [[nodiscard]] NamedResult on_nearest_link(NamedResult named, const EvidenceSystem& system,
-                                            const Screening& screening,
-                                            const std::set<std::size_t>& refused) {
-    for (;;) {
-      const Hypothesis& own = sought_.hypotheses[named.hypothesis];
-      const EffectInstance& event = named.best.effect;
-      if (!own.windowed || !event.law.acts_inward || event.joint < 1) return named;
-      const auto nearer = std::find_if(
-          screening.named.begin(), screening.named.end(), [&](const NamedResult& other) {
-            const EffectInstance& effect = sought_.hypotheses[other.hypothesis].effect;
-            return effect.law.name == event.law.name && effect.joint == event.joint - 1;
-          });
-      if (nearer == screening.named.end() || refused.contains(nearer->hypothesis)) return named;
-      if (!nearer->seen || !nearer->best.admissible || is_winner(result_, nearer->hypothesis) ||
-          nearer->best.score.delta_chi2 < kLeastAsGood * named.best.score.delta_chi2 ||
-          screening.family_wise(nearer->surprise) > options_.false_alarm ||
-          conditions_.is_no_event(system, *nearer)) {
-        return named;
-      }
-      const Hypothesis& hypothesis = sought_.hypotheses[nearer->hypothesis];
-      if (conditions_.carries_torque(beside_same_event(system, hypothesis, own, event), named,
-                                     event.joint)) {
-        return named;
-      }
-      NamedResult next = *nearer;
-      next.best = refined(data_.evidence, data_.signals, system, hypothesis, next.best,
-                          sought_.scales.of(result_.fit.point.beta, hypothesis.effect));
-      next.surprise = surprise_of_refined(next, hypothesis);
-      named = std::move(next);
-    }
-  }
-
   /// Fits the model with one more effect, and keeps it if nothing speaks against it.
   bool accept(const NamedResult& named, const Screening& screening, bool at_stiction) {
     if (screening.family_wise(named.surprise) > options_.false_alarm) return false;
@@ -527,6 +477,7 @@ class Competition {
   CompetitionResult result_;
   StictionImpulses stiction_;
   EffectConditions conditions_;
+  EventLinks links_;
   NamelessSearch nameless_;
   LikelySearch likely_;
   PairSearch pairs_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "runtime/diagnosis/equation_sets/sufficiency.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
 
 namespace dyngen::runtime {
@@ -14,13 +15,6 @@ namespace {
 
 using Form = GenericStructure::Form;
 
-/// Equations of a joint that count.
-double counted_of(const EffectRecordings& data, int joint) {
-  double sum = 0;
-  for (const EffectRun& run : data.runs) sum += run.rows.counted.col(joint).sum();
-  return sum;
-}
-
 /// A sinusoid that goes on by itself has a phase of its own in held-out recordings too: its
 /// chi-square there is as much as it has in as many fitted equations. By Akaike (1974) its cosine
 /// and sine of each run cost twice their number.
@@ -28,8 +22,8 @@ HeldoutProof line_proof(const ProofData& data, const Nameless& nameless, const P
   const int joint = nameless.structure.joint;
   const Score there = score_of(products, false);
   HeldoutProof proof;
-  const double part =
-      counted_of(data.heldout, joint) / std::max(1.0, counted_of(data.evidence, joint));
+  const double part = equations_of_joint(data.heldout, joint) /
+                      std::max(1.0, equations_of_joint(data.evidence, joint));
   proof.change = std::max(0.0, nameless.score.delta_chi2 - nameless.score.degrees) * part;
   proof.before = there.delta_chi2;
   proof.after = 2.0 * there.degrees;

@@ -54,13 +54,13 @@ MatrixXd hidden_combinations(const Estimate& estimate) {
   return size * (estimate.scale.asDiagonal() * estimate.unseen);
 }
 
+}  // namespace
+
 double equations_of_joint(const EffectRecordings& data, int joint) {
   double rows = 0;
   for (const EffectRun& run : data.runs) rows += run.rows.counted.col(joint).sum();
   return rows;
 }
-
-}  // namespace
 
 VectorXd predicted_variance(const EffectRecordings& train, const EffectRecordings& heldout) {
   const EffectFit fit = fit_effects(train, {});

@@ -17,6 +17,9 @@ namespace dyngen::runtime {
 /// equations; p/N where both move alike, above 1 a prediction is worth less than none.
 Eigen::VectorXd predicted_variance(const EffectRecordings& train, const EffectRecordings& heldout);
 
+/// Equations of a joint that count, over all runs.
+double equations_of_joint(const EffectRecordings& data, int joint);
+
 /// A joint of which nothing is said: too few equations of it are fitted.
 struct UnjudgedJoint {
   int joint = 0;         ///< coordinate, from 0

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "runtime/diagnosis/equation_sets/sufficiency.h"
 #include "runtime/diagnosis/scans/generic_columns.h"
 
 namespace dyngen::runtime {
@@ -60,8 +61,7 @@ std::vector<JointColumns> largest_model(const EffectRecordings& data, EffectSign
                                         const EquationRules& rules) {
   std::vector<JointColumns> all;
   for (int j = 0; j < data.joints(); ++j) {
-    double counted = 0;
-    for (const EffectRun& run : data.runs) counted += run.rows.counted.col(j).sum();
+    const double counted = equations_of_joint(data, j);
     if (counted == 0) continue;  // it stands
     all.push_back(counted_columns(data, j, shapes_of_joint(data, signals, j)));
     const std::size_t parameters = data.model.columns[static_cast<std::size_t>(j)].size();
