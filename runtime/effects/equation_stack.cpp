@@ -79,12 +79,12 @@ MatrixXd EquationStack::whitened(MatrixXd columns) const {
   return columns;
 }
 
-MatrixXd orthonormal(const MatrixXd& W, double tolerance) {
+MatrixXd orthonormal(const MatrixXd& W) {
   if (W.cols() == 0) return W;
   VectorXd scale = W.colwise().norm();
   for (double& s : scale) s = s > 0 ? 1 / s : 1;
   const SingularValues svd = decomposed(triangle_of(W) * scale.asDiagonal());
-  const Index rank = (svd.values.array() > tolerance * svd.values[0]).count();
+  const Index rank = (svd.values.array() > kRankTolerance * svd.values[0]).count();
   MatrixXd basis = W * (scale.asDiagonal() * svd.V.leftCols(rank) *
                         svd.values.head(rank).cwiseInverse().asDiagonal());
   // once more: what the division by small singular values left of right angles

@@ -9,6 +9,10 @@
 
 namespace dyngen::runtime {
 
+/// A direction below this part of the largest one, columns of unit norm, is not determined: far
+/// above the rounding of a decomposition, far below what a recording moves.
+inline constexpr double kRankTolerance = 1e-9;
+
 /// How equations of each joint are made white and of unit variance.
 struct Whitening {
   std::vector<JointNoise> joints;
@@ -45,16 +49,14 @@ class EquationStack {
 };
 
 /// Orthonormal columns of the same span.
-/// @param W  (m x k); directions below `tolerance` of the largest singular value, columns of unit
-///           norm, are not counted
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& W, double tolerance = 1e-9);
+/// @param W  (m x k); directions below kRankTolerance are not counted
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& W);
 
 /// Takes out of columns what others explain.
 class Projection {
  public:
   /// As orthonormal().
-  explicit Projection(const Eigen::MatrixXd& W, double tolerance = 1e-9)
-      : basis_(orthonormal(W, tolerance)) {}
+  explicit Projection(const Eigen::MatrixXd& W) : basis_(orthonormal(W)) {}
 
   /// What is left of columns at right angles to W. @param columns  (m x any)
   [[nodiscard]] Eigen::MatrixXd rest(const Eigen::MatrixXd& columns) const;

@@ -21,8 +21,9 @@ void each(Rules& rules, const Visit& visit) {
     visit(*rule);
   }
   auto& scans = rules.scans;
-  for (auto* rule : {&scans.longest_push, &scans.window_deviations, &scans.jolt_equations,
-                     &scans.jolt_gain, &scans.line_periods}) {
+  for (auto* rule :
+       {&scans.longest_push, &scans.window_deviations, &scans.jolt_equations, &scans.jolt_gain,
+        &scans.line_periods, &scans.line_nearest, &scans.line_farthest}) {
     visit(*rule);
   }
   auto& answer = rules.answer;

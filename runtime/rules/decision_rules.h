@@ -120,6 +120,13 @@ struct ScanRules {
       1.5, "scans.line_periods", "1",
       "Periods that a spectral line must have in the longest run: with fewer it is a drift.",
       "sensitivity"};
+  DecisionRule line_nearest{
+      2, "scans.line_nearest", "1",
+      "Distance from which spectral lines are neighbours that a line is compared with, in the "
+      "frequencies that the longest run resolves.",
+      "half the width of the main lobe of a run without a window is 1"};
+  DecisionRule line_farthest{10, "scans.line_farthest", "1",
+                             "Distance up to which they are neighbours.", "sensitivity"};
 };
 
 /// What is said of the result.

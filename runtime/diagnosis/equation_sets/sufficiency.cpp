@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/effects/effect_fit.h"
+#include "runtime/effects/equation_stack.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -16,9 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// As in least squares: a direction below this part of the largest one is not seen.
-constexpr double kUnseen = 1e-9;
 
 /// Parameters that the counted equations of a joint determine: the rank of its regressor, columns
 /// of unit norm.
@@ -40,7 +38,7 @@ double determined_parameters(const EffectRecordings& train, int joint) {
   }
   if (W.size() == 0) return 0;
   Eigen::ColPivHouseholderQR<MatrixXd> qr(W.rows(), W.cols());
-  qr.setThreshold(kUnseen);
+  qr.setThreshold(kRankTolerance);
   return static_cast<double>(qr.compute(W).rank());
 }
 

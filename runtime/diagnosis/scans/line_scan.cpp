@@ -17,8 +17,6 @@ using Eigen::VectorXd;
 
 constexpr double kFinest = 2;     // frequencies for each that the longest run resolves
 constexpr double kReached = 0.9;  // of half the rate of the equations
-// Lines around one, in units of what the longest run resolves: the nearest are a part of it.
-constexpr double kNearest = 2, kFarthest = 10;
 
 /// The next length whose Fourier transform is quick: of factors 2, 3 and 5.
 Index quick_length(Index length) {
@@ -66,12 +64,12 @@ double leaked(Index lines) {
 /// Chi-squares of lines over the mean of those around them, where that is above noise: the noise
 /// model may be too low in a part of the band, and what is broad is no line.
 /// @param degrees  of each line
-VectorXd over_neighbours(const VectorXd& squares, double degrees) {
+VectorXd over_neighbours(const VectorXd& squares, double degrees, const ScanRules& rules) {
   VectorXd sums(squares.size() + 1);  // of all lines before
   sums[0] = 0;
   for (Index k = 0; k < squares.size(); ++k) sums[k + 1] = sums[k] + squares[k];
-  const auto near = static_cast<Index>(kFinest * kNearest),
-             far = static_cast<Index>(kFinest * kFarthest);
+  const auto near = static_cast<Index>(kFinest * rules.line_nearest),
+             far = static_cast<Index>(kFinest * rules.line_farthest);
   VectorXd over = squares;
   for (Index k = 0; k < squares.size(); ++k) {
     double sum = 0, count = 0;
@@ -127,7 +125,7 @@ LineScan scan_lines(const EffectRecordings& data, const EvidenceSystem& system, 
   }
   if (scan.score.degrees == 0) return scan;
   Index best = 0;
-  squares = over_neighbours(squares, scan.score.degrees);
+  squares = over_neighbours(squares, scan.score.degrees, system.rules());
   scan.score.delta_chi2 = squares.tail(lines - first).maxCoeff(&best);
   scan.frequency = static_cast<double>(first + best) / duration;
   scan.score.part_left = 1;
