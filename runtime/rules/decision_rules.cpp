@@ -25,6 +25,7 @@ void each(Rules& rules, const Visit& visit) {
                      &scans.jolt_gain, &scans.line_periods}) {
     visit(*rule);
   }
+  visit(rules.priors.unusual_value);
   auto& answer = rules.answer;
   for (auto* rule : {&answer.unexplained_part, &answer.probable, &answer.stability,
                      &answer.heldout_excess, &answer.heldout_far, &answer.heldout_chance,

@@ -24,6 +24,10 @@ namespace {
 /// theory. Odds are computed from differences that are smaller by this factor.
 constexpr double kCaution = 2;
 
+/// Chi-square by which a form that a condition rules out stays behind a winner that held-out
+/// recordings spoke for, however much more it explains: a doubt, but not the better name.
+constexpr double kLeastOfRuledOut = kTie;
+
 constexpr std::size_t kWinnersAtOnce = 2;  // winners between two looks at the work that is done
 
 /// Evidence of held-out recordings for a rival against a winner: the difference of their held-out
@@ -163,6 +167,9 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
     naming.rivals.push_back(std::move(rival));
   }
   bound_advantages(data, signals, hypotheses, result, unnamed, options, naming);
+  if (naming.unnamed_form.ruled_out) {
+    naming.unnamed_distance = std::max(naming.unnamed_distance, kLeastOfRuledOut);
+  }
   conclude(naming);
   return naming;
 }
@@ -238,6 +245,10 @@ class Places {
     const Hypothesis& hypothesis = data_.hypotheses[result_.winners[winner].hypothesis];
     if (hypothesis.windowed || !is_provable(unnamed)) return true;
     CompetitionResult rest = result_;
+    const std::size_t own = result_.winners[winner].hypothesis;
+    const std::vector<int> joints = joints_of(hypothesis.effect, data_.evidence.joints());
+    std::erase_if(rest.nameless,
+                  [&](const Nameless& each) { return is_left_by(each, own, joints); });
     rest.winners.erase(rest.winners.begin() + static_cast<std::ptrdiff_t>(winner));
     rest.fit.point = without(rest.fit.point, winner);
     const ProofData recordings{data_.evidence, signals_, data_.heldout};
@@ -250,6 +261,9 @@ class Places {
 
   void put_in_place(std::size_t winner, const Rival& rival, const EffectFit& fit) {
     Winner& own = result_.winners[winner];
+    for (Nameless& each : result_.nameless) {
+      std::replace(each.beside.begin(), each.beside.end(), own.hypothesis, rival.hypothesis);
+    }
     own.hypothesis = rival.hypothesis;
     own.trial = own.others[rival.hypothesis].best;  // chi-square reduction within its round
     own.trial.effect = rival.trial.effect;
