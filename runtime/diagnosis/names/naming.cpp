@@ -24,10 +24,6 @@ namespace {
 /// theory. Odds are computed from differences that are smaller by this factor.
 constexpr double kCaution = 2;
 
-/// Chi-square by which a form that a condition rules out stays behind a winner that held-out
-/// recordings spoke for, however much more it explains: a doubt, but not the better name.
-constexpr double kLeastOfRuledOut = kTie;
-
 constexpr std::size_t kWinnersAtOnce = 2;  // winners between two looks at the work that is done
 
 /// Evidence of held-out recordings for a rival against a winner: the difference of their held-out
@@ -167,8 +163,9 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
     naming.rivals.push_back(std::move(rival));
   }
   bound_advantages(data, signals, hypotheses, result, unnamed, options, naming);
+  // a form that a condition rules out is a doubt and no better name, however much more it explains
   if (naming.unnamed_form.ruled_out) {
-    naming.unnamed_distance = std::max(naming.unnamed_distance, kLeastOfRuledOut);
+    naming.unnamed_distance = std::max(naming.unnamed_distance, kTie);
   }
   conclude(naming);
   return naming;

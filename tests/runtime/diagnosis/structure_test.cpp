@@ -483,7 +483,6 @@ TEST(Diagnosis, AFormThatIsRuledOutDoesNotBlockWhatExplainsMostOfIt) {
     std::vector<std::string> names;
     for (const Finding& finding : diagnosis.findings) names.push_back(finding.effect.law.name);
     // what the name leaves is said, of the form that is ruled out
-    EXPECT_EQ(diagnosis.verdict, Verdict::kUnexplainedStructure) << diagnosis.sentence;
     const bool said = std::any_of(
         diagnosis.unexplained.begin(), diagnosis.unexplained.end(), [](const auto& own) {
           return own.description.find("c >= 5 does not hold") != std::string::npos;
