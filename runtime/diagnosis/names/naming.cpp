@@ -129,7 +129,9 @@ void conclude(Naming& naming) {
       naming.families.push_back(rival.family);
     }
   }
-  rest += std::exp(-std::clamp(naming.unnamed_distance, -200.0, 200.0) / (2 * kCaution));
+  // a form that a condition rules out is a doubt and no better name, however much more it explains
+  const double least = naming.unnamed_form.ruled_out ? kTie : -200.0;
+  rest += std::exp(-std::clamp(naming.unnamed_distance, least, 200.0) / (2 * kCaution));
   naming.probability = 1 / (1 + rest);
 }
 
@@ -163,10 +165,6 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
     naming.rivals.push_back(std::move(rival));
   }
   bound_advantages(data, signals, hypotheses, result, unnamed, options, naming);
-  // a form that a condition rules out is a doubt and no better name, however much more it explains
-  if (naming.unnamed_form.ruled_out) {
-    naming.unnamed_distance = std::max(naming.unnamed_distance, kTie);
-  }
   conclude(naming);
   return naming;
 }
