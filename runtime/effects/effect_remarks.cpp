@@ -140,8 +140,9 @@ std::vector<std::string> unusual_values(const EffectInstance& effect, const Effe
     std::vector<std::string> values;
     for (const int p : condition->parameters) {
       const EffectParameter& parameter = effect.law.parameters[static_cast<std::size_t>(p)];
+      const bool plain = parameter.unit.empty() || parameter.unit == "1";
       values.push_back(fmt::format("{} = {:.3g}{}", parameter.name, effect.parameters[p],
-                                   parameter.unit == "1" ? "" : " " + parameter.unit));
+                                   plain ? "" : " " + parameter.unit));
     }
     texts.push_back(fmt::format(
         "{}{}unusual, {}", fmt::join(values, ", "), values.empty() ? "" : ": ",
