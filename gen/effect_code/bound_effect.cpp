@@ -227,9 +227,10 @@ const EffectRow& row_of(const BoundEffect& effect, const RobotModel& model) {
   });
 }
 
-/// Warns where a requirement does not hold of the numbers that a row gives.
-void check_requirement(const BoundEffect& effect, const EffectCondition& condition,
-                       const RobotModel& model, Diagnostics& diagnostics) {
+/// Warns where a condition does not hold of the numbers that a row gives.
+/// @param expected  "expected": how it asks for them
+void check_condition(const BoundEffect& effect, const EffectCondition& condition,
+                     std::string_view expected, const RobotModel& model, Diagnostics& diagnostics) {
   const KnownNumbers known(effect, model);
   std::vector<std::string> names = names_in(condition.left);
   for (const std::string& name : names_in(condition.right)) {
@@ -256,8 +257,8 @@ void check_requirement(const BoundEffect& effect, const EffectCondition& conditi
   }
   diagnostics.warning(
       place, length,
-      fmt::format("effect '{}' of joint {}: {}: expected {} <= {}", effect.file->name, effect.joint,
-                  values, spell(condition.left), spell(condition.right)),
+      fmt::format("effect '{}' of joint {}: {}: {} {} <= {}", effect.file->name, effect.joint,
+                  values, expected, spell(condition.left), spell(condition.right)),
       condition.text);
 }
 
@@ -287,7 +288,10 @@ void check_requirements(const std::vector<BoundEffect>& effects, const RobotMode
                         Diagnostics& diagnostics) {
   for (const BoundEffect& effect : effects) {
     for (const EffectCondition& condition : effect.file->requirements) {
-      check_requirement(effect, condition, model, diagnostics);
+      check_condition(effect, condition, "expected", model, diagnostics);
+    }
+    for (const EffectCondition& condition : effect.file->usual) {
+      check_condition(effect, condition, "unusual, such machines have", model, diagnostics);
     }
   }
 }

@@ -173,6 +173,10 @@ class Checks {
       check(entry.left, "falsifier", sizes);
       check(entry.right, "falsifier", sizes);
     }
+    for (const EffectCondition& entry : effect_.usual) {
+      check(entry.left, "usual", sizes);
+      check(entry.right, "usual", sizes);
+    }
   }
 
   void add_names(const EffectExpression& expression, std::set<std::string>& names) const {

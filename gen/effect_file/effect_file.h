@@ -72,7 +72,8 @@ struct RelatedFamily {
   SourcePosition position;
 };
 
-/// left <= right must hold of the estimate (require), or the name is not believed (falsifier).
+/// left <= right must hold of the estimate (require), or the name is not believed (falsifier), or
+/// is less likely (usual).
 struct EffectCondition {
   EffectExpression left, right;
   std::string text;  ///< why, for people
@@ -111,6 +112,7 @@ struct EffectFile {
   std::string midpoint;
   std::vector<EffectCondition> requirements;
   std::vector<EffectCondition> falsifiers;
+  std::vector<EffectCondition> usual;  ///< ranges of such machines: values beyond them are rare
   std::vector<EffectTest> tests;
   std::vector<RelatedFamily> aliases;
   std::vector<RelatedFamily> contains;  ///< families that are this effect at some parameters

@@ -55,6 +55,7 @@ class Reader {
                                                    {"dissipates", &Reader::read_dissipates},
                                                    {"require", &Reader::read_require, true},
                                                    {"falsifier", &Reader::read_falsifier, true},
+                                                   {"usual", &Reader::read_usual, true},
                                                    {"test", &Reader::read_test, true},
                                                    {"alias", &Reader::read_alias, true},
                                                    {"contains", &Reader::read_contains, true},
@@ -386,6 +387,9 @@ class Reader {
   }
   void read_falsifier(const EffectRowText& row, EffectRowCursor& cursor) {
     if (auto found = condition(row, cursor)) effect_.falsifiers.push_back(std::move(*found));
+  }
+  void read_usual(const EffectRowText& row, EffectRowCursor& cursor) {
+    if (auto found = condition(row, cursor)) effect_.usual.push_back(std::move(*found));
   }
 
   void read_test(const EffectRowText& row, EffectRowCursor& cursor) {

@@ -14,6 +14,11 @@
 namespace dyngen {
 namespace {
 
+bool chooses(const EffectExpression& value) {
+  return value.kind == EffectExpression::Kind::kCall &&
+         (value.name == "min" || value.name == "max");
+}
+
 class UnitChecks {
  public:
   UnitChecks(const EffectFile& effect, JointUnits joint, Diagnostics& diagnostics)
@@ -27,6 +32,7 @@ class UnitChecks {
     for (const EffectParameter& entry : effect_.parameters) check_parameter(entry);
     for (const EffectCondition& entry : effect_.requirements) check_condition(entry);
     for (const EffectCondition& entry : effect_.falsifiers) check_condition(entry);
+    for (const EffectCondition& entry : effect_.usual) check_condition(entry);
   }
 
  private:
@@ -80,13 +86,18 @@ class UnitChecks {
   }
 
   void check_parameter(const EffectParameter& entry) {
-    const auto expect_size = [&](const EffectExpression& value, std::string_view what) {
-      if (!is_plain_number(value)) expect(value, dimensions_[entry.name], what);
-    };
-    expect_size(entry.typical, "typical");
-    if (entry.has_own_start()) expect_size(entry.start, "start");
-    if (entry.min) expect_size(*entry.min, "min");
-    if (entry.max) expect_size(*entry.max, "max");
+    const Dimension own = dimensions_[entry.name];
+    expect_size(entry.typical, own, "typical");
+    if (entry.has_own_start()) expect_size(entry.start, own, "start");
+    if (entry.min) expect_size(*entry.min, own, "min");
+    if (entry.max) expect_size(*entry.max, own, "max");
+  }
+
+  /// A plain number has the parameter's own unit, also as one of two that min() or max() chooses.
+  void expect_size(const EffectExpression& value, const Dimension& own, std::string_view what) {
+    if (is_plain_number(value)) return;
+    if (!chooses(value)) return expect(value, own, what);
+    for (const EffectExpression& operand : value.operands) expect_size(operand, own, what);
   }
 
   void check_condition(const EffectCondition& entry) {

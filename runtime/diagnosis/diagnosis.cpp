@@ -81,7 +81,7 @@ class Diagnostician {
     settings.with_regressor = !options_.residual_only;
     settings.rules = options_.rules;
     search_.compete(settings, progress_);
-    answer_.effort = {options_.effort, search_.work(), result().cut_off};
+    answer_.effort = effort_used();
     describe_noise();
     answer_.before = tests_of(result().first);
     answer_.after = tests_of(result().last);
@@ -95,7 +95,7 @@ class Diagnostician {
     }
     if (!answer_.sentence.empty()) return std::move(answer_);
     answer_.findings = found_effects(search_, settings, progress_);
-    answer_.effort = {options_.effort, search_.work(), result().cut_off};
+    answer_.effort = effort_used();
     answer_.fit = result().fit;
     describe_changes();
     answer_.unexplained = described(result().nameless);
@@ -121,6 +121,10 @@ class Diagnostician {
   }
 
  private:
+  [[nodiscard]] EffortUsed effort_used() const {
+    return {options_.effort, search_.work(), result().cut_off, search_.not_offered()};
+  }
+
   /// Why recordings in which nothing is found would not be clean; empty: they are.
   [[nodiscard]] std::string why_not_clean() const {
     if (options_.residual_only) return {};

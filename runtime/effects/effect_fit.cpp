@@ -335,7 +335,7 @@ void EffectFitOptions::validate() const {
 }
 
 bool EffectFit::objects(const EffectRemark& remark, int effect) const {
-  if (remark.effect != effect) return false;
+  if (remark.effect != effect || remark.kind == EffectRemark::Kind::kUnusual) return false;
   if (remark.kind != EffectRemark::Kind::kNotSeen) return true;
   const auto place = static_cast<std::size_t>(effect);
   const std::vector<EffectParameter>& described = point.effects[place].law.parameters;

@@ -55,7 +55,8 @@ struct EffectFit {
 
   [[nodiscard]] bool all_seen() const;
   /// Whether a remark speaks against an effect: a parameter that is not seen does not as long as
-  /// another one of the effect is, as the rest position of a spring beside the joint's offset.
+  /// another one of the effect is, as the rest position of a spring beside the joint's offset. What
+  /// is unusual does not: it is possible.
   [[nodiscard]] bool objects(const EffectRemark& remark, int effect) const;
 };
 

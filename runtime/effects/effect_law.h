@@ -47,10 +47,11 @@ struct EffectSizes {
   Eigen::VectorXd start, typical;
 };
 
-/// left <= right of the estimate, where it is a requirement or a falsifier.
+/// left <= right of the estimate, where it is a requirement, a falsifier or a usual range.
 struct EffectCondition {
-  std::string spelling;  ///< "vs <= 0.25*v90"
-  std::string text;      ///< why
+  std::string spelling;         ///< "vs <= 0.25*v90"
+  std::string text;             ///< why
+  std::vector<int> parameters;  ///< places of those that it reads
   /// right - left: not negative if it holds
   std::function<double(const Eigen::VectorXd& parameters, const EffectScales& scales)> slack;
 };
@@ -104,6 +105,7 @@ struct EffectLaw {
   std::vector<std::string> contains;   ///< families that are this one at some parameters
   std::vector<std::string> tests;      ///< of the name, by the words of effect files
   std::vector<EffectCondition> requirements, falsifiers;
+  std::vector<EffectCondition> usual;  ///< ranges of such machines; values beyond them are rare
 
   std::function<EffectSizes(const EffectScales& scales)> sizes;
 
@@ -130,9 +132,16 @@ struct EffectLaw {
       moment;
 
   [[nodiscard]] int size() const { return static_cast<int>(parameters.size()); }
+  /// Usual ranges that an estimate is beyond.
+  [[nodiscard]] std::vector<const EffectCondition*> unusual(const Eigen::VectorXd& values,
+                                                            const EffectScales& scales) const;
   /// Whether a variable is among those that it names.
   [[nodiscard]] bool reads(std::string_view variable) const;
 };
+
+/// A shape that no recording as short can show: its bounds leave no value, and would if the
+/// recording were longer. @return its place; -1: none
+int slower_than_recording(const EffectLaw& law, const EffectScales& scales);
 
 /// What a run of a law begins with: its start, or 0. @param variables  (N x nv) of the run
 Eigen::VectorXd first_states(const EffectLaw& law, const Eigen::MatrixXd& variables);

@@ -120,7 +120,36 @@ std::vector<EffectRemark> remarks_on_falsified(const EffectPoint& point,
   return remarks;
 }
 
+std::vector<EffectRemark> remarks_on_unusual(const EffectPoint& point, const ScaleTable& scales) {
+  std::vector<EffectRemark> remarks;
+  for (std::size_t k = 0; k < point.effects.size(); ++k) {
+    const EffectInstance& effect = point.effects[k];
+    for (const std::string& value : unusual_values(effect, scales.of(point.beta, effect))) {
+      remarks.push_back({EffectRemark::Kind::kUnusual, static_cast<int>(k),
+                         fmt::format("{}: {}", name_of(effect), value)});
+    }
+  }
+  return remarks;
+}
+
 }  // namespace
+
+std::vector<std::string> unusual_values(const EffectInstance& effect, const EffectScales& scales) {
+  std::vector<std::string> texts;
+  for (const EffectCondition* condition : effect.law.unusual(effect.parameters, scales)) {
+    std::vector<std::string> values;
+    for (const int p : condition->parameters) {
+      const EffectParameter& parameter = effect.law.parameters[static_cast<std::size_t>(p)];
+      const bool plain = parameter.unit.empty() || parameter.unit == "1";
+      values.push_back(fmt::format("{} = {:.3g}{}", parameter.name, effect.parameters[p],
+                                   plain ? "" : " " + parameter.unit));
+    }
+    texts.push_back(fmt::format(
+        "{}{}unusual, {}", fmt::join(values, ", "), values.empty() ? "" : ": ",
+        condition->text.empty() ? condition->spelling + " does not hold" : condition->text));
+  }
+  return texts;
+}
 
 std::string name_of(const EffectInstance& effect) {
   const int joint = effect.link > 0 ? effect.link : effect.joint + 1;
@@ -148,7 +177,8 @@ std::vector<EffectRemark> effect_remarks(const EffectRecordings& data, const Sca
                                          const EffectPoint& point, const EffectUnknowns& unknowns,
                                          const Estimate& all, const EffectSearch::Held& held) {
   std::vector<EffectRemark> remarks = remarks_on_unseen(data, point, unknowns, all);
-  for (const auto& more : {remarks_on_held(point, held), remarks_on_falsified(point, scales)}) {
+  for (const auto& more : {remarks_on_held(point, held), remarks_on_falsified(point, scales),
+                           remarks_on_unusual(point, scales)}) {
     remarks.insert(remarks.end(), more.begin(), more.end());
   }
   return remarks;

@@ -197,7 +197,17 @@ std::vector<EffectInstance> with_starts(const ScaleTable& scales, const VectorXd
                                         std::vector<EffectInstance> effects) {
   for (EffectInstance& effect : effects) {
     check_joints(effect, scales.model().joints());
-    const VectorXd start = effect.law.sizes(scales.of(beta, effect)).start;
+    const EffectScales own = scales.of(beta, effect);
+    const int slow = slower_than_recording(effect.law, own);
+    if (slow >= 0 && std::isnan(effect.parameters[slow])) {
+      throw std::invalid_argument(
+          fmt::format("effect {}: no {} is within its bounds in recordings of {:.3g} s: expected a "
+                      "number, or a "
+                      "longer recording",
+                      effect.law.name, effect.law.parameters[static_cast<std::size_t>(slow)].name,
+                      own.duration));
+    }
+    const VectorXd start = effect.law.sizes(own).start;
     for (Index p = 0; p < effect.law.size(); ++p) {
       const EffectParameter& parameter = effect.law.parameters[static_cast<std::size_t>(p)];
       if (!std::isnan(effect.parameters[p])) continue;

@@ -146,6 +146,7 @@ EvidenceSystem::EvidenceSystem(const EffectRecordings& data, const RunResiduals&
                                const TorqueNoiseModel& noise, const Options& options)
     : data_(data),
       rules_(options.rules.scans),
+      priors_(options.rules.priors),
       left_out_(noise.joints.size()),
       worth_(noise.worth),
       rows_(data.equations()) {

@@ -95,6 +95,7 @@ class EvidenceSystem {
   [[nodiscard]] double worth(int joint) const { return worth_[joint] > 0 ? worth_[joint] : kMany; }
   /// Those of scans.
   [[nodiscard]] const ScanRules& rules() const { return rules_; }
+  [[nodiscard]] const PriorRules& priors() const { return priors_; }
   [[nodiscard]] int surrogates() const { return static_cast<int>(noise_.cols()); }
 
  private:
@@ -106,6 +107,7 @@ class EvidenceSystem {
 
   const EffectRecordings& data_;
   ScanRules rules_;
+  PriorRules priors_;
   std::shared_ptr<const std::vector<std::vector<Whitener>>>
       whiteners_;  // of each joint in each run
   std::shared_ptr<const std::vector<std::deque<UnknownTorque>>> unknown_;  // the same

@@ -26,6 +26,7 @@ void each(Rules& rules, const Visit& visit) {
         &scans.line_periods, &scans.line_nearest, &scans.line_farthest}) {
     visit(*rule);
   }
+  visit(rules.priors.unusual_value);
   auto& answer = rules.answer;
   for (auto* rule : {&answer.unexplained_part, &answer.probable, &answer.stability,
                      &answer.heldout_excess, &answer.heldout_far, &answer.heldout_chance,

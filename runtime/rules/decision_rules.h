@@ -129,6 +129,14 @@ struct ScanRules {
                              "Distance up to which they are neighbours.", "sensitivity"};
 };
 
+/// What is thought of an effect before the recordings are looked at.
+struct PriorRules {
+  DecisionRule unusual_value{
+      7.8, "priors.unusual_value", "1",
+      "Chi-square that an effect pays for each usual range of its file that its values are beyond.",
+      "2 ln 50: a usual range holds 49 of 50 machines that have the effect"};
+};
+
 /// What is said of the result.
 struct AnswerRules {
   DecisionRule unexplained_part{
@@ -173,6 +181,7 @@ struct DecisionRules {
   NoiseRules noise;
   EquationRules equations;
   ScanRules scans;
+  PriorRules priors;
   AnswerRules answer;
 };
 

@@ -20,7 +20,7 @@ namespace {
 using Numbers = std::array<double, 10>;  // XX XY XZ YY YZ ZZ mX mY mZ m
 
 constexpr std::array<const char*, 10> kBodyRows = {"XX", "XY", "XZ", "YY", "YZ",
-                                               "ZZ", "mX", "mY", "mZ", "m"};
+                                                   "ZZ", "mX", "mY", "mZ", "m"};
 
 std::string file_of(const Numbers& body, int digits) {
   std::string text = "number_link 1\ngz 9.81\nIA 0\n";
@@ -146,8 +146,14 @@ TEST(EffectRequirements, AreCheckedOnTheNumbersOfTheRow) {
   EXPECT_EQ(said_of_effect("Fs 2 1\n", "stribeck joint=1 Fs=* vs=0.1"), "");
   EXPECT_EQ(said_of_effect("Fs * *\n", "stribeck joint=1 Fs=1.5 vs=0.1"), "");
   EXPECT_EQ(said_of_effect("", "stribeck joint=1 Fs=1.5 vs=0.1"), "");
-  EXPECT_NE(said_of_effect("Fs 2 1\n", "stribeck joint=2 Fs=6 vs=0.1").find("expected Fs <= 5"),
+  EXPECT_EQ(said_of_effect("Fs 2 1\n", "stribeck joint=2 Fs=6 vs=0.1"),
+            "arm.robot:7:28: warning: effect 'stribeck' of joint 2: Fs = 6, Fc = 1: unusual, such "
+            "machines have Fs <= 5*Fc\n"
+            "    7 | effect stribeck joint=2 Fs=6 vs=0.1\n"
+            "      |                            ^ a larger ratio is curved viscous friction\n");
+  EXPECT_NE(said_of_effect("", "link_flexibility joint=2 gain=0.1 f=2 zeta=0.05").find("3 <= f"),
             std::string::npos);
+  EXPECT_EQ(said_of_effect("", "link_flexibility joint=2 gain=0.1 f=4 zeta=0.05"), "");
   EXPECT_NE(said_of_effect("Fs 2 1\n", "tustin joint=1 Fs=1.5 vs=0.1").find("expected Fc <= Fs"),
             std::string::npos);
   EXPECT_NE(said_of_effect("", "contact joint=1 fz=5 t_on=3 t_off=2").find("t_on <= t_off"),

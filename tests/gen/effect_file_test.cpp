@@ -69,6 +69,29 @@ TEST(EffectFile, ReadsWhatAnEffectContains) {
   EXPECT_EQ(effect.contains[0].text, "where it is narrow");
 }
 
+TEST(EffectFile, ReadsUsualRanges) {
+  const EffectFile effect = parse_effect_file(
+      text_with(
+          9, "usual vs <= 0.25*v90 : it is narrow\nusual A >= 0.1*Fc : it is seen\nhidden little"),
+      "bump.effect");
+  ASSERT_EQ(effect.usual.size(), 2U);
+  EXPECT_EQ(spell(effect.usual[0].left), "vs");
+  EXPECT_EQ(spell(effect.usual[0].right), "0.25*v90");
+  EXPECT_EQ(effect.usual[0].text, "it is narrow");
+  EXPECT_EQ(spell(effect.usual[1].left), "0.1*Fc");  // turned round
+  EXPECT_EQ(spell(effect.usual[1].right), "A");
+  EXPECT_TRUE(effect.falsifiers.empty());
+  EXPECT_TRUE(effect.requirements.empty());
+}
+
+TEST(EffectFile, APlainNumberInABoundHasTheUnitOfTheParameter) {
+  const EffectFile effect = parse_effect_file(
+      text_with(7,
+                "parameter vs shape unit=rate min=max(1e-3,0.01*v_max) typical=0.05 : its width"),
+      "bump.effect");
+  EXPECT_EQ(spell(*effect.parameters[1].min), "max(0.001, 0.01*v_max)");
+}
+
 struct Mistake {
   const char* name;
   std::size_t line;
@@ -131,6 +154,21 @@ INSTANTIATE_TEST_SUITE_P(
          "1:1: error: the effect reads another joint: expected 'scope pair'"},
         {"NoColon", 6, "parameter A linear unit=torque typical=1",
          "6:41: error: expected ':' and a text in 'parameter'"},
+        {"UsualName", 9, "usual vz <= 0.25*v90 : narrow\nhidden little",
+         "9:7: error: unknown name 'vz' in 'usual'"},
+        {"UsualVariable", 9, "usual vs <= qd : narrow\nhidden little",
+         "9:13: error: unknown name 'qd' in 'usual'"},
+        {"UsualUnit", 9, "usual vs <= 0.25*Fc : narrow\nhidden little",
+         "9:17: error: the right side has the unit kg m^2 s^-2, expected s^-1"},
+        {"UsualRelation", 9, "usual vs = 0.25*v90 : narrow\nhidden little",
+         "9:7: error: expected LEFT <= RIGHT in 'usual'"},
+        {"UsualStrict", 9, "usual vs < 0.25*v90 : narrow\nhidden little",
+         "9:10: error: expected '<=' or '>='"},
+        {"UsualReason", 9, "usual vs <= 0.25*v90\nhidden little",
+         "9:21: error: expected ':' and a text in 'usual'"},
+        {"ChosenUnit", 7,
+         "parameter vs shape unit=rate min=max(1,1.5*duration) typical=0.05 : its width",
+         "7:43: error: min has the unit s, expected s^-1"},
         {"Missing", 9, "", "1:1: error: there is no row 'hidden'"}}),
     [](const testing::TestParamInfo<Mistake>& own) { return std::string(own.param.name); });
 
@@ -278,6 +316,36 @@ TEST(EffectCatalogueTest, OnlyAForceOnALinkEndsAtItsJoint) {
   for (const auto& effect : catalogue.all()) {
     EXPECT_EQ(effect->acts_inward(), effect->family == "contact") << effect->name;
   }
+}
+
+/// What is slower than a recording cannot be told from the base model: no shape may be.
+TEST(EffectCatalogueTest, OffersNoShapeThatIsSlowerThanTheRecording) {
+  const EffectCatalogue catalogue;
+  int shapes = 0;
+  for (const double duration : {0.5, 5.0, 50.0, 500.0}) {
+    const auto value_of = [duration](const std::string& name) {
+      return name == "duration" ? duration : 1.0;
+    };
+    for (const auto& effect : catalogue.all()) {
+      for (const EffectParameter& parameter : effect->parameters) {
+        if (parameter.role != ParameterRole::kShape && parameter.role != ParameterRole::kScanned) {
+          continue;
+        }
+        const std::string where = effect->name + " " + parameter.name;
+        if (parameter.unit == "s") {
+          ASSERT_TRUE(parameter.max) << where;
+          EXPECT_LE(evaluate(*parameter.max, value_of), duration) << where;
+        } else if (parameter.unit == "Hz") {
+          ASSERT_TRUE(parameter.min) << where;
+          EXPECT_GE(evaluate(*parameter.min, value_of), 1.5 / duration) << where;
+        } else {
+          continue;
+        }
+        ++shapes;
+      }
+    }
+  }
+  EXPECT_GE(shapes, 4 * 6);
 }
 
 TEST(EffectCatalogueTest, HoldsItsOwnEffectsInTheOrderOfTheFamilies) {

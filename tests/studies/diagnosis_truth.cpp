@@ -121,12 +121,13 @@ std::optional<VectorXd> where_it_vanishes(const Bench& bench, EffectInstance eff
   return std::nullopt;
 }
 
-/// Whether a machine could have it: its file's bounds and conditions.
+/// Whether a machine could have it, and usually has: its file's bounds and conditions.
 bool could_be(const EffectInstance& effect, const runtime::EffectSizes& sizes,
               const runtime::EffectScales& scales) {
   const VectorXd& p = effect.parameters;
   bool could = (p.array() >= sizes.min.array()).all() && (p.array() <= sizes.max.array()).all();
-  for (const auto* conditions : {&effect.law.requirements, &effect.law.falsifiers}) {
+  for (const auto* conditions :
+       {&effect.law.requirements, &effect.law.falsifiers, &effect.law.usual}) {
     for (const runtime::EffectCondition& condition : *conditions) {
       could = could && condition.slack(p, scales) >= 0;
     }

@@ -76,10 +76,13 @@ std::string why(const Finding& finding, const Naming& naming) {
   if (!alike.empty()) {
     text += fmt::format("; these data cannot separate it from {}", fmt::join(alike, " or "));
   }
-  if (several || naming.rivals.empty()) return text;
-  const Rival& next = naming.rivals.front();
-  return text +
-         fmt::format("; the next name, {}: chi-square higher by {:.0f}", next.name, next.distance);
+  if (!several && !naming.rivals.empty()) {
+    const Rival& next = naming.rivals.front();
+    text +=
+        fmt::format("; the next name, {}: chi-square higher by {:.0f}", next.name, next.distance);
+  }
+  for (const std::string& value : finding.unusual) text += "; " + value;
+  return text;
 }
 
 struct Found {
@@ -136,6 +139,8 @@ Found found(const Search& search, std::size_t place, const Naming& naming, Effec
     finding.tests.push_back({remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound",
                              false, remark.text, true});
   }
+  finding.unusual = unusual_values(
+      finding.effect, ScaleTable(search.sets().train).of(fit.point.beta, finding.effect));
   finding.uncertain = finding.probability < rules.probable;
   finding.why = why(finding, naming);
   return {std::move(finding), std::move(where)};

@@ -59,7 +59,7 @@ bool Acceptance::proved(const Candidate& candidate, HeldoutProof proof) const {
   const Hypothesis& hypothesis = sought_.hypotheses[candidate.named.hypothesis];
   proof.parameters = static_cast<double>(sought_.parameters(candidate.named.hypothesis));
   proof.fitted = candidate.named.best.score.delta_chi2;
-  if (hypothesis.windowed) return !proof.harms();
+  if (hypothesis.windowed) return !candidate.beside_form && !proof.harms();
   return proof.helps() || (candidate.beyond_doubt && proof.agrees());
 }
 

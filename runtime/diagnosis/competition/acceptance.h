@@ -30,6 +30,7 @@ class Acceptance {
     EffectFit fit;              ///< of the winners and, as its last, the effect
     bool beyond_doubt = false;  ///< by its p-value: then it is enough that held-out data agree
     bool at_stiction = false;   ///< of Winner
+    bool beside_form = false;   ///< EffectConditions::Beside::kBetterForm: held-out data must help
   };
   /// An effect that is accepted.
   struct Accepted {

@@ -252,7 +252,8 @@ class Competition {
         continue;
       }
       if (named.best.score.delta_chi2 < conditions_.least_squares(named, screening)) continue;
-      if (conditions_.outdone(named, system, screening)) continue;
+      const EffectConditions::Beside beside = conditions_.beside(named, system, screening);
+      if (beside == EffectConditions::Beside::kOutdone) continue;
       if (attempted.contains(place)) continue;
       const StictionImpulses::Part stiction =
           stiction_.part_in(system, screening, sought_.hypotheses[place], named);
@@ -265,7 +266,8 @@ class Competition {
       const NamedResult best = links_.on_nearest(settled(named, order, stopped, screening), system,
                                                  screening, attempted);
       attempted.insert(best.hypothesis);
-      if (accept(best, screening, stiction == StictionImpulses::Part::kBecause)) return true;
+      if (accept(best, screening, stiction == StictionImpulses::Part::kBecause, beside))
+        return true;
     }
     if (take(acceptance_.accept_at_bound(screening))) return true;
     return costly && keep_without_name(*costly, system, screening);
@@ -280,6 +282,7 @@ class Competition {
   }
   bool take(std::optional<Nameless> nameless) {
     if (!nameless) return false;
+    for (const Winner& winner : result_.winners) nameless->beside.push_back(winner.hypothesis);
     result_.nameless.push_back(std::move(*nameless));
     return true;
   }
@@ -432,14 +435,18 @@ class Competition {
   }
 
   /// Fits the model with one more effect, and keeps it if nothing speaks against it.
-  bool accept(const NamedResult& named, const Screening& screening, bool at_stiction) {
-    if (screening.family_wise(named.surprise) > options_.false_alarm) return false;
-    return accept(named, screening, at_stiction, with(named.best.effect));
-  }
   bool accept(const NamedResult& named, const Screening& screening, bool at_stiction,
-              EffectFit fit) {
-    const bool beyond_doubt = nameless_.sure(screening, named.surprise);
-    return take(acceptance_.accept({named, std::move(fit), beyond_doubt, at_stiction}, screening));
+              EffectConditions::Beside beside = EffectConditions::Beside::kNothing) {
+    if (screening.family_wise(named.surprise) > options_.false_alarm) return false;
+    return accept(named, screening, at_stiction, with(named.best.effect), beside);
+  }
+  bool accept(const NamedResult& named, const Screening& screening, bool at_stiction, EffectFit fit,
+              EffectConditions::Beside beside = EffectConditions::Beside::kNothing) {
+    // beside a better form nothing is beyond doubt
+    const bool alone = beside == EffectConditions::Beside::kNothing;
+    const bool beyond_doubt = alone && nameless_.sure(screening, named.surprise);
+    return take(
+        acceptance_.accept({named, std::move(fit), beyond_doubt, at_stiction, !alone}, screening));
   }
 
   EffectFit with(const EffectInstance& effect) {

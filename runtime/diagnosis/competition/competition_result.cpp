@@ -63,7 +63,7 @@ double price_of(const Hypothesis& hypothesis, double sizes, double part,
 
 double price_of(const Hypothesis& hypothesis, const TrialScore& trial,
                 const TorqueNoiseModel& noise) {
-  return price_of(hypothesis, trial.score.degrees, trial.part, noise);
+  return price_of(hypothesis, trial.score.degrees, trial.part, noise) + trial.unusual;
 }
 
 double net_of(const GenericStructure& structure, const Score& score,
@@ -82,7 +82,8 @@ double net_of(const Hypothesis& hypothesis, const TrialScore& trial,
   for (std::size_t m = 1; m < trial.few.size(); ++m) {
     const auto taken = static_cast<double>(m);
     choices *= (all - taken + 1) / taken;
-    const double price = price_of(hypothesis, taken, trial.part, noise) + 2 * std::log(choices);
+    const double price =
+        price_of(hypothesis, taken, trial.part, noise) + 2 * std::log(choices) + trial.unusual;
     best = std::max(best, trial.few[m - 1] - price);
   }
   return best;
@@ -166,18 +167,35 @@ EffectPoint without(EffectPoint point, std::size_t place) {
   return point;
 }
 
+bool is_left_by(const Nameless& nameless, std::size_t hypothesis, const std::vector<int>& joints) {
+  const auto has = [](const auto& all, const auto& own) {
+    return std::find(all.begin(), all.end(), own) != all.end();
+  };
+  return nameless.ruled_out && has(nameless.beside, hypothesis) &&
+         has(joints, nameless.structure.joint);
+}
+
+namespace {
+
+/// What was found and has no name becomes part of a model: structures, and impulses of joints that
+/// rest.
+/// @param sticks, counts  of which joints, and which structures
+template <class Sticks, class Counts>
 void add_nameless(const EffectRecordings& data, EffectSignals& signals,
-                  const CompetitionResult& result, EvidenceSystem& system,
-                  const std::vector<int>& but_for) {
+                  const CompetitionResult& result, EvidenceSystem& system, const Sticks& sticks,
+                  const Counts& counts) {
   for (const StictionJoint& sticking : result.sticking) {
-    if (std::find(but_for.begin(), but_for.end(), sticking.joint) != but_for.end()) continue;
+    if (!sticks(sticking.joint)) continue;
     system.leave_out(
         system.whitened(generic_columns(data, signals, impulses_at_reversals(sticking.joint))));
   }
   for (const Nameless& nameless : result.nameless) {
+    if (!counts(nameless)) continue;
     system.add(system.whitened(nameless_columns(data, signals, nameless)));
   }
 }
+
+}  // namespace
 
 EvidenceSystem system_beside(const EffectRecordings& data, EffectSignals& signals,
                              const std::vector<Hypothesis>& hypotheses,
@@ -187,7 +205,9 @@ EvidenceSystem system_beside(const EffectRecordings& data, EffectSignals& signal
   std::vector<Hypothesis> beside;
   for (const Winner& winner : result.winners) beside.push_back(hypotheses[winner.hypothesis]);
   EvidenceSystem system = system_at(data, signals, point, beside, noise, options);
-  add_nameless(data, signals, result, system);
+  add_nameless(
+      data, signals, result, system, [](int) { return true; },
+      [](const Nameless&) { return true; });
   return system;
 }
 
@@ -203,7 +223,12 @@ EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signa
       system_at(data, signals, without(result.fit.point, winner), beside, result.noise, options);
   const Winner& own = result.winners[winner];
   const std::vector<int> joints = joints_of(hypotheses[own.hypothesis].effect, data.joints());
-  add_nameless(data, signals, result, system, own.at_stiction ? joints : std::vector<int>{});
+  add_nameless(
+      data, signals, result, system,
+      [&](int joint) {
+        return !own.at_stiction || std::find(joints.begin(), joints.end(), joint) == joints.end();
+      },
+      [&](const Nameless& nameless) { return !is_left_by(nameless, own.hypothesis, joints); });
   return system;
 }
 

@@ -34,7 +34,8 @@ struct Nameless {
   std::string costly;
   /// An effect whose columns these are, but which a bound or a falsifier rules out as their name.
   std::optional<EffectInstance> ruled_out;
-  std::string objection;  ///< "f >= 3 does not hold"
+  std::string objection;            ///< "k >= 0 does not hold"
+  std::vector<std::size_t> beside;  ///< hypotheses of the winners that were found before it
 
   /// Variables that it goes with, joints from 1.
   [[nodiscard]] std::vector<std::string> names() const;
@@ -85,12 +86,10 @@ EvidenceSystem system_at(const EffectRecordings& data, EffectSignals& signals,
 /// A point without one of its effects.
 EffectPoint without(EffectPoint point, std::size_t place);
 
-/// What was found and has no name becomes part of a model: structures, and impulses of joints that
-/// rest.
-/// @param but_for  joints whose impulses stay
-void add_nameless(const EffectRecordings& data, EffectSignals& signals,
-                  const CompetitionResult& result, EvidenceSystem& system,
-                  const std::vector<int>& but_for = {});
+/// Whether structure is the form of an effect that a condition rules out, found beside a winner of
+/// the same joint: it is what the winner leaves. Beside all of that form the winner would be
+/// nothing.
+bool is_left_by(const Nameless& nameless, std::size_t hypothesis, const std::vector<int>& joints);
 
 /// The model with all that was found. @param point  with the effects of all winners
 EvidenceSystem system_beside(const EffectRecordings& data, EffectSignals& signals,
@@ -98,7 +97,7 @@ EvidenceSystem system_beside(const EffectRecordings& data, EffectSignals& signal
                              const CompetitionResult& result, const EffectPoint& point,
                              const TorqueNoiseModel& noise, const EvidenceSystem::Options& options);
 
-/// The model with all that was found but one winner.
+/// The model with all that was found but one winner, and forms that are left by it.
 EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signals,
                               const std::vector<Hypothesis>& hypotheses,
                               const CompetitionResult& result, std::size_t winner,
@@ -106,7 +105,7 @@ EvidenceSystem system_without(const EffectRecordings& data, EffectSignals& signa
 
 /// What a score costs in the currency of squares: its parameters, at the information that the
 /// equations hold (Schwarz 1978 with the number of independent samples): all of them on its shapes,
-/// and on its sizes those in which it acts.
+/// and on its sizes those in which it acts. Values beyond their usual ranges cost their prior odds.
 double price_of(const Hypothesis& hypothesis, const TrialScore& trial,
                 const TorqueNoiseModel& noise);
 

@@ -8,7 +8,8 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr double kLeastExplained = 0.7;   // part of a joint's structure that a name must explain
+/// Part of a joint's structure that a name must explain, and of the net of a ruled-out form.
+constexpr double kLeastExplained = 0.7;
 constexpr double kOutdone = 9;            // squares, net, by which what has no name is better
 constexpr double kOutdonePart = 0.1;      // and of the effect's
 constexpr double kEventNet = 10;          // squares, net, of an event
@@ -80,36 +81,45 @@ bool EffectConditions::carries_torque(const EvidenceSystem& system, const NamedR
   return net_of(hypothesis, trial, result_.noise) > 0;
 }
 
-bool EffectConditions::outdone(const NamedResult& named, const EvidenceSystem& system,
-                               const Screening& screening) const {
-  return outdone(sought_.net(named, result_.noise), sought_.joints(named.hypothesis), system,
-                 screening);
+EffectConditions::Beside EffectConditions::beside(const NamedResult& named,
+                                                  const EvidenceSystem& system,
+                                                  const Screening& screening) const {
+  return beside(sought_.net(named, result_.noise), sought_.joints(named.hypothesis), system,
+                screening);
 }
 
-bool EffectConditions::outdone(double explained, const std::vector<int>& own,
-                               const EvidenceSystem& system, const Screening& screening) const {
+EffectConditions::Beside EffectConditions::beside(double explained, const std::vector<int>& own,
+                                                  const EvidenceSystem& system,
+                                                  const Screening& screening) const {
   const auto is_own = [&](int joint) {
     return std::find(own.begin(), own.end(), joint) != own.end();
   };
   // shapes of a strong effect are not quite found yet, and its torque is not quite its derivative's
   const double much = (1 + kOutdonePart) * explained + kOutdone;
-  const bool by_form =
-      std::any_of(screening.named.begin(), screening.named.end(), [&](const NamedResult& each) {
-        if (!each.seen || each.freest.admissible) return false;
-        const NamedResult other = without_conditions(each);
-        if (much >= sought_.net(other, result_.noise)) return false;
-        const std::vector<int> joints = sought_.joints(other.hypothesis);
-        return std::any_of(joints.begin(), joints.end(), is_own) &&
-               !stiction_.hide(system, screening, sought_.hypotheses[other.hypothesis], other);
-      });
-  if (by_form) return true;
-  return std::any_of(
+  const bool by_function = std::any_of(
       screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
         const GenericStructure& structure = sought_.structures[generic.structure];
         return structure.is_specific() && structure.form != GenericStructure::Form::kImpulses &&
                is_own(structure.joint) && !stiction_.sticks(structure.joint) &&
                net_of(structure, generic.score, result_.noise) > much;
       });
+  if (by_function) return Beside::kOutdone;
+  Beside result = Beside::kNothing;
+  for (const NamedResult& each : screening.named) {
+    if (!each.seen || each.freest.admissible) continue;
+    const NamedResult other = without_conditions(each);
+    const double net = sought_.net(other, result_.noise);
+    const bool by_far = explained < kLeastExplained * net;
+    if (much >= net || (!by_far && result == Beside::kBetterForm)) continue;
+    const std::vector<int> joints = sought_.joints(other.hypothesis);
+    if (!std::any_of(joints.begin(), joints.end(), is_own) ||
+        stiction_.hide(system, screening, sought_.hypotheses[other.hypothesis], other)) {
+      continue;
+    }
+    if (by_far) return Beside::kOutdone;
+    result = Beside::kBetterForm;
+  }
+  return result;
 }
 
 }  // namespace dyngen::runtime

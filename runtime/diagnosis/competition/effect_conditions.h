@@ -33,13 +33,21 @@ class EffectConditions {
   [[nodiscard]] bool carries_torque(const EvidenceSystem& system, const NamedResult& named,
                                     int joint) const;
 
-  /// Whether what has no name explains more on the same joint: an effect that its file rules out,
-  /// since the structure is something else then, of that form; or a function of the motion.
-  [[nodiscard]] bool outdone(const NamedResult& named, const EvidenceSystem& system,
-                             const Screening& screening) const;
+  /// What without a name stands beside an effect on its joints.
+  enum class Beside {
+    kNothing,  ///< nothing that explains more
+    /// The form of an effect that its file rules out explains more, but the effect explains most of
+    /// it: what held-out recordings say of the effect decides, and the form remains a doubt.
+    kBetterForm,
+    /// A function of the motion explains more, or a ruled-out form by far: the structure is
+    /// something else then, of that form.
+    kOutdone
+  };
+  [[nodiscard]] Beside beside(const NamedResult& named, const EvidenceSystem& system,
+                              const Screening& screening) const;
   /// The same of what explains as much, net, on some joints.
-  [[nodiscard]] bool outdone(double explained, const std::vector<int>& own,
-                             const EvidenceSystem& system, const Screening& screening) const;
+  [[nodiscard]] Beside beside(double explained, const std::vector<int>& own,
+                              const EvidenceSystem& system, const Screening& screening) const;
 
  private:
   [[nodiscard]] double structure_of(const Screening& screening, int joint) const;

@@ -91,7 +91,11 @@ LikelyEffect LikelySearch::compared(std::size_t place, const LikelihoodRatio& ra
   }
   const double squares = ratio.of(residuals_of(data_.evidence, likely.fit.point));
   named.surprise = surprise_of(squares, degrees_of_refined(named, hypothesis));
-  likely.net = squares - price_of(hypothesis, named.best, result_.noise);
+  TrialScore fitted = named.best;  // the fit moved its shapes
+  fitted.unusual = price_of_unusual(likely.fit.point.effects.back(),
+                                    sought_.scales.of(likely.fit.point.beta, hypothesis.effect),
+                                    side.system.priors());
+  likely.net = squares - price_of(hypothesis, fitted, result_.noise);
   return likely;
 }
 

@@ -114,7 +114,10 @@ bool PairSearch::promising(const EffectPair& pair, const EvidenceSystem& system,
   std::vector<int> joints = sought_.joints(pair.stronger);
   const std::vector<int> others = sought_.joints(pair.weaker);
   joints.insert(joints.end(), others.begin(), others.end());
-  if (conditions_.outdone(pair.net, joints, system, screening)) return false;
+  if (conditions_.beside(pair.net, joints, system, screening) ==
+      EffectConditions::Beside::kOutdone) {
+    return false;
+  }
   const auto stopped = [&](std::size_t place) {
     return stiction_.explain(system, screening, sought_.hypotheses[place],
                              without_conditions(screening.named[place]));

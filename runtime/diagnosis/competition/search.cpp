@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/diagnosis/competition/search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -64,13 +66,29 @@ EquationSetOptions Search::plain() const {
   return {.rows = diagnosis_rows(parts_.train, decimation_), .rules = rules_, .masked = masked_};
 }
 
-void Search::compete(CompetitionOptions options, const CompetitionProgress& progress) {
+/// What may compete: effects of joints that are judged, with shapes that the recordings can show.
+void Search::add_hypotheses() {
   const ScaleTable scales(sets_.train);
   const Eigen::VectorXd alone = model_alone(sets_.train);
   for (const EffectInstance& effect : input_.hypotheses) {
     if (acts_on_masked(sets_.train, effect)) continue;
-    hypotheses_.push_back(hypothesis_of(effect, scales.of(alone, effect)));
+    const EffectScales own = scales.of(alone, effect);
+    const int slow = slower_than_recording(effect.law, own);
+    if (slow < 0) {
+      hypotheses_.push_back(hypothesis_of(effect, own));
+      continue;
+    }
+    const std::string& shape = effect.law.parameters[static_cast<std::size_t>(slow)].name;
+    std::string why = fmt::format("{}: no {} is within its bounds in {:.3g} s of recording",
+                                  effect.law.name, shape, own.duration);
+    if (std::find(not_offered_.begin(), not_offered_.end(), why) == not_offered_.end()) {
+      not_offered_.push_back(std::move(why));
+    }
   }
+}
+
+void Search::compete(CompetitionOptions options, const CompetitionProgress& progress) {
+  add_hypotheses();
   options.until_stiction = true;
   for (;;) {
     EffectSignals signals(sets_.evidence());

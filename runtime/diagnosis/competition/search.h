@@ -32,6 +32,9 @@ class Search {
   /// Joints without equations enough, which all sets are without.
   [[nodiscard]] const std::vector<UnjudgedJoint>& unjudged() const { return unjudged_; }
   [[nodiscard]] const std::vector<Hypothesis>& hypotheses() const { return hypotheses_; }
+  /// Effects that are none of them, since all their shapes are slower than the recordings:
+  /// "thermal_time: no warm is within its bounds in 0.8 s of recording".
+  [[nodiscard]] const std::vector<std::string>& not_offered() const { return not_offered_; }
   [[nodiscard]] const CompetitionResult& result() const { return result_; }
   [[nodiscard]] CompetitionResult& result() { return result_; }
   /// Recordings that an rms is of: all of their equations, sticks or not.
@@ -47,6 +50,7 @@ class Search {
   [[nodiscard]] double work() const { return work_->done(); }
 
  private:
+  void add_hypotheses();
   bool look_beside(const std::vector<StictionJoint>& found);
   void mask_joints();
   [[nodiscard]] EquationSetOptions plain() const;
@@ -68,6 +72,7 @@ class Search {
   };
   std::optional<Whole> whole_;
   std::vector<Hypothesis> hypotheses_;
+  std::vector<std::string> not_offered_;
   CompetitionResult result_;
 };
 

@@ -41,8 +41,7 @@ bool scan_again(const CompetitionData& data, const Sought& sought, EvidenceSyste
     std::optional<TrialScore> best;
     for (const TrialScore& trial :
          try_shapes(data.evidence, data.signals, system, hypothesis, trials, here, false)) {
-      if (trial.admissible && (!best || trial.score.delta_chi2 > best->score.delta_chi2))
-        best = trial;
+      if (trial.admissible && (!best || trial.priced() > best->priced())) best = trial;
     }
     if (!best) continue;
     best = refined(data.evidence, data.signals, system, hypothesis, *best, here);

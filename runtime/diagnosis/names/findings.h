@@ -69,6 +69,8 @@ struct Finding {
   EffectLocation where;
   Evidence evidence;
   std::vector<FalsifierOutcome> tests;
+  /// "f = 2.1 Hz: unusual, a slower oscillation is a liquid": values beyond usual ranges
+  std::vector<std::string> unusual;
   std::string formula;  ///< of the effect's file; empty where the caller knows it
   std::string why;      ///< one sentence
 };
@@ -146,6 +148,15 @@ struct EffortUsed {
   double most = 0;                   ///< in 1e9 multiplications; 0: no bound
   double done = 0;                   ///< the same
   std::vector<std::string> cut_off;  ///< "pairs of effects", ...
+  /// Effects that were not tried: slower than the recordings.
+  std::vector<std::string> not_offered;
+
+  /// Both.
+  [[nodiscard]] std::vector<std::string> not_searched() const {
+    std::vector<std::string> all = cut_off;
+    all.insert(all.end(), not_offered.begin(), not_offered.end());
+    return all;
+  }
 };
 
 /// The answer.

@@ -129,7 +129,9 @@ void conclude(Naming& naming) {
       naming.families.push_back(rival.family);
     }
   }
-  rest += std::exp(-std::clamp(naming.unnamed_distance, -200.0, 200.0) / (2 * kCaution));
+  // a form that a condition rules out is a doubt and no better name, however much more it explains
+  const double least = naming.unnamed_form.ruled_out ? kTie : -200.0;
+  rest += std::exp(-std::clamp(naming.unnamed_distance, least, 200.0) / (2 * kCaution));
   naming.probability = 1 / (1 + rest);
 }
 
@@ -238,6 +240,10 @@ class Places {
     const Hypothesis& hypothesis = data_.hypotheses[result_.winners[winner].hypothesis];
     if (hypothesis.windowed || !is_provable(unnamed)) return true;
     CompetitionResult rest = result_;
+    const std::size_t own = result_.winners[winner].hypothesis;
+    const std::vector<int> joints = joints_of(hypothesis.effect, data_.evidence.joints());
+    std::erase_if(rest.nameless,
+                  [&](const Nameless& each) { return is_left_by(each, own, joints); });
     rest.winners.erase(rest.winners.begin() + static_cast<std::ptrdiff_t>(winner));
     rest.fit.point = without(rest.fit.point, winner);
     const ProofData recordings{data_.evidence, signals_, data_.heldout};
@@ -250,6 +256,9 @@ class Places {
 
   void put_in_place(std::size_t winner, const Rival& rival, const EffectFit& fit) {
     Winner& own = result_.winners[winner];
+    for (Nameless& each : result_.nameless) {
+      std::replace(each.beside.begin(), each.beside.end(), own.hypothesis, rival.hypothesis);
+    }
     own.hypothesis = rival.hypothesis;
     own.trial = own.others[rival.hypothesis].best;  // chi-square reduction within its round
     own.trial.effect = rival.trial.effect;

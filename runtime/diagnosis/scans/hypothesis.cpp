@@ -50,8 +50,8 @@ VectorXd null_values(const JointColumns& plain, const Hypothesis& hypothesis,
 /// Parameters of a trial, and whether they are admissible.
 /// @param nothing  linear parameters at which there is no effect
 TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score score,
-                     const Products& products, const VectorXd& nothing,
-                     const EffectScales& scales) {
+                     const Products& products, const VectorXd& nothing, const EffectScales& scales,
+                     const PriorRules& priors) {
   TrialScore result;
   const auto k = static_cast<Index>(hypothesis.linear.size());
   result.typical.resize(k);
@@ -89,6 +89,7 @@ TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score s
       result.objection = condition.spelling + " does not hold";
     }
   }
+  result.unusual = price_of_unusual(trial, scales, priors);
   result.effect = std::move(trial);
   result.score = std::move(score);
   result.few = squares_of_few(products);
@@ -96,6 +97,12 @@ TrialScore concluded(const Hypothesis& hypothesis, EffectInstance trial, Score s
 }
 
 }  // namespace
+
+double price_of_unusual(const EffectInstance& effect, const EffectScales& scales,
+                        const PriorRules& priors) {
+  return priors.unusual_value *
+         static_cast<double>(effect.law.unusual(effect.parameters, scales).size());
+}
 
 Hypothesis hypothesis_of(const EffectInstance& effect, const EffectScales& scales) {
   Hypothesis hypothesis;
@@ -150,8 +157,8 @@ std::vector<VectorXd> shape_grid(const Hypothesis& hypothesis, const EffectScale
   for (const int p : hypothesis.shapes) {
     const EffectParameter& parameter =
         hypothesis.effect.law.parameters[static_cast<std::size_t>(p)];
-    const double typical = sizes.typical[p];
     double low = sizes.min[p], high = sizes.max[p];
+    const double typical = low <= high ? std::clamp(sizes.typical[p], low, high) : sizes.typical[p];
     const bool logarithmic = parameter.logarithmic && typical > 0;
     int count = hypothesis.shapes.size() > 2 ? 2 : hypothesis.shapes.size() > 1 ? 3 : values;
     if (parameter.role == EffectRole::kScanned) {
@@ -234,7 +241,7 @@ std::vector<TrialScore> try_shapes(const EffectRecordings& data, EffectSignals& 
   std::vector<TrialScore> scores;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     scores.push_back(concluded(hypothesis, trials[i], score_of(products[i], surrogates),
-                               products[i], nothing[i], scales));
+                               products[i], nothing[i], scales, system.priors()));
     scores.back().part = acting[i];
   }
   return scores;

@@ -49,7 +49,16 @@ struct TrialScore {
   double typical_lambda = 0;  ///< noncentrality of the typical size
   std::vector<double> few;    ///< squares_of_few() of the linear parameters
   double part = 1;            ///< of all joints' equations: those in which an event acts
+  double unusual = 0;         ///< chi-square that values beyond their usual ranges cost
+
+  /// Squares that it explains, less what its values cost: what shapes are chosen by.
+  [[nodiscard]] double priced() const { return score.delta_chi2 - unusual; }
 };
+
+/// Chi-square that the values of an effect cost which are beyond their usual ranges: its prior odds
+/// (PriorRules). Such values are possible, and rare.
+double price_of_unusual(const EffectInstance& effect, const EffectScales& scales,
+                        const PriorRules& priors);
 
 /// Whitened columns of the linear parameters at given shapes.
 JointColumns hypothesis_columns(const EffectRecordings& data, EffectSignals& signals,

@@ -46,7 +46,7 @@ struct NoiseSurprises {
 
 bool better(const TrialScore& a, const TrialScore& b) {
   if (a.admissible != b.admissible) return a.admissible;
-  return a.score.delta_chi2 > b.score.delta_chi2;
+  return a.priced() > b.priced();
 }
 
 /// Trial shapes of an effect that repeats with position: its order is a peak, or a peak is one of
@@ -193,8 +193,7 @@ class Screener {
         for (TrialScore& trial : try_shapes(data, signals, system_, hypothesis,
                                             trials(place, scales), scales, !before_)) {
           if (!before_) noise.add(trial.score.surrogates, trial.score.degrees);
-          if (first || trial.score.delta_chi2 > result.freest.score.delta_chi2)
-            result.freest = trial;
+          if (first || trial.priced() > result.freest.priced()) result.freest = trial;
           if (first || better(trial, result.best)) result.best = std::move(trial);
           first = false;
         }

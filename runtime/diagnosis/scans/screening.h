@@ -13,10 +13,10 @@ namespace dyngen::runtime {
 /// A named hypothesis beside the model, at the best of its trial shapes.
 struct NamedResult {
   std::size_t hypothesis = 0;  ///< its place
-  TrialScore best;             ///< of those that are admissible; of all where none is
-  TrialScore freest;           ///< of all: a larger chi-square reduction than the best one, which a
-                               ///< condition limits
-  double surprise = 0;         ///< -ln p, at the best shape
+  TrialScore best;      ///< of those that are admissible the one with most squares, priced; of all
+                        ///< where none is
+  TrialScore freest;    ///< of all: more than the best one, which a condition limits
+  double surprise = 0;  ///< -ln p, at the best shape
   double slow_noise =
       1;  ///< of an event: its chi-square relative to white noise, WindowScan::elsewhere
   double worth = 1e9;         ///< independent samples that the noise of its joints is known by

@@ -69,7 +69,8 @@ Candidates candidates_of(const Search& search, EffectSignals& signals,
     if (freer && !hypothesis.shapes.empty()) trials.push_back(&named.freest);
     for (const TrialScore* trial : trials) {
       result.add(
-          {0, named.hypothesis, odds - (trial->admissible ? 0 : kInadmissible)},
+          {0, named.hypothesis,
+           odds - (trial->admissible ? 0 : kInadmissible) - trial->unusual / 2},
           {effect.law.family, short_name(effect), effect.link > 0 ? effect.link : effect.joint + 1},
           hypothesis_columns(data, signals, system, hypothesis, trial->effect));
     }

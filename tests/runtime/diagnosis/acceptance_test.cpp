@@ -77,6 +77,18 @@ TEST(Acceptance, RefusesWhatHeldOutRecordingsDoNotHave) {
   EXPECT_FALSE(round.acceptance.accept(std::move(sure), round.screening));
 }
 
+/// Beside a form that explains more, held-out recordings have to speak for an effect.
+TEST(Acceptance, TakesWhatIsBesideABetterFormOnlyWithHeldOutRecordings) {
+  SpringRound round(test::everywhere({spring_that_acts()}));
+  Acceptance::Candidate candidate = round.candidate();
+  candidate.beside_form = true;
+  EXPECT_TRUE(round.acceptance.accept(candidate, round.screening));
+  SpringRound without({{spring_that_acts()}, {spring_that_acts()}, {}});
+  Acceptance::Candidate alone = without.candidate();
+  alone.beside_form = true;
+  EXPECT_FALSE(without.acceptance.accept(std::move(alone), without.screening));
+}
+
 TEST(Acceptance, RefusesWhatTheHalfBandContradicts) {
   SpringRound round({{spring_that_acts()}, {}, {spring_that_acts()}});
   EXPECT_FALSE(round.acceptance.accept(round.candidate(), round.screening));

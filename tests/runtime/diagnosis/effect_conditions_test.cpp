@@ -118,7 +118,8 @@ TEST(EffectConditions, CountStictionImpulsesThatAreMoreThanNoise) {
 TEST(EffectConditions, AreNotMetBesideAStrongerFunctionOfTheSameJoint) {
   ConditionScene scene;
   const auto outdone = [&](double explained) {
-    return scene.conditions.outdone(explained, {1}, scene.system, scene.screening);
+    return scene.conditions.beside(explained, {1}, scene.system, scene.screening) ==
+           EffectConditions::Beside::kOutdone;
   };
   scene.add(GenericStructure::Form::kFunction, 0, 9000);
   EXPECT_FALSE(outdone(100));
@@ -129,6 +130,32 @@ TEST(EffectConditions, AreNotMetBesideAStrongerFunctionOfTheSameJoint) {
   EXPECT_FALSE(outdone(880));
   scene.result.sticking.push_back({1, 300, {0}});
   EXPECT_FALSE(outdone(100));
+}
+
+/// A form that its file rules out stands in the way only of what explains less than 0.7 of it.
+TEST(EffectConditions, AFormThatIsRuledOutDoesNotBlockWhatExplainsMostOfIt) {
+  using Beside = EffectConditions::Beside;
+  ConditionScene scene;
+  // a spring there is, so that no reversals hide its form
+  scene.hypotheses[0].effect.joint = 0;
+  NamedResult form = scene.arm.named(scene.sought, 0);
+  form.freest.score.delta_chi2 = 1000;
+  form.freest.few.clear();
+  const auto beside = [&](double explained, int joint) {
+    scene.screening.named = {form};
+    return scene.conditions.beside(explained, {joint}, scene.system, scene.screening);
+  };
+  EXPECT_EQ(beside(100, 0), Beside::kNothing);  // it is admissible: another name, no form
+  form.freest.admissible = false;
+  EXPECT_EQ(beside(100, 0), Beside::kOutdone);
+  EXPECT_EQ(beside(690, 0), Beside::kOutdone);
+  EXPECT_EQ(beside(700, 0), Beside::kBetterForm);
+  EXPECT_EQ(beside(870, 0), Beside::kBetterForm);
+  EXPECT_EQ(beside(900, 0), Beside::kNothing);  // hardly better
+  EXPECT_EQ(beside(100, 1), Beside::kNothing);  // of another joint
+  // a function of the motion has no name that could be ruled out
+  scene.add(GenericStructure::Form::kFunction, 0, 1000);
+  EXPECT_EQ(beside(800, 0), Beside::kOutdone);
 }
 
 TEST(EffectConditions, TakeForAnEventOnlyWhatLastsAndIsStrong) {

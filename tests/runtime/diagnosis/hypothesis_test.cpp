@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "runtime/diagnosis/competition/competition_result.h"
 #include "tests/runtime/diagnosis/arm_diagnosis.h"
 
 namespace dyngen::runtime {
@@ -78,6 +80,69 @@ TEST_F(TryHypothesis, GivesASizeToTheFirstParameterThatIsSeen) {
   EXPECT_EQ(score.typical[1], 0);
   EXPECT_GT(score.typical[2], 0);
   EXPECT_NEAR(score.typical_lambda, 1, 1e-9);
+}
+
+/// A limit of a parameter, as a usual range.
+EffectCondition at_most(int parameter, double limit) {
+  EffectCondition condition;
+  condition.spelling = "small";
+  condition.parameters = {parameter};
+  condition.slack = [=](const VectorXd& p, const EffectScales&) { return limit - p[parameter]; };
+  return condition;
+}
+
+TEST_F(TryHypothesis, LetsWhatIsUnusualPayForIt) {
+  EffectLaw law = wave_law(0);
+  const TrialScore plain = score_of(law);
+  EXPECT_EQ(plain.unusual, 0);
+  law.usual = {at_most(0, 0.5)};
+  EXPECT_EQ(score_of(law).unusual, 0);
+  law.usual.push_back(at_most(0, 0.3));
+  const TrialScore large = score_of(law);
+  EXPECT_TRUE(large.admissible);
+  EXPECT_EQ(large.unusual, PriorRules().unusual_value);
+  EXPECT_EQ(large.score.delta_chi2, plain.score.delta_chi2);
+  EXPECT_EQ(large.priced(), plain.priced() - large.unusual);
+  law.usual.push_back(at_most(0, 0.2));
+  EXPECT_EQ(score_of(law).unusual, 2 * large.unusual);
+  Hypothesis hypothesis;
+  hypothesis.linear = {0, 1};
+  TorqueNoiseModel noise = test::arm_noise();
+  noise.worth = VectorXd::Constant(2, 5000);
+  EXPECT_NEAR(net_of(hypothesis, large, noise), net_of(hypothesis, plain, noise) - large.unusual,
+              1e-9);
+}
+
+/// The shape inside the usual range is taken unless the one outside is better by its price.
+TEST_F(TryHypothesis, TakesAShapeOutsideItsUsualRangeForMoreThanItsPrice) {
+  EffectLaw law = test::algebraic_law(
+      "wave", {"q"},
+      {{"size", EffectRole::kLinear, -10, 10, 0, 0.1}, {"n", EffectRole::kShape, 1, 9, 4, 4}},
+      [](const VectorXd& v, const VectorXd& p) { return p[0] * std::sin(p[1] * v[0]); });
+  const auto shape = [&](double limit) {
+    law.usual = {at_most(1, limit)};
+    const EffectInstance effect = test::unknown(law, 0);
+    const EffectScales scales = ScaleTable(data_).of(test::planar_arm_values(), effect);
+    const Hypothesis hypothesis = hypothesis_of(effect, scales);
+    EffectInstance start = hypothesis.effect;
+    start.parameters[1] = std::min(4.8, limit - 1e-4);
+    return refined(data_, signals_, system_, hypothesis,
+                   try_hypothesis(data_, signals_, system_, hypothesis, start, scales, false),
+                   scales);
+  };
+  const TrialScore inside = shape(1000);
+  EXPECT_NEAR(inside.effect.parameters[1], 5, 0.05);
+  EXPECT_EQ(inside.unusual, 0);
+  // a limit just below the estimate: hardly worse inside
+  const double near = inside.effect.parameters[1] - 1e-3;
+  const TrialScore held = shape(near);
+  EXPECT_LE(held.effect.parameters[1], near);
+  EXPECT_EQ(held.unusual, 0);
+  EXPECT_GT(held.score.delta_chi2, inside.score.delta_chi2 - PriorRules().unusual_value);
+  // far below: what is outside pays
+  const TrialScore beyond = shape(4);
+  EXPECT_NEAR(beyond.effect.parameters[1], inside.effect.parameters[1], 0.02);
+  EXPECT_EQ(beyond.unusual, PriorRules().unusual_value);
 }
 
 TEST_F(TryHypothesis, GivesNoSizeToWhatMovesNothing) {

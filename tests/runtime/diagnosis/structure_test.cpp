@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Structure that has no name or acts for a while: sinusoids, events, forms that are ruled out.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -386,6 +387,125 @@ TEST(Diagnosis, AFormThatAConditionRulesOutIsNoName) {
   EXPECT_EQ(unexplained.variables, std::vector<std::string>{"q2"});
   EXPECT_NE(unexplained.description.find("k >= 2 does not hold"), std::string::npos)
       << unexplained.description;
+}
+
+/// A limit below which a parameter is not, or is unusual.
+EffectCondition at_least(int parameter, double least, const std::string& text) {
+  EffectCondition condition;
+  condition.spelling = text;
+  condition.text = text;
+  condition.parameters = {parameter};
+  condition.slack = [=](const VectorXd& p, const EffectScales&) { return p[parameter] - least; };
+  return condition;
+}
+
+TEST(Diagnosis, AValueBeyondItsUsualRangeIsNamedAndSaid) {
+  EffectLaw spring = test::spring_law();
+  spring.usual = {at_least(0, 2, "a softer spring is a cable")};
+  const EffectInstance truth = test::known(test::spring_law(), 1, {0.4});
+  const auto diagnosis_of = [&](const EffectLaw& law) {
+    return diagnose(
+        test::arm_input(test::two_recordings({truth}, 5), {truth}, {law, test::ripple_law()}),
+        test::every_sample());
+  };
+  const Diagnosis diagnosis = diagnosis_of(spring);
+  EXPECT_EQ(diagnosis.verdict, Verdict::kExplained) << diagnosis.sentence;
+  ASSERT_EQ(diagnosis.findings.size(), 1U);
+  const Finding& finding = diagnosis.findings.front();
+  EXPECT_FALSE(finding.doubted);
+  const double k = finding.effect.parameters[0];
+  const std::string said = fmt::format("k = {:.3g}: unusual, a softer spring is a cable", k);
+  EXPECT_EQ(finding.unusual, std::vector<std::string>{said});
+  EXPECT_TRUE(finding.why.ends_with("; " + said)) << finding.why;
+  // the price is paid in evidence
+  const Diagnosis free = diagnosis_of(test::spring_law());
+  ASSERT_EQ(free.findings.size(), 1U);
+  EXPECT_TRUE(free.findings.front().unusual.empty());
+  EXPECT_NEAR(finding.evidence.delta_bic,
+              free.findings.front().evidence.delta_bic + PriorRules().unusual_value, 1e-6);
+}
+
+/// A pull that decays over a time, which at least must be `least`, and at most the recording.
+EffectLaw decay_law(double least) {
+  EffectLaw law = test::algebraic_law(
+      "decay", {"t"},
+      {{"a", EffectRole::kLinear, -10, 10, 0, 1}, {"T", EffectRole::kShape, least, 1e9, 10, 10}},
+      [](const VectorXd& v, const VectorXd& p) { return p[0] * std::exp(-v[0] / p[1]); });
+  law.sizes = [plain = law.sizes](const EffectScales& scales) {
+    EffectSizes sizes = plain(scales);
+    sizes.max[1] = scales.duration;
+    return sizes;
+  };
+  return law;
+}
+
+TEST(Diagnosis, WhatIsSlowerThanTheRecordingsIsNotTriedAndSaid) {
+  const auto diagnosis_of = [](const EffectLaw& law) {
+    return diagnose(test::arm_input(test::two_recordings({}, 5), {}, {test::spring_law(), law}),
+                    test::every_sample());
+  };
+  const auto certified = [](const Diagnosis& diagnosis) {
+    return std::any_of(diagnosis.certificate.begin(), diagnosis.certificate.end(),
+                       [](const CertificateLine& line) { return line.effect.law.name == "decay"; });
+  };
+  const Diagnosis slow = diagnosis_of(decay_law(100));
+  EXPECT_EQ(slow.verdict, Verdict::kClean) << slow.sentence;
+  ASSERT_EQ(slow.effort.not_searched().size(), 1U);  // once, of two joints
+  EXPECT_NE(slow.effort.not_searched()[0].find("decay: no T is within its bounds in 30 s"),
+            std::string::npos)
+      << slow.effort.not_searched()[0];
+  EXPECT_FALSE(certified(slow));
+  const Diagnosis quick = diagnosis_of(decay_law(1));
+  EXPECT_TRUE(quick.effort.not_searched().empty());
+  EXPECT_TRUE(certified(quick));
+}
+
+/// A ripple of one order, and one with twice the order beside it.
+EffectLaw ripple_of(const std::string& name, bool twice) {
+  std::vector<test::LawParameter> parameters = {{"a", EffectRole::kLinear, -10, 10, 0, 0.1},
+                                                {"b", EffectRole::kLinear, -10, 10, 0, 0.1}};
+  if (twice) parameters.push_back({"c", EffectRole::kLinear, -10, 10, 0, 0.1});
+  return test::algebraic_law(
+      name, {"q"}, parameters, [twice](const VectorXd& v, const VectorXd& p) {
+        const double first = p[0] * std::cos(15 * v[0]) + p[1] * std::sin(15 * v[0]);
+        return first + (twice ? p[2] * std::cos(30 * v[0]) : 0);
+      });
+}
+
+/// What is said of a ripple with twice its order beside it, where the form of both is ruled out.
+/// Three periods of 20 s: where no motion repeats effects are found by their likelihood.
+/// @param second  N m
+Diagnosis diagnosis_of_two_orders(double second) {
+  const EffectInstance truth = test::known(ripple_of("form", true), 1, {0.3, 0.2, second});
+  EffectLaw form = ripple_of("form", true);
+  form.falsifiers = {at_least(2, 5, "c >= 5")};
+  const auto motion = [](double phase) { return test::sines(60, 0.01, phase, std::numbers::pi); };
+  return diagnose(
+      test::arm_input(test::measured({motion(0.3), motion(2.3)}, test::planar_arm_values(), {truth},
+                                     test::kArmNoise, 0, 6),
+                      {truth}, {ripple_of("ripple", false), form}),
+      test::every_sample());
+}
+
+/// Whether what is left is said to be of the form that is ruled out.
+bool says_the_form(const Diagnosis& diagnosis) {
+  return std::any_of(diagnosis.unexplained.begin(), diagnosis.unexplained.end(),
+                     [](const Unexplained& own) {
+                       return own.description.find("c >= 5 does not hold") != std::string::npos;
+                     });
+}
+
+TEST(Diagnosis, AFormThatIsRuledOutDoesNotBlockWhatExplainsMostOfIt) {
+  const Diagnosis most = diagnosis_of_two_orders(0.15);
+  ASSERT_EQ(most.findings.size(), 1U) << most.sentence;
+  EXPECT_EQ(most.findings.front().effect.law.name, "ripple");
+  EXPECT_NEAR(most.findings.front().effect.parameters[0], 0.3, 0.02);
+  EXPECT_TRUE(says_the_form(most));
+  // the name would explain a fourth of it: the structure is something else
+  const Diagnosis little = diagnosis_of_two_orders(0.6);
+  EXPECT_EQ(little.verdict, Verdict::kUnexplainedStructure) << little.sentence;
+  EXPECT_TRUE(little.findings.empty());
+  EXPECT_TRUE(says_the_form(little));
 }
 
 TEST(Diagnosis, NamesThatImitateOneAnotherAreASet) {

@@ -158,6 +158,20 @@ TEST(Naming, WhatHasNoNameTakesItsPartOfTheProbability) {
   EXPECT_LT(naming.probability, 0.01);
 }
 
+/// However much more the form of an effect explains that a condition rules out: it is a doubt.
+TEST(Naming, AFormThatIsRuledOutIsADoubtAndNoBetterName) {
+  Naming naming;
+  naming.families = {"gravity_spring"};
+  naming.unnamed_distance = -100;
+  conclude(naming);
+  EXPECT_LT(naming.probability, 1e-6);
+  naming.unnamed_form.ruled_out = test::known(test::spring_law(), 1, {0.4});
+  conclude(naming);
+  EXPECT_GT(naming.probability, 0.5);
+  EXPECT_LT(naming.probability, 0.6);
+  EXPECT_EQ(naming.unnamed_distance, -100);  // as it is said
+}
+
 /// What a rest does lasts longer than an impulse does: friction goes with the way since then.
 TEST(StictionImpulses, AJointRestsWhereFrictionGoesWithTheWaySinceItTurned) {
   const std::vector<Hypothesis> no_names;

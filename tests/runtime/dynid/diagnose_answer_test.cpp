@@ -77,8 +77,11 @@ TEST(DiagnosisJson, SaysWhatTheDiagnosisSays) {
             Json::parse(R"({"value": 13.0, "std": 0.25, "unit": "N m"})"));
   EXPECT_TRUE(first["parameters"]["delta"]["std"].is_null());
   EXPECT_EQ(first["evidence"]["delta_bic"], -95);
+  EXPECT_EQ(first["unusual"],
+            Json({"vs = 0.15 rad/s: unusual, a wider curve is curved viscous friction"}));
   const Json& second = json["findings"][1];
   EXPECT_EQ(second["family"], "joint_coupling");
+  EXPECT_EQ(second["unusual"], Json::array());
   EXPECT_EQ(second["joint"], 3);
   EXPECT_EQ(second["other_joint"], 2);
   EXPECT_TRUE(second["where"]["variable"].is_null());

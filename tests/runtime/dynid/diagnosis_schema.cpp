@@ -100,6 +100,7 @@ Check schema() {
        {"formula", text},
        {"parameters", table_of(parameter)},
        {"evidence", object({{"lambda", number}, {"delta_bic", number}, {"heldout_gain", number}})},
+       {"unusual", texts},
        {"why", text}});
   return object(
       {{"schema", one_of({"dynid.diagnosis/1"})},

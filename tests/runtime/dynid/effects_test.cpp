@@ -143,8 +143,8 @@ TEST_F(Effects, OfARobotFileAreFittedTogetherWithItsParameters) {
               effects[0]["parameters"][1]["value"].get<double>(), 1e-4);
 }
 
-// Friction that falls over the whole range of speeds, to nothing: no Stribeck effect.
-TEST_F(Effects, OfStaticFrictionNeedCoulombFrictionToRiseAbove) {
+// Friction that falls over the whole range of speeds, to nothing: hardly a Stribeck effect.
+TEST_F(Effects, OfStaticFrictionUsuallyHaveCoulombFrictionToRiseAbove) {
   Recording recording = without_effects(4);
   for (Index k = 0; k < recording.samples(); ++k) {
     const double v = recording.dq(k, 1), x = v / 2;
@@ -154,15 +154,21 @@ TEST_F(Effects, OfStaticFrictionNeedCoulombFrictionToRiseAbove) {
       dynid("fit " + robot("e.robot", "effect stribeck joint=2\n") + " " +
             written(std::move(recording), "a.csv") + " --period off --json " + path("fit.json"));
   ASSERT_EQ(fit.exit_code, 0) << fit.out;
-  EXPECT_NE(fit.out.find("held at Fs <= 5*Fc"), std::string::npos) << fit.out;
+  EXPECT_NE(fit.out.find("unusual, a larger ratio is curved viscous friction"), std::string::npos)
+      << fit.out;
   const Json json = Json::parse(content(path("fit.json")));
   const double Fs = json["effects"]["list"][0]["parameters"][0]["value"].get<double>();
   double Fc = 0;
   for (const Json& parameter : json["parameters"]) {
     if (parameter["name"] == "FS2") Fc = parameter["value"].get<double>();
   }
-  EXPECT_GT(Fc, 0.5);
-  EXPECT_NEAR(Fs, 5 * Fc, 1e-6 * Fs);
+  EXPECT_GE(Fc, 0);
+  EXPECT_GT(Fs, 5 * Fc);
+  bool said = false;
+  for (const Json& remark : json["effects"]["list"][0]["remarks"]) {
+    said = said || remark["kind"] == "unusual";
+  }
+  EXPECT_TRUE(said);
 }
 
 #ifdef DYNGEN_WITH_CERES

@@ -59,6 +59,7 @@ Diagnosis made_diagnosis() {
   stribeck.evidence = {130, -95, 0.21};
   stribeck.tests = {{"vs <= 0.25*v90", true, "narrow enough", true},
                     {"slow_steady", false, "no <data>", true}};
+  stribeck.unusual = {"vs = 0.15 rad/s: unusual, a wider curve is curved viscous friction"};
   stribeck.why = "friction falls as joint 2 begins to slide";
   Finding coupling;
   coupling.effect = made_effect("viscous_coupling", 2, 1, {0.5, 1});

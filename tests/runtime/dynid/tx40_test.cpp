@@ -80,7 +80,7 @@ TEST(Tx40, FindsThePublishedFrictionAndRotors) {
 
 // The recording bends viscous friction, it shows no Stribeck effect: its rows must neither pretend
 // one nor spoil what was not fitted.
-TEST(Tx40, RowsOfStaticFrictionAreFalsifiedAndDoNotHarmTheHeldOutPart) {
+TEST(Tx40, RowsOfStaticFrictionAreUnusualAndDoNotHarmTheHeldOutPart) {
   const auto path = test::shared_data(kFile);
   if (!path) GTEST_SKIP() << test::skip_sentence(kFile);
   std::string text = test::content(DYNGEN_SOURCE_DIR "/robots/tx40.robot");
@@ -92,7 +92,8 @@ TEST(Tx40, RowsOfStaticFrictionAreFalsifiedAndDoNotHarmTheHeldOutPart) {
   const test::Outcome fit =
       test::dynid(fmt::format("fit {} {} --holdout-part 0.4 --json {}", robot, *path, json_path));
   ASSERT_EQ(fit.exit_code, 0) << fit.out;
-  EXPECT_NE(fit.out.find("vs <= 0.25*v90 does not hold"), std::string::npos) << fit.out;
+  EXPECT_NE(fit.out.find("unusual, a wider curve is curved viscous friction"), std::string::npos)
+      << fit.out;
   const auto effects = nlohmann::json::parse(test::content(json_path))["effects"];
   for (std::size_t j = 0; j < 6; ++j) {
     EXPECT_LT(effects["heldout_rms"][j].get<double>(),

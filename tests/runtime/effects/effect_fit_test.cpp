@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/effects/effect_fit.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 #include "runtime/effects/effect_residual.h"
 #include "runtime/estimation/decompositions.h"
@@ -185,6 +188,64 @@ TEST(EffectFit, AFalsifiedNameIsReported) {
                             remark.text.find("vs <= 0.25*v90") != std::string::npos);
   }
   EXPECT_TRUE(reported);
+}
+
+TEST(EffectFit, AValueBeyondItsUsualRangeIsSaidAndDoesNotObject) {
+  EffectLaw law = test::stribeck_law();
+  law.usual = std::exchange(law.falsifiers, {});
+  law.usual.front().parameters = {1};
+  const VectorXd beta = test::planar_arm_values();
+  const auto wide = test::measured(two_runs(), beta, {known(law, 0, {5.0, 0.8})}, 0.01, 0, 8);
+  const EffectFit found = fit(wide, {unknown(law, 0)});
+  int said = 0;
+  for (const EffectRemark& remark : found.remarks) {
+    EXPECT_NE(remark.kind, EffectRemark::Kind::kFalsified) << remark.text;
+    if (remark.kind != EffectRemark::Kind::kUnusual) continue;
+    ++said;
+    EXPECT_FALSE(found.objects(remark, 0));
+    EXPECT_EQ(remark.text,
+              fmt::format("stribeck of joint 1: vs = {:.3g}: unusual, a wide band is viscous "
+                          "friction that bends",
+                          found.point.effects[0].parameters[1]));
+  }
+  EXPECT_EQ(said, 1);
+  const auto narrow = test::measured(two_runs(), beta, {known(law, 0, {5.0, 0.05})}, 0.01, 0, 8);
+  for (const EffectRemark& remark : fit(narrow, {unknown(law, 0)}).remarks) {
+    EXPECT_NE(remark.kind, EffectRemark::Kind::kUnusual) << remark.text;
+  }
+}
+
+/// Sizes of a law whose shape has to last for less than the recordings do.
+EffectLaw slow_law(double least) {
+  EffectLaw law = test::algebraic_law(
+      "warming", {"t", "qd"},
+      {{"k", EffectRole::kLinear, -10, 10, 0, 1}, {"warm", EffectRole::kShape, least, 1e9, 10, 10}},
+      [](const VectorXd& v, const VectorXd& p) { return p[0] * v[1] * std::exp(-v[0] / p[1]); });
+  law.sizes = [plain = law.sizes](const EffectScales& scales) {
+    EffectSizes sizes = plain(scales);
+    sizes.max[1] = scales.duration;
+    return sizes;
+  };
+  return law;
+}
+
+TEST(EffectFit, RefusesAShapeThatIsSlowerThanTheRecordings) {
+  EffectScales scales;
+  scales.duration = 5;
+  EXPECT_EQ(slower_than_recording(slow_law(10), scales), 1);
+  EXPECT_EQ(slower_than_recording(slow_law(2), scales), -1);
+  EXPECT_EQ(slower_than_recording(test::stribeck_law(), scales), -1);
+  const VectorXd beta = test::planar_arm_values();
+  const auto sources = test::measured(two_runs(), beta, {}, 0.01, 0, 9);
+  try {
+    (void)fit(sources, {unknown(slow_law(1e4), 0)});
+    ADD_FAILURE() << "no error";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("no warm is within its bounds"), std::string::npos)
+        << error.what();
+  }
+  // a number is a number
+  EXPECT_NO_THROW((void)fit(sources, {known(slow_law(1e4), 0, {0.1, 2e4})}));
 }
 
 TEST(EffectFit, WhatTheDataCannotSeeIsNamed) {

@@ -271,14 +271,19 @@ void add_noise(const DiagnosisReport& report, std::vector<ReportSection>& sectio
 
 void add_cut_off(const Diagnosis& diagnosis, std::vector<ReportSection>& sections) {
   const EffortUsed& effort = diagnosis.effort;
-  if (effort.cut_off.empty()) return;
-  sections.push_back(
-      section_of("not-searched", "Not searched",
-                 {ReportText{fmt::format(
-                      "The search ended at an effort of {:.3g}; the limit is {:.3g}. It cut "
-                      "off:",
-                      effort.done, effort.most)},
-                  ReportList{effort.cut_off}}));
+  std::vector<ReportBlock> blocks;
+  if (!effort.cut_off.empty()) {
+    blocks.emplace_back(ReportText{fmt::format(
+        "The search ended at an effort of {:.3g}; the limit is {:.3g}. It cut off:", effort.done,
+        effort.most)});
+    blocks.emplace_back(ReportList{effort.cut_off});
+  }
+  if (!effort.not_offered.empty()) {
+    blocks.emplace_back(ReportText{"Effects that are slower than the recordings were not tried:"});
+    blocks.emplace_back(ReportList{effort.not_offered});
+  }
+  if (blocks.empty()) return;
+  sections.push_back(section_of("not-searched", "Not searched", std::move(blocks)));
 }
 
 void add_condition(const DiagnosisReport& report, std::vector<ReportSection>& sections) {

@@ -42,13 +42,14 @@ Json finding_json(const Finding& finding, const EffectWords& words) {
            {{"lambda", number(finding.evidence.lambda)},
             {"delta_bic", number(finding.evidence.delta_bic)},
             {"heldout_gain", number(finding.evidence.heldout_gain)}}},
+          {"unusual", finding.unusual},
           {"why", finding.why}};
 }
 
 Json effort_json(const EffortUsed& effort) {
   return {{"done", number(effort.done)},
           {"limit", effort.most > 0 ? number(effort.most) : Json(nullptr)},
-          {"not_searched", effort.cut_off}};
+          {"not_searched", effort.not_searched()}};
 }
 
 /// One word for all joints where they are alike.

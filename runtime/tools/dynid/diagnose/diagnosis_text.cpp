@@ -65,6 +65,7 @@ std::string finding_line(const DiagnosisReport& report, std::size_t place) {
   if (!finding.elsewhere.empty()) others.push_back(finding.elsewhere);
   if (!finding.unnamed.empty()) others.push_back(finding.unnamed);
   if (!others.empty()) text += fmt::format("; or {}", fmt::join(others, ", "));
+  for (const std::string& value : finding.unusual) text += "; " + value;
   return text + "\n";
 }
 
@@ -224,7 +225,7 @@ std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style
   if (diagnosis.effort.most > 0) {
     text += fmt::format("effort: {:.3g} of {:.3g}\n", diagnosis.effort.done, diagnosis.effort.most);
   }
-  text += list_text("not searched:", diagnosis.effort.cut_off);
+  text += list_text("not searched:", diagnosis.effort.not_searched());
   for (const std::string& note : report.notes) text += note + "\n";
   text += list_text("not judged:", not_judged_lines(diagnosis));
   text += list_text("unexplained:", unexplained_lines(report));

@@ -10,6 +10,8 @@ const char* kind_name(EffectRemark::Kind kind) {
       return "at_bound";
     case EffectRemark::Kind::kFalsified:
       return "falsified";
+    case EffectRemark::Kind::kUnusual:
+      return "unusual";
     default:
       return "not_seen";
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -105,6 +106,13 @@ EffectCondition condition_of(const ::dyngen::EffectCondition& condition,
   for (const auto& parameter : parameters) {
     place.emplace(parameter.name, static_cast<Index>(place.size()));
   }
+  std::set<std::string> read;
+  for (const EffectExpression* side : {&condition.left, &condition.right}) {
+    for (const std::string& name : names_in(*side)) read.insert(name);
+  }
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (read.contains(parameters[p].name)) result.parameters.push_back(static_cast<int>(p));
+  }
   // shared: GiNaC counts references without locks, and laws are copied by several threads
   const auto sides = std::make_shared<const ::dyngen::EffectCondition>(condition);
   result.slack = [sides, place](const VectorXd& p, const EffectScales& scales) {
@@ -186,6 +194,9 @@ EffectLaw effect_law(const EffectFile& effect) {
   }
   for (const auto& condition : effect.falsifiers) {
     law.falsifiers.push_back(condition_of(condition, effect.parameters));
+  }
+  for (const auto& condition : effect.usual) {
+    law.usual.push_back(condition_of(condition, effect.parameters));
   }
   law.sizes = [parameters = std::make_shared<const std::vector<::dyngen::EffectParameter>>(
                    effect.parameters)](const EffectScales& scales) {

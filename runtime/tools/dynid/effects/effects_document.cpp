@@ -46,14 +46,16 @@ std::string test_meaning(const std::string& test) {
   return {};
 }
 
+std::string condition_text(const ::dyngen::EffectCondition& own) {
+  return fmt::format("{} <= {}: {}", spell(own.left), spell(own.right), own.text);
+}
+
 /// "condition: reason" of all conditions on the name.
 std::vector<std::string> demands(const EffectFile& effect) {
   std::vector<std::string> lines;
-  const auto condition = [](const ::dyngen::EffectCondition& own) {
-    return fmt::format("{} <= {}: {}", spell(own.left), spell(own.right), own.text);
-  };
-  for (const auto& own : effect.requirements) lines.push_back(condition(own));
-  for (const auto& own : effect.falsifiers) lines.push_back(condition(own));
+  for (const auto* conditions : {&effect.requirements, &effect.falsifiers}) {
+    for (const auto& own : *conditions) lines.push_back(condition_text(own));
+  }
   for (const auto& own : effect.tests) {
     lines.push_back(own.test + ": " + (own.text.empty() ? test_meaning(own.test) : own.text));
   }
@@ -99,6 +101,7 @@ std::string markdown_of(const EffectFile& effect) {
     text += entry("Contains " + part.family + ": " + part.text);
   }
   for (const std::string& line : demands(effect)) text += entry("Condition: " + line);
+  for (const auto& own : effect.usual) text += entry("Usual: " + condition_text(own));
   return text + "\n";
 }
 
