@@ -132,12 +132,19 @@ Found found(const Search& search, std::size_t place, const Naming& naming, Effec
     finding.where.recording =
         search.parts().train[static_cast<std::size_t>(finding.effect.recording)].name;
   }
-  for (const EffectRemark& remark : fit.remarks) {
-    if (!fit.objects(remark, static_cast<int>(place))) continue;
+  const auto object = [&](const std::string& test, const std::string& text) {
     finding.probability = std::min<double>(finding.probability, rules.probable);
     finding.doubted = true;
-    finding.tests.push_back({remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound",
-                             false, remark.text, true});
+    finding.tests.push_back({test, false, text, true});
+  };
+  for (const EffectRemark& remark : fit.remarks) {
+    if (!fit.objects(remark, static_cast<int>(place))) continue;
+    object(remark.kind == EffectRemark::Kind::kFalsified ? "falsifier" : "bound", remark.text);
+  }
+  for (const int joint : joints_of(hypothesis.effect, evidence.joints())) {
+    if (!winner.outdone || !has_nameless(result, joint)) continue;
+    object("structure",
+           fmt::format("joint {} has structure without a name that explains more", joint + 1));
   }
   finding.unusual = unusual_values(
       finding.effect, ScaleTable(search.sets().train).of(fit.point.beta, finding.effect));

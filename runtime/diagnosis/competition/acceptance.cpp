@@ -59,7 +59,9 @@ bool Acceptance::proved(const Candidate& candidate, HeldoutProof proof) const {
   const Hypothesis& hypothesis = sought_.hypotheses[candidate.named.hypothesis];
   proof.parameters = static_cast<double>(sought_.parameters(candidate.named.hypothesis));
   proof.fitted = candidate.named.best.score.delta_chi2;
-  if (hypothesis.windowed) return !candidate.beside_form && !proof.harms();
+  if (hypothesis.windowed) {
+    return candidate.beside == EffectConditions::Beside::kNothing && !proof.harms();
+  }
   return proof.helps() || (candidate.beyond_doubt && proof.agrees());
 }
 
@@ -71,6 +73,7 @@ std::optional<Acceptance::Accepted> Acceptance::judged(Candidate candidate,
   winner.trial = std::move(candidate.named.best);
   winner.surprise = candidate.named.surprise;
   winner.at_stiction = candidate.at_stiction;
+  winner.outdone = candidate.beside == EffectConditions::Beside::kOutdone;
   winner.others = screening.named;
   winner.generic = screening.generic;
   return Accepted{std::move(winner), std::move(candidate.fit)};

@@ -7,6 +7,7 @@
 
 #include "runtime/diagnosis/competition/competition_data.h"
 #include "runtime/diagnosis/competition/competition_result.h"
+#include "runtime/diagnosis/competition/effect_conditions.h"
 #include "runtime/diagnosis/competition/half_band_test.h"
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/competition/sought.h"
@@ -30,7 +31,8 @@ class Acceptance {
     EffectFit fit;              ///< of the winners and, as its last, the effect
     bool beyond_doubt = false;  ///< by its p-value: then it is enough that held-out data agree
     bool at_stiction = false;   ///< of Winner
-    bool beside_form = false;   ///< EffectConditions::Beside::kBetterForm: held-out data must help
+    /// What explains more: beside it held-out recordings must speak for the effect.
+    EffectConditions::Beside beside = EffectConditions::Beside::kNothing;
   };
   /// An effect that is accepted.
   struct Accepted {

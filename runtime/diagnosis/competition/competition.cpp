@@ -15,10 +15,9 @@
 #include "runtime/diagnosis/competition/likely_search.h"
 #include "runtime/diagnosis/competition/nameless_search.h"
 #include "runtime/diagnosis/competition/pair_search.h"
+#include "runtime/diagnosis/competition/ranked_effects.h"
 #include "runtime/diagnosis/competition/second_scan.h"
 #include "runtime/diagnosis/competition/stiction_impulses.h"
-#include "runtime/diagnosis/competition/within_rounding.h"
-#include "runtime/diagnosis/scans/in_parallel.h"
 #include "runtime/diagnosis/scans/largest_model.h"
 
 namespace dyngen::runtime {
@@ -28,8 +27,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kRefined = 12;  // candidates whose shapes are refined in a round
-constexpr std::size_t kAttempts = 4;  // effects that are fitted in a round before it gives up
 constexpr const char* kLikelihoods = "likelihoods of effects";
 constexpr std::size_t kRivals = 5;  // that are compared again once the winner is fitted
 
@@ -52,7 +49,8 @@ class Competition {
                 {[this](const EffectInstance& effect) { return fit(effects_and(effect)); },
                  [this] { return exhausted(kLikelihoods); }}),
         pairs_(data_, sought_, stiction_, conditions_, options_.false_alarm, result_),
-        acceptance_(data_, sought_, system_options(), result_) {}
+        acceptance_(data_, sought_, system_options(), result_),
+        judges_{data_, sought_, stiction_, conditions_, nameless_, result_, options_.false_alarm} {}
 
   CompetitionResult run() {
     tell("the model alone", 0);
@@ -75,10 +73,8 @@ class Competition {
         break;
       }
       if (exhausted("further effects")) break;
-      const bool found = result_.noise.free_of_structure()
-                             ? next_winner(system, screening) || next_pair(system, screening) ||
-                                   take(nameless_.next(system, screening))
-                             : next_likely(system, screening);
+      const bool found = result_.noise.free_of_structure() ? next(system, screening)
+                                                           : next_likely(system, screening);
       if (!found) break;
       if (options_.until_stiction && !result_.sticking.empty()) return std::move(result_);
     }
@@ -194,83 +190,40 @@ class Competition {
     return sought_.net(result, result_.noise);
   }
 
-  /// Shapes of some effects between those of the grid.
-  void refine(const std::vector<std::size_t>& places, const EvidenceSystem& system,
-              Screening& screening) {
-    const auto refine_one = [&](std::size_t piece, std::size_t thread) {
-      NamedResult& named = screening.named[places[piece]];
-      if (screening.family_wise(named.surprise) > 0.5) return;
-      const Hypothesis& hypothesis = sought_.hypotheses[named.hypothesis];
-      named.best =
-          refined(data_.evidence, screening_data_.readers()[thread].whole, system, hypothesis,
-                  named.best, sought_.scales.of(result_.fit.point.beta, hypothesis.effect));
-      named.surprise = surprise_of_refined(named, hypothesis);
-    };
-    in_parallel(places.size(), screening_data_.readers().size(), refine_one,
-                [&](double done) { tell("shapes of the strongest effects", done); });
+  /// Whatever a round finds: an effect, a pair of them, joints that rest, structure without a name.
+  /// An effect beside which something without a name explains more is asked once nothing else is
+  /// found: the rest of the structure may be that of other effects.
+  bool next(const EvidenceSystem& system, Screening& screening) {
+    RankedEffects ranked = ranked_effects(system, screening);
+    return next_winner(ranked, system, screening) || next_pair(system, screening) ||
+           take(nameless_.sticking(system, screening)) ||
+           next_of(ranked, true, system, screening) || take(nameless_.next(system, screening));
   }
 
-  /// What may be a remnant of what was found has to be beyond doubt.
-  [[nodiscard]] bool is_remnant(const NamedResult& named, const Screening& screening) const {
-    if (is_part_of_found_event(result_, sought_.hypotheses, named.hypothesis, named.best.effect)) {
-      return true;
-    }
-    return may_be_remnant(result_, sought_.hypotheses, named.hypothesis) &&
-           !nameless_.sure(screening, named.surprise);
+  RankedEffects ranked_effects(const EvidenceSystem& system, Screening& screening) {
+    return {judges_, system, screening, screening_data_,
+            [&](double done) { tell("shapes of the strongest effects", done); }};
   }
 
-  bool next_winner(const EvidenceSystem& system, Screening& screening) {
-    std::vector<std::size_t> order;
-    for (const NamedResult& named : screening.named) {
-      if (named.seen && named.best.admissible && !is_winner(result_, named.hypothesis)) {
-        order.push_back(named.hypothesis);
-      }
-    }
-    const auto best_first = [&](std::size_t a, std::size_t b) {
-      return comes_before(sought_.standing(screening.named[a], result_.noise),
-                          sought_.standing(screening.named[b], result_.noise));
-    };
-    std::stable_sort(order.begin(), order.end(), best_first);
-    std::set<std::size_t> attempted;  // fitted and turned down
-    std::set<std::size_t> stopped;    // explained by stops, or by rounding
-    if (order.size() > kRefined) order.resize(kRefined);
-    refine(order, system, screening);
-    for (const std::size_t place : order) {
-      const NamedResult& named = screening.named[place];
-      if (within_rounding(data_.evidence, sought_.hypotheses[place], named.best.effect))
-        stopped.insert(place);
-    }
-    std::stable_sort(order.begin(), order.end(), best_first);
-    std::optional<std::size_t> costly;
-    for (const std::size_t place : order) {
-      const NamedResult& named = screening.named[place];
-      if (attempted.size() == kAttempts) break;
-      if (stopped.contains(place)) continue;
-      if (screening.family_wise(named.surprise) > options_.false_alarm) continue;
-      if (net(named) <= 0) {
-        if (!costly) costly = place;
-        continue;
-      }
-      if (named.best.score.delta_chi2 < conditions_.least_squares(named, screening)) continue;
-      const EffectConditions::Beside beside = conditions_.beside(named, system, screening);
-      if (beside == EffectConditions::Beside::kOutdone) continue;
-      if (attempted.contains(place)) continue;
-      const StictionImpulses::Part stiction =
-          stiction_.part_in(system, screening, sought_.hypotheses[place], named);
-      if (stiction == StictionImpulses::Part::kAll || conditions_.is_no_event(system, named) ||
-          is_remnant(named, screening)) {
-        stopped.insert(place);
-        continue;
-      }
-      stopped.insert(attempted.begin(), attempted.end());
-      const NamedResult best = links_.on_nearest(settled(named, order, stopped, screening), system,
-                                                 screening, attempted);
-      attempted.insert(best.hypothesis);
-      if (accept(best, screening, stiction == StictionImpulses::Part::kBecause, beside))
-        return true;
-    }
+  bool next_winner(RankedEffects& ranked, const EvidenceSystem& system,
+                   const Screening& screening) {
+    if (next_of(ranked, false, system, screening)) return true;
     if (take(acceptance_.accept_at_bound(screening))) return true;
-    return costly && keep_without_name(*costly, system, screening);
+    return ranked.costly() && keep_without_name(*ranked.costly(), system, screening);
+  }
+
+  /// @param outdone  of RankedEffects::next()
+  bool next_of(RankedEffects& ranked, bool outdone, const EvidenceSystem& system,
+               const Screening& screening) {
+    while (const std::optional<RankedEffect> own = ranked.next(outdone)) {
+      const NamedResult best = links_.on_nearest(
+          settled(screening.named[own->hypothesis], ranked.order(), ranked.stopped(), screening),
+          system, screening, ranked.attempted());
+      ranked.tried(best.hypothesis);
+      const bool at_stiction = own->stiction == StictionImpulses::Part::kBecause;
+      if (accept(best, screening, at_stiction, own->beside)) return true;
+    }
+    return false;
   }
 
   /// What was found becomes part of the result. @return whether anything was found
@@ -286,10 +239,9 @@ class Competition {
     result_.nameless.push_back(std::move(*nameless));
     return true;
   }
-  bool take(FoundStructure found) {
-    if (found.sticking.empty()) return take(std::move(found.nameless));
-    result_.sticking.insert(result_.sticking.end(), found.sticking.begin(), found.sticking.end());
-    return true;
+  bool take(const std::vector<StictionJoint>& sticking) {
+    result_.sticking.insert(result_.sticking.end(), sticking.begin(), sticking.end());
+    return !sticking.empty();
   }
 
   /// Two effects of which neither is found while the other is left out.
@@ -330,7 +282,8 @@ class Competition {
     acceptance_.begin_round();
     const EvidenceSystem system = model_system();
     Screening screening = screen_beside(system, false);
-    return next_winner(system, screening) && result_.winners.size() == wanted;
+    RankedEffects ranked = ranked_effects(system, screening);
+    return next_winner(ranked, system, screening) && result_.winners.size() == wanted;
   }
 
   /// An effect that is far more than noise and helps on held-out recordings, but has more
@@ -387,7 +340,8 @@ class Competition {
     if (likely_.next({system, screening}, plain, accepts)) return true;
     // what an effect that was not looked at explains is not without a name
     if (exhausted(kLikelihoods)) return false;
-    return take(nameless_.next(system, screening)) || take(nameless_.next_likely(plain));
+    return take(nameless_.sticking(system, screening)) || take(nameless_.next(system, screening)) ||
+           take(nameless_.next_likely(plain));
   }
 
   /// What effects read of the model (the load on a gear) is wrong as long as the model has taken up
@@ -442,11 +396,11 @@ class Competition {
   }
   bool accept(const NamedResult& named, const Screening& screening, bool at_stiction, EffectFit fit,
               EffectConditions::Beside beside = EffectConditions::Beside::kNothing) {
-    // beside a better form nothing is beyond doubt
-    const bool alone = beside == EffectConditions::Beside::kNothing;
-    const bool beyond_doubt = alone && nameless_.sure(screening, named.surprise);
+    // beside what explains more nothing is beyond doubt
+    const bool beyond_doubt =
+        beside == EffectConditions::Beside::kNothing && nameless_.sure(screening, named.surprise);
     return take(
-        acceptance_.accept({named, std::move(fit), beyond_doubt, at_stiction, !alone}, screening));
+        acceptance_.accept({named, std::move(fit), beyond_doubt, at_stiction, beside}, screening));
   }
 
   EffectFit with(const EffectInstance& effect) {
@@ -489,6 +443,7 @@ class Competition {
   LikelySearch likely_;
   PairSearch pairs_;
   Acceptance acceptance_;
+  RoundJudges judges_;
 };
 
 }  // namespace

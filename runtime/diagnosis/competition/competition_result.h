@@ -20,6 +20,9 @@ struct Winner {
   /// It makes the impulses at the stops of its joints (StictionImpulses::Part::kBecause): judged
   /// beside what is left of those it would not be seen.
   bool at_stiction = false;
+  /// In its round something without a name explained more on one of its joints: where structure
+  /// without a name stays there, it may be a part of that.
+  bool outdone = false;
   std::vector<NamedResult> others;     ///< its round's results, its own among them
   std::vector<GenericResult> generic;  ///< and those of structures without a name
 };

@@ -8,40 +8,13 @@
 namespace dyngen::runtime {
 namespace {
 
-/// Part of a joint's structure that a name must explain, and of the net of a ruled-out form.
-constexpr double kLeastExplained = 0.7;
+constexpr double kLeastExplained = 0.7;   // of the net of a ruled-out form, by an effect beside it
 constexpr double kOutdone = 9;            // squares, net, by which what has no name is better
 constexpr double kOutdonePart = 0.1;      // and of the effect's
 constexpr double kEventNet = 10;          // squares, net, of an event
 constexpr double kShortestCondition = 3;  // equations that an event lasts
 
 }  // namespace
-
-/// What generic structure there is on a joint: squares less their expectation under noise.
-/// Impulses at reversals count where they are far more than noise: then nothing else is to be
-/// believed of that joint before it is said to rest.
-double EffectConditions::structure_of(const Screening& screening, int joint) const {
-  double most = 0;
-  for (const GenericResult& generic : screening.generic) {
-    const GenericStructure& structure = sought_.structures[generic.structure];
-    if (structure.joint != joint) continue;
-    if (!structure.is_specific()) continue;
-    if (structure.form == GenericStructure::Form::kImpulses &&
-        (stiction_.sticks(joint) ||
-         generic.score.delta_chi2 < kHardlyMoreThanNoise * generic.score.degrees)) {
-      continue;
-    }
-    most = std::max(most, generic.score.delta_chi2 - generic.score.degrees);
-  }
-  return most;
-}
-
-double EffectConditions::least_squares(const NamedResult& named, const Screening& screening) const {
-  const std::vector<int> joints = sought_.joints(named.hypothesis);
-  double structure = 0;
-  for (const int joint : joints) structure = std::max(structure, structure_of(screening, joint));
-  return std::max(kLeastExplained * structure, stiction_.unseen_on(joints));
-}
 
 bool EffectConditions::is_no_event(const EvidenceSystem& system, const NamedResult& named) const {
   const Hypothesis& hypothesis = sought_.hypotheses[named.hypothesis];

@@ -17,10 +17,6 @@ class EffectConditions {
                    const StictionImpulses& stiction, const CompetitionResult& result)
       : data_(data), sought_(sought), stiction_(stiction), result_(result) {}
 
-  /// The squares that an effect has to explain: most of the structure of its joints, and more than
-  /// sticks leave there.
-  [[nodiscard]] double least_squares(const NamedResult& named, const Screening& screening) const;
-
   /// Whether what would be an event is a wild value, or too little: nothing held out speaks for it.
   [[nodiscard]] bool is_no_event(const EvidenceSystem& system, const NamedResult& named) const;
 
@@ -39,8 +35,8 @@ class EffectConditions {
     /// The form of an effect that its file rules out explains more, but the effect explains most of
     /// it: what held-out recordings say of the effect decides, and the form remains a doubt.
     kBetterForm,
-    /// A function of the motion explains more, or a ruled-out form by far: the structure is
-    /// something else then, of that form.
+    /// A function of the motion explains more, or a ruled-out form by far: the structure is of that
+    /// form, or is that of several effects.
     kOutdone
   };
   [[nodiscard]] Beside beside(const NamedResult& named, const EvidenceSystem& system,
@@ -50,8 +46,6 @@ class EffectConditions {
                               const EvidenceSystem& system, const Screening& screening) const;
 
  private:
-  [[nodiscard]] double structure_of(const Screening& screening, int joint) const;
-
   const CompetitionData& data_;
   const Sought& sought_;
   const StictionImpulses& stiction_;

@@ -53,32 +53,31 @@ std::vector<const GenericResult*> NamelessSearch::candidates(const Screening& sc
   return strongest;
 }
 
-FoundStructure NamelessSearch::next(const EvidenceSystem& system,
-                                    const Screening& screening) const {
-  FoundStructure found;
+std::vector<StictionJoint> NamelessSearch::sticking(const EvidenceSystem& system,
+                                                    const Screening& screening) const {
   const std::vector<const GenericResult*> strongest = candidates(screening);
-  if (!strongest.empty()) {
-    found.sticking =
-        stiction_.sticking(system, screening, sought_.structures[strongest.front()->structure]);
-    // what sticks elsewhere jolts the whole arm: it is asked before anything is said without a name
-    if (found.sticking.empty()) found.sticking = stiction_.strongest(system, screening);
-    if (!found.sticking.empty()) return found;
-  }
-  found.nameless = next_ruled_out(system, screening);
-  if (found.nameless) return found;
+  if (strongest.empty()) return {};
+  std::vector<StictionJoint> joints =
+      stiction_.sticking(system, screening, sought_.structures[strongest.front()->structure]);
+  return joints.empty() ? stiction_.strongest(system, screening) : joints;
+}
+
+std::optional<Nameless> NamelessSearch::next(const EvidenceSystem& system,
+                                             const Screening& screening) const {
+  if (std::optional<Nameless> form = next_ruled_out(system, screening)) return form;
   bool specific = true;  // the strongest of them may still be said
-  for (const GenericResult* generic : strongest) {
+  for (const GenericResult* generic : candidates(screening)) {
     const GenericStructure& structure = sought_.structures[generic->structure];
     if (structure.is_specific() && !specific) continue;
     if (has_nameless(result_, structure.joint)) {
       specific = false;
       continue;
     }
-    found.nameless = confirmed(nameless_of(*generic, ""), system, result_.noise,
-                               !sure(screening, generic->surprise));
-    if (found.nameless) return found;
+    std::optional<Nameless> nameless = confirmed(nameless_of(*generic, ""), system, result_.noise,
+                                                 !sure(screening, generic->surprise));
+    if (nameless) return nameless;
   }
-  return found;
+  return std::nullopt;
 }
 
 std::optional<Nameless> NamelessSearch::next_likely(const ModelSide& plain) const {

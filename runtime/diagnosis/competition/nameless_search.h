@@ -13,13 +13,6 @@
 
 namespace dyngen::runtime {
 
-/// What a round found besides effects that have a name: joints that begin to rest, or structure
-/// without a name; at most one of the two.
-struct FoundStructure {
-  std::vector<StictionJoint> sticking;
-  std::optional<Nameless> nameless;
-};
-
 /// Structure that no effect of the catalogue explains. What is found becomes part of the model, so
 /// that effects are looked for beside it.
 class NamelessSearch {
@@ -36,9 +29,14 @@ class NamelessSearch {
         false_alarm_(false_alarm),
         result_(result) {}
 
-  /// The strongest structure of a round: a joint that sticks, the form of an effect that a bound or
-  /// a falsifier rules out, or any function of the motion.
-  [[nodiscard]] FoundStructure next(const EvidenceSystem& system, const Screening& screening) const;
+  /// Joints that begin to rest, if that may be all that the strongest structure of a round is: what
+  /// sticks jolts the whole arm, and is asked before anything is said without a name.
+  [[nodiscard]] std::vector<StictionJoint> sticking(const EvidenceSystem& system,
+                                                    const Screening& screening) const;
+  /// The strongest structure of a round: the form of an effect that a bound or a falsifier rules
+  /// out, or any function of the motion.
+  [[nodiscard]] std::optional<Nameless> next(const EvidenceSystem& system,
+                                             const Screening& screening) const;
 
   /// Where no motion repeats: the likeliest function of the motion, if held-out recordings have it
   /// too, beside noise that is known without it.

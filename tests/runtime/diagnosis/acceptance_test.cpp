@@ -81,11 +81,11 @@ TEST(Acceptance, RefusesWhatHeldOutRecordingsDoNotHave) {
 TEST(Acceptance, TakesWhatIsBesideABetterFormOnlyWithHeldOutRecordings) {
   SpringRound round(test::everywhere({spring_that_acts()}));
   Acceptance::Candidate candidate = round.candidate();
-  candidate.beside_form = true;
+  candidate.beside = EffectConditions::Beside::kBetterForm;
   EXPECT_TRUE(round.acceptance.accept(candidate, round.screening));
   SpringRound without({{spring_that_acts()}, {spring_that_acts()}, {}});
   Acceptance::Candidate alone = without.candidate();
-  alone.beside_form = true;
+  alone.beside = EffectConditions::Beside::kBetterForm;
   EXPECT_FALSE(without.acceptance.accept(std::move(alone), without.screening));
 }
 

@@ -50,10 +50,6 @@ struct ConditionScene {
     generic.score.degrees = degrees;
     screening.generic.push_back(generic);
   }
-  [[nodiscard]] double least_of_spring() const {
-    NamedResult spring;
-    return conditions.least_squares(spring, screening);
-  }
   [[nodiscard]] NamedResult push(double begin, double end) {
     hypotheses[1].effect.parameters << 0.5, begin, end;
     return arm.named(sought, 1);
@@ -68,16 +64,6 @@ struct ConditionScene {
   EvidenceSystem system;
   Screening screening;
 };
-
-TEST(EffectConditions, DemandMostOfTheStructureOfTheEffectsJoints) {
-  ConditionScene scene;
-  EXPECT_EQ(scene.least_of_spring(), 0);
-  scene.add(GenericStructure::Form::kFunction, 1, 1004);
-  EXPECT_DOUBLE_EQ(scene.least_of_spring(), 700);
-  scene.add(GenericStructure::Form::kFunction, 0, 9000);  // of the other joint
-  scene.add(GenericStructure::Form::kRepeats, 1, 9000);   // does not say on what torque depends
-  EXPECT_DOUBLE_EQ(scene.least_of_spring(), 700);
-}
 
 /// A moment on the first link is none on the second joint, although a force on the second link
 /// explains it.
@@ -102,17 +88,6 @@ TEST(EffectConditions, AskWhetherAJointCarriesTheTorqueOfAForce) {
     system.add(system.whitened(effect_columns(arm.evidence, arm.signals, first, {3})));
     EXPECT_EQ(conditions.carries_torque(system, named, 1), link == 2);
   }
-}
-
-TEST(EffectConditions, CountStictionImpulsesThatAreMoreThanNoise) {
-  ConditionScene scene;
-  scene.add(GenericStructure::Form::kImpulses, 1, 190, 100);
-  EXPECT_EQ(scene.least_of_spring(), 0);
-  scene.add(GenericStructure::Form::kImpulses, 1, 300, 100);
-  EXPECT_DOUBLE_EQ(scene.least_of_spring(), 140);
-  // of a joint that is known to rest they are known
-  scene.result.sticking.push_back({1, 300, {0}});
-  EXPECT_DOUBLE_EQ(scene.least_of_spring(), 0.02 * 300);
 }
 
 TEST(EffectConditions, AreNotMetBesideAStrongerFunctionOfTheSameJoint) {
