@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kFalseAlarm = 0.01;
 
-/// Springs of both joints, that of joint 2 the stronger.
+/// Springs of both joints, that of joint 2 far the stronger.
 struct SpringsRound {
   SpringsRound()
-      : arm(test::everywhere({test::known(test::spring_law(), 0, {0.1}),
-                              test::known(test::spring_law(), 1, {0.4})})),
+      : arm(test::everywhere({test::known(test::spring_law(), 0, {1}),
+                              test::known(test::spring_law(), 1, {4})})),
         hypotheses{arm.hypothesis(test::unknown(test::spring_law(), 0)),
                    arm.hypothesis(test::unknown(test::spring_law(), 1))},
         sought(sought_in(arm.evidence, hypotheses)),
@@ -48,6 +48,9 @@ struct SpringsRound {
     }
     FAIL() << "no function of joint " << joint + 1;
   }
+  [[nodiscard]] double net(std::size_t place) const {
+    return sought.net(screening.named[place], result.noise);
+  }
   RankedEffects ranked() { return {judges, system, screening, readers, {}}; }
 
   test::ArmCompetition arm;
@@ -75,6 +78,8 @@ std::vector<std::size_t> handed_out(RankedEffects& ranked, bool outdone) {
 
 TEST(RankedEffects, AreHandedOutOnceTheBestFirst) {
   SpringsRound round;
+  ASSERT_GT(round.net(1), round.net(0));
+  ASSERT_GT(round.net(0), 0);
   RankedEffects ranked = round.ranked();
   EXPECT_EQ(handed_out(ranked, false), (std::vector<std::size_t>{1, 0}));
   EXPECT_TRUE(ranked.stopped().contains(1));  // turned down before the other was asked

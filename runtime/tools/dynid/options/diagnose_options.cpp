@@ -52,6 +52,11 @@ void add_diagnose_options(CLI::App& command, DiagnoseOptions& options) {
                   "machine; 0: as much as it needs")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command
+      .add_option("--most-findings", options.diagnosis.most_findings,
+                  "findings after which the search ends; the answer says so")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command.add_option("--rules", options.rules,
                      "file of decision rules for studies: a name and a value on each line");
   command.add_flag_callback(
