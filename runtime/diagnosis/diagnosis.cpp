@@ -243,9 +243,7 @@ class Diagnostician {
     const auto fit_others = [&](std::size_t i, std::size_t) {
       std::vector<EffectInstance> others = effects;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      EffectFitOptions settings;
-      if (result().noise.free_of_structure()) settings.noise = result().noise.known();
-      const EffectFit fit = fit_effects(search_.sets().train, others, settings);
+      const EffectFit fit = fit_effects(search_.sets().train, others, comparison_fit());
       without_one[i] = raw_rms(heldout, raw_residuals(heldout, from_rest(fit.point)));
     };
     if (effects.size() > 1) {

@@ -104,11 +104,7 @@ class Competition {
 
   /// May be called from several threads.
   EffectFit fit(const std::vector<EffectInstance>& effects) const {
-    EffectFitOptions settings;
-    settings.most_rounds = 2;
-    settings.most_steps = 15;
-    settings.tolerance = 1e-6;
-    return fit_effects(data_.fit, effects, settings);
+    return fit_effects(data_.fit, effects, comparison_fit());
   }
 
   /// Effects of all winners, with their latest estimates.

@@ -89,6 +89,14 @@ double net_of(const Hypothesis& hypothesis, const TrialScore& trial,
   return best;
 }
 
+EffectFitOptions comparison_fit() {
+  EffectFitOptions settings;
+  settings.most_rounds = 2;
+  settings.most_steps = 15;
+  settings.tolerance = 1e-6;
+  return settings;
+}
+
 bool is_winner(const CompetitionResult& result, std::size_t hypothesis) {
   return std::any_of(result.winners.begin(), result.winners.end(),
                      [&](const Winner& winner) { return winner.hypothesis == hypothesis; });

@@ -61,6 +61,9 @@ struct CompetitionResult {
   std::vector<std::string> cut_off;
 };
 
+/// Settings of fits that are compared with one another: a chi-square of 1e5 is exact to 0.1.
+EffectFitOptions comparison_fit();
+
 /// Whether a hypothesis has won already.
 bool is_winner(const CompetitionResult& result, std::size_t hypothesis);
 

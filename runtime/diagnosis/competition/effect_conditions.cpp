@@ -72,8 +72,8 @@ EffectConditions::Beside EffectConditions::beside(double explained, const std::v
   const bool by_function = std::any_of(
       screening.generic.begin(), screening.generic.end(), [&](const GenericResult& generic) {
         const GenericStructure& structure = sought_.structures[generic.structure];
-        return structure.is_specific() && structure.form != GenericStructure::Form::kImpulses &&
-               is_own(structure.joint) && !stiction_.sticks(structure.joint) &&
+        return structure.is_specific() && is_own(structure.joint) &&
+               !stiction_.sticks(structure.joint) &&
                net_of(structure, generic.score, result_.noise) > much;
       });
   if (by_function) return Beside::kOutdone;

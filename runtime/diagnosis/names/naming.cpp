@@ -48,7 +48,7 @@ std::optional<EffectFit> with_rival(const EffectRecordings& fitted, const Compet
   std::vector<EffectInstance> effects = result.fit.point.effects;
   effects[place] = rival.trial.effect;
   try {
-    EffectFit fit = fit_effects(fitted, effects);
+    EffectFit fit = fit_effects(fitted, effects, comparison_fit());
     for (const EffectRemark& remark : fit.remarks) {
       if (fit.objects(remark, static_cast<int>(place))) return std::nullopt;
     }
