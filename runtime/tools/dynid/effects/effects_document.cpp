@@ -202,6 +202,7 @@ std::string effect_text(const EffectFile& effect) {
     text += fmt::format("contains {}: {}\n", part.family, part.text);
   }
   for (const std::string& line : demands(effect)) text += "condition: " + line + "\n";
+  for (const auto& own : effect.usual) text += "usual: " + condition_text(own) + "\n";
   return text;
 }
 
