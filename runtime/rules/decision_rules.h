@@ -170,9 +170,10 @@ struct WindUpRules {
       3, "wind_up.slow_degree", "1",
       "Degree of the polynomial of the position that is always taken for gear error.",
       "sensitivity: eccentric wheels, a ratio that is apart, and half a turn of them"};
-  DecisionRule cosines{0.4, "wind_up.cosines", "1",
-                       "Degrees of freedom of an interval, over independent rows to the power 2/3.",
-                       "Lazarus, Lewis, Stock and Watson 2018"};
+  DecisionRule cosines{
+      0.2, "wind_up.cosines", "1",
+      "Degrees of freedom of an interval, over independent rows to the power 2/3.",
+      "half of Lazarus, Lewis, Stock and Watson 2018: intervals of short recordings hold"};
   DecisionRule line_neighbours{10, "wind_up.line_neighbours", "1",
                                "Orders of the angle that an order is compared with.",
                                "F with 2 and 20 degrees"};

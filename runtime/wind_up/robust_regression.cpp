@@ -30,6 +30,32 @@ MatrixXd pseudo_inverse(const MatrixXd& products) {
          eigen.eigenvectors().transpose() * scale.asDiagonal();
 }
 
+/// A sum of scores is smaller than the noise makes it, because columns were fitted: a sum with the
+/// weights c has the variance c'c of white noise, and c'(I - H)c of its residual. Slow columns take
+/// much of the slow sums. Every `stride`-th row tells the ratio.
+void give_back_fitted(const MatrixXd& D, const MatrixXd& inverse, MatrixXd& sums) {
+  constexpr Index kEnough = 4096;
+  constexpr double kLeast = 0.05;  // what is left of a sum that is given back
+  const Index stride = 1 + D.rows() / kEnough, rows = (D.rows() + stride - 1) / stride;
+  const MatrixXd part = D(Eigen::seqN(0, rows, stride), Eigen::all);
+  const MatrixXd gains = part * inverse;
+  const MatrixXd own = static_cast<double>(stride) * inverse;  // of `part` alone, reversed
+  const double step = std::numbers::pi / static_cast<double>(rows);
+  for (Index j = 0; j < sums.cols(); ++j) {
+    const VectorXd weight = VectorXd::NullaryExpr(rows, [&](Index i) {
+      return std::cos(step * static_cast<double>(j + 1) * (static_cast<double>(i) + 0.5));
+    });
+    const MatrixXd c = weight.asDiagonal() * gains;  // a column for each parameter
+    const MatrixXd on_columns = part.transpose() * c;
+    const VectorXd whole = c.colwise().squaredNorm();
+    const VectorXd fitted = (on_columns.array() * (own * on_columns).array()).colwise().sum();
+    for (Index i = 0; i < sums.rows(); ++i) {
+      if (!(whole[i] > 0)) continue;
+      sums(i, j) /= std::sqrt(std::max(kLeast, 1 - fitted[i] / whole[i]));
+    }
+  }
+}
+
 }  // namespace
 
 double RobustRegression::deviation(Index i) const {
@@ -80,9 +106,8 @@ RobustRegression robust_regression(const MatrixXd& D, const VectorXd& w, int cos
     }
     sums += scores.middleRows(first, count).transpose() * weights;
   }
+  give_back_fitted(D, fit.inverse, sums);
   fit.covariance = 2.0 / cosines * sums * sums.transpose();
-  // what is fitted takes a part of the residual
-  if (n > k) fit.covariance *= static_cast<double>(n) / static_cast<double>(n - k);
   return fit;
 }
 

@@ -20,7 +20,8 @@ struct RobustRegression {
   [[nodiscard]] double chance(Eigen::Index first, Eigen::Index count) const;
 };
 
-/// Degrees of freedom for so many independent rows: 0.4 n^(2/3), at least 4.
+/// Degrees of freedom for so many independent rows: factor n^(2/3), at least 4. A factor of 0.4 is
+/// recommended for tests of one mean.
 /// Source: Lazarus, Lewis, Stock and Watson, "HAR inference: recommendations for practice", 2018.
 int cosines_for(double independent_rows, double factor);
 

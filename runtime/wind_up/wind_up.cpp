@@ -55,6 +55,7 @@ struct Term {
   double shape = 0;    ///< reach, load or order
   std::string driver;  ///< of a hysteresis
   double chance = 1;
+  double left = 0;  ///< sum of squares with it
 };
 
 void check(const WindUpData& data) {
@@ -77,13 +78,17 @@ class Analysis {
       : data_(data),
         rules_(rules),
         load_rate_(rate_of(data.load, data.run_starts, data.sample_time)),
-        jerk_(rate_of(data.ddq, data.run_starts, data.sample_time)) {
+        load_second_(rate_of(load_rate_, data.run_starts, data.sample_time)),
+        jerk_(rate_of(data.ddq, data.run_starts, data.sample_time)),
+        snap_(rate_of(jerk_, data.run_starts, data.sample_time)) {
     result_.revolute = data.revolute;
   }
 
   WindUpResult run() {
     if (!can_be_judged()) return std::move(result_);
     make_slow();
+    settle();
+    make_slow();  // at the delay that is known now
     settle();
     choose_terms();
     choose_lines();
@@ -126,8 +131,9 @@ class Analysis {
   /// Gear error that is never taken for elasticity.
   void make_slow() {
     const auto degree = static_cast<Index>(rules_.slow_degree.value);
-    const double middle = (data_.q.maxCoeff() + data_.q.minCoeff()) / 2;
-    const VectorXd s = (data_.q.array() - middle) / (range_of(data_.q) / 2);
+    const VectorXd q = late_position();
+    const double middle = (q.maxCoeff() + q.minCoeff()) / 2;
+    const VectorXd s = (q.array() - middle) / (range_of(q) / 2);
     constexpr double kMostOfTurn = 0.75;
     const bool turns = data_.revolute && range_of(data_.q) > kMostOfTurn * 2 * std::numbers::pi;
     slow_.resize(samples(), degree + (turns ? 2 : 0));
@@ -138,25 +144,35 @@ class Analysis {
       before = std::exchange(now, std::move(next));
     }
     if (!turns) return;
-    slow_.col(degree) = data_.q.array().cos();
-    slow_.col(degree + 1) = data_.q.array().sin();
+    slow_.col(degree) = q.array().cos();
+    slow_.col(degree + 1) = q.array().sin();
   }
 
   [[nodiscard]] Index rotor_place() const { return kSlow + slow_.cols(); }
   [[nodiscard]] Index base_columns() const { return rotor_place() + (data_.rotor_open ? 1 : 0); }
 
-  /// What ql, late by delay_, was of.
-  [[nodiscard]] VectorXd late_load() const { return data_.load - delay_ * load_rate_; }
+  /// A signal delay_ ago, by its derivatives.
+  [[nodiscard]] VectorXd late(const VectorXd& now, const VectorXd& rate,
+                              const VectorXd& second) const {
+    return now - delay_ * rate + delay_ * delay_ / 2 * second;
+  }
+  /// Half a sample later, so that steps between samples have the signs of the rates at samples.
+  [[nodiscard]] VectorXd ahead(const VectorXd& now, const VectorXd& rate) const {
+    return now + data_.sample_time / 2 * rate;
+  }
+  [[nodiscard]] VectorXd late_position() const { return late(data_.q, data_.dq, data_.ddq); }
+  [[nodiscard]] VectorXd late_load() const { return late(data_.load, load_rate_, load_second_); }
 
   [[nodiscard]] MatrixXd columns(const std::vector<Term>& terms) const {
     Index count = base_columns();
     for (const Term& term : terms) count += term.columns.cols();
     MatrixXd D(samples(), count);
     D.col(kOffset).setOnes();
-    D.col(kDelay) = data_.dq - delay_ / 2 * data_.ddq;  // q(t) - q(t - d) = d dq(t - d/2)
+    // q(t) - q(t - d) = d (dq - d/2 ddq + d^2/6 dddq), but for the fourth power
+    D.col(kDelay) = data_.dq - delay_ / 2 * data_.ddq + delay_ * delay_ / 6 * jerk_;
     D.col(kLoad) = late_load();
     D.middleCols(kSlow, slow_.cols()) = slow_;
-    if (data_.rotor_open) D.col(rotor_place()) = data_.ddq - delay_ * jerk_;
+    if (data_.rotor_open) D.col(rotor_place()) = late(data_.ddq, jerk_, snap_);
     Index at = base_columns();
     for (const Term& term : terms) {
       D.middleCols(at, term.columns.cols()) = term.columns;
@@ -198,27 +214,28 @@ class Analysis {
     return load + fit_.beta[rotor_place()] / fit_.beta[kLoad] * data_.ddq;
   }
 
-  /// All forms of a kind, with the chance of each beside `terms_`.
+  /// All forms of a kind, with what each leaves beside `terms_`.
   [[nodiscard]] std::vector<Term> forms_of(Term::Kind kind) const {
     std::vector<Term> forms;
     const VectorXd load = net_load();
     const double most = load.cwiseAbs().maxCoeff();
     const auto add = [&](MatrixXd own, double shape, std::string driver) {
-      Term term{kind, std::move(own), shape, std::move(driver), 1};
+      Term term{kind, std::move(own), shape, std::move(driver), 1, 0};
       std::vector<Term> all = terms_;
       all.push_back(term);
-      const RobustRegression with = fit(all);
-      term.chance = with.chance(with.beta.size() - term.columns.cols(), term.columns.cols());
+      term.left = robust_regression(columns(all), data_.wind_up, 1).residual.squaredNorm();
       forms.push_back(std::move(term));
     };
     if (kind == Term::Kind::kHysteresis) {
       for (const double part : {1e-4, 1e-3, 1e-2}) {
         const double reach = part * range_of(data_.q);
-        add(hysteresis_column(data_.q, data_.run_starts, reach), reach, "motion");
+        add(hysteresis_column(ahead(late_position(), data_.dq), data_.run_starts, reach), reach,
+            "motion");
       }
       for (const double part : {0.01, 0.03, 0.1}) {
         const double reach = part * range_of(load);
-        if (reach > 0) add(hysteresis_column(load, data_.run_starts, reach), reach, "load");
+        if (reach > 0)
+          add(hysteresis_column(ahead(load, load_rate_), data_.run_starts, reach), reach, "load");
       }
     }
     if (kind == Term::Kind::kBacklash && reverses(load)) {
@@ -244,14 +261,19 @@ class Analysis {
                        [&](const Term& term) { return term.kind == kind; });
   }
 
-  /// The best form; its chance counts all of them.
+  /// The form that leaves least; its chance counts all of them.
   [[nodiscard]] std::optional<Term> best_form(Term::Kind kind) const {
     std::vector<Term> forms = forms_of(kind);
     if (forms.empty()) return std::nullopt;
-    const auto best =
-        std::min_element(forms.begin(), forms.end(),
-                         [](const Term& a, const Term& b) { return a.chance < b.chance; });
-    best->chance = std::min(1.0, best->chance * static_cast<double>(forms.size()));
+    const auto best = std::min_element(
+        forms.begin(), forms.end(), [](const Term& a, const Term& b) { return a.left < b.left; });
+    if (best->left <= 0) return std::move(*best);
+    std::vector<Term> all = terms_;
+    all.push_back(*best);
+    const RobustRegression with = fit(all);
+    const Index count = best->columns.cols();
+    best->chance = std::min(
+        1.0, with.chance(with.beta.size() - count, count) * static_cast<double>(forms.size()));
     return std::move(*best);
   }
 
@@ -278,13 +300,14 @@ class Analysis {
     const auto neighbours = static_cast<int>(rules_.line_neighbours.value);
     for (int round = 0;; ++round) {
       const std::optional<GearLine> line =
-          strongest_line(data_.q, fit_.residual, orders, neighbours);
+          strongest_line(late_position(), fit_.residual, orders, neighbours);
       if (!line) return;
       result_.least_order = orders.least;
       result_.most_order = orders.most;
-      Term term{Term::Kind::kLine, MatrixXd(samples(), 2), line->order, {}, line->chance};
-      term.columns.col(0) = (line->order * data_.q.array()).cos();
-      term.columns.col(1) = (line->order * data_.q.array()).sin();
+      Term term{Term::Kind::kLine, MatrixXd(samples(), 2), line->order, {}, line->chance, 0};
+      const VectorXd angle = line->order * late_position();
+      term.columns.col(0) = angle.array().cos();
+      term.columns.col(1) = angle.array().sin();
       std::vector<Term> with = terms_;
       with.push_back(term);
       const RobustRegression tried = fit(with);
@@ -327,7 +350,7 @@ class Analysis {
 
   const WindUpData& data_;
   const WindUpRules& rules_;
-  VectorXd load_rate_, jerk_;
+  VectorXd load_rate_, load_second_, jerk_, snap_;
   MatrixXd slow_;
   double delay_ = 0;
   std::vector<Term> terms_;

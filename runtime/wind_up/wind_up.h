@@ -106,4 +106,7 @@ std::string wind_up_sentence(const WindUpResult& result);
 std::string compared_compliance(const WindUpResult& result, double compliance, double deviation,
                                 const std::string& where);
 
+/// The same where no elasticity was found in the torque. @param smallest  that would have been
+std::string compared_with_none(const WindUpResult& result, double smallest);
+
 }  // namespace dyngen::runtime

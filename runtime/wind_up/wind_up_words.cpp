@@ -42,4 +42,19 @@ std::string compared_compliance(const WindUpResult& result, double compliance, d
                      numbers);
 }
 
+std::string compared_with_none(const WindUpResult& result, double smallest) {
+  if (!result.judged || !result.stiffness.seen) return {};
+  const char* unit = result.revolute ? "rad/(N m)" : "m/N";
+  const WindUpNumber& own = result.compliance;
+  std::string text = fmt::format(
+      "The torque alone shows no elasticity; the encoders show {:.3g} {}", own.value, unit);
+  if (!std::isfinite(smallest)) {
+    return text + ", and no size would have been found without the second encoder.";
+  }
+  return text + fmt::format(
+                    ", and from {:.3g} on it would have been found without the second "
+                    "encoder{}.",
+                    smallest, smallest < own.low ? ": both contradict one another" : "");
+}
+
 }  // namespace dyngen::runtime
