@@ -17,7 +17,8 @@ using Eigen::VectorXd;
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// A residual summed over small pieces of the angle: its orders are those of the samples.
+/// A residual summed over small pieces of the angle, all parts of the travel alike. The weights of
+/// the samples have the sum N.
 struct AngleBins {
   double first = 0, width = 0;
   VectorXd sums;
@@ -26,9 +27,20 @@ struct AngleBins {
     constexpr double kPerPeriod = 16;
     first = q.minCoeff();
     width = kTurn / most_order / kPerPeriod;
-    sums = VectorXd::Zero(1 + static_cast<Index>((q.maxCoeff() - first) / width));
+    const double travel = q.maxCoeff() - first;
+    sums = VectorXd::Zero(1 + static_cast<Index>(travel / width));
+    // where a joint is often, each sample counts less: else its neighbours would show every line
+    constexpr Index kParts = 32;
+    constexpr double kRare = 0.2;  // of the mean: rarer parts do not count more
+    const auto part = [&](Index k) {
+      return std::min(kParts - 1, static_cast<Index>((q[k] - first) / travel * kParts));
+    };
+    VectorXd counts = VectorXd::Zero(kParts);
+    for (Index k = 0; k < q.size(); ++k) counts[part(k)] += 1;
+    const VectorXd weights = counts.cwiseMax(kRare * counts.mean()).cwiseInverse();
+    const double scale = static_cast<double>(q.size()) / weights.dot(counts);
     for (Index k = 0; k < q.size(); ++k) {
-      sums[static_cast<Index>((q[k] - first) / width)] += residual[k];
+      sums[static_cast<Index>((q[k] - first) / width)] += scale * weights[part(k)] * residual[k];
     }
   }
 

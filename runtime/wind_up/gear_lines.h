@@ -18,7 +18,7 @@ struct GearLine {
   double order = 0;
   double ratio = 0;   ///< of its power to the mean of its neighbours
   double chance = 1;  ///< of such a ratio at any of the orders
-  double power = 0;   ///< square of the sum of the residual times exp(i order q)
+  double power = 0;   ///< square of the weighted sum of the residual times exp(i order q)
 };
 
 /// The line of `residual` over the angle that stands out most of its neighbours, by Fisher's F of 2

@@ -217,13 +217,17 @@ class Analysis {
   /// All forms of a kind, with what each leaves beside `terms_`.
   [[nodiscard]] std::vector<Term> forms_of(Term::Kind kind) const {
     std::vector<Term> forms;
+    const MatrixXd D = columns(terms_);
+    const double whole = fit_.residual.squaredNorm();
     const VectorXd load = net_load();
     const double most = load.cwiseAbs().maxCoeff();
     const auto add = [&](MatrixXd own, double shape, std::string driver) {
       Term term{kind, std::move(own), shape, std::move(driver), 1, 0};
-      std::vector<Term> all = terms_;
-      all.push_back(term);
-      term.left = robust_regression(columns(all), data_.wind_up, 1).residual.squaredNorm();
+      const VectorXd column = term.columns.col(0);
+      const VectorXd on_columns = D.transpose() * column;
+      const double beside = column.squaredNorm() - on_columns.dot(fit_.inverse * on_columns);
+      const double part = column.dot(fit_.residual);
+      term.left = whole - (beside > 1e-9 * column.squaredNorm() ? part * part / beside : 0);
       forms.push_back(std::move(term));
     };
     if (kind == Term::Kind::kHysteresis) {
@@ -267,7 +271,6 @@ class Analysis {
     if (forms.empty()) return std::nullopt;
     const auto best = std::min_element(
         forms.begin(), forms.end(), [](const Term& a, const Term& b) { return a.left < b.left; });
-    if (best->left <= 0) return std::move(*best);
     std::vector<Term> all = terms_;
     all.push_back(*best);
     const RobustRegression with = fit(all);
