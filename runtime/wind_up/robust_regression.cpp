@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Of a symmetric matrix, after its columns were scaled to unit norm.
-MatrixXd pseudo_inverse(const MatrixXd& products) {
+MatrixXd scaled_inverse(const MatrixXd& products) {
   constexpr double kLeast = 1e-10;  // of the largest eigenvalue: a root of it of a column is new
   const VectorXd scale =
       products.diagonal().unaryExpr([](double x) { return x > 0 ? 1 / std::sqrt(x) : 0.0; });
@@ -86,7 +86,7 @@ int cosines_for(double independent_rows, double factor) {
 
 RobustRegression robust_regression(const MatrixXd& D, const VectorXd& w, int cosines) {
   RobustRegression fit;
-  fit.inverse = pseudo_inverse(D.transpose() * D);
+  fit.inverse = scaled_inverse(D.transpose() * D);
   fit.beta = fit.inverse * (D.transpose() * w);
   fit.residual = w - D * fit.beta;
   fit.degrees = cosines;

@@ -22,10 +22,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kConfidence = 0.95;
+constexpr double kIntervalOfNumbers = 0.95;
 constexpr Index kOffset = 0, kDelay = 1, kLoad = 2, kSlow = 3;
 
-double range_of(const VectorXd& values) { return values.maxCoeff() - values.minCoeff(); }
+double travel_of(const VectorXd& values) { return values.maxCoeff() - values.minCoeff(); }
 
 double rms_of(const VectorXd& values) {
   return std::sqrt(values.squaredNorm() / static_cast<double>(std::max<Index>(1, values.size())));
@@ -119,7 +119,7 @@ class Analysis {
           "longer motion.",
           independent_rows(), rules_.least_rows.value));
     }
-    if (!(range_of(data_.q) > 0)) {
+    if (!(travel_of(data_.q) > 0)) {
       return refuse("The joint stands, so nothing is known of its gear. Move it under load.");
     }
     if (!data_.wind_up.allFinite() || !data_.load.allFinite()) {
@@ -133,9 +133,9 @@ class Analysis {
     const auto degree = static_cast<Index>(rules_.slow_degree.value);
     const VectorXd q = late_position();
     const double middle = (q.maxCoeff() + q.minCoeff()) / 2;
-    const VectorXd s = (q.array() - middle) / (range_of(q) / 2);
+    const VectorXd s = (q.array() - middle) / (travel_of(q) / 2);
     constexpr double kMostOfTurn = 0.75;
-    const bool turns = data_.revolute && range_of(data_.q) > kMostOfTurn * 2 * std::numbers::pi;
+    const bool turns = data_.revolute && travel_of(data_.q) > kMostOfTurn * 2 * std::numbers::pi;
     slow_.resize(samples(), degree + (turns ? 2 : 0));
     VectorXd before = VectorXd::Ones(samples()), now = s;
     for (Index i = 0; i < degree; ++i) {
@@ -232,12 +232,12 @@ class Analysis {
     };
     if (kind == Term::Kind::kHysteresis) {
       for (const double part : {1e-4, 1e-3, 1e-2}) {
-        const double reach = part * range_of(data_.q);
+        const double reach = part * travel_of(data_.q);
         add(hysteresis_column(ahead(late_position(), data_.dq), data_.run_starts, reach), reach,
             "motion");
       }
       for (const double part : {0.01, 0.03, 0.1}) {
-        const double reach = part * range_of(load);
+        const double reach = part * travel_of(load);
         if (reach > 0)
           add(hysteresis_column(ahead(load, load_rate_), data_.run_starts, reach), reach, "load");
       }
@@ -329,7 +329,7 @@ class Analysis {
 
   [[nodiscard]] WindUpNumber number(double value, double deviation, double chance) const {
     WindUpNumber own;
-    const double half = student_interval(kConfidence, fit_.degrees) * deviation;
+    const double half = student_interval(kIntervalOfNumbers, fit_.degrees) * deviation;
     own.value = value;
     own.low = value - half;
     own.high = value + half;

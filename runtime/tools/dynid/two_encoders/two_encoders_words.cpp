@@ -9,7 +9,7 @@
 namespace dyngen::runtime {
 namespace {
 
-std::string text_of(double value) {
+std::string digits_of(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("infinite");
 }
 
@@ -18,12 +18,12 @@ WindUpLine line_of(const WindUpResult& result, const char* quantity, const WindU
                    double factor, const std::string& unit, std::string note = {}) {
   WindUpLine line{result.joint, quantity, {}, {}, std::move(note)};
   if (own.seen) {
-    line.value = fmt::format("{} {}", text_of(factor * own.value), unit);
-    line.interval = fmt::format("{} .. {}", text_of(factor * own.low), text_of(factor * own.high));
+    line.value = fmt::format("{} {}", digits_of(factor * own.value), unit);
+    line.interval = fmt::format("{} .. {}", digits_of(factor * own.low), digits_of(factor * own.high));
   } else {
     line.value = "not seen";
     line.interval = std::isfinite(own.below)
-                        ? fmt::format("below {} {}", text_of(factor * own.below), unit)
+                        ? fmt::format("below {} {}", digits_of(factor * own.below), unit)
                         : "not determined";
   }
   return line;
@@ -33,8 +33,8 @@ WindUpLine delay_line(const WindUpResult& result) {
   const WindUpNumber& own = result.delay;
   return {result.joint,
           "delay of ql",
-          fmt::format("{} ms", text_of(1e3 * own.value)),
-          fmt::format("{} .. {}", text_of(1e3 * own.low), text_of(1e3 * own.high)),
+          fmt::format("{} ms", digits_of(1e3 * own.value)),
+          fmt::format("{} .. {}", digits_of(1e3 * own.low), digits_of(1e3 * own.high)),
           {}};
 }
 
@@ -43,12 +43,12 @@ WindUpLine stiffness_line(const WindUpResult& result) {
   const std::string unit = result.revolute ? "N m/rad" : "N/m";
   WindUpLine line{result.joint, "stiffness", {}, {}, {}};
   if (own.seen) {
-    line.value = fmt::format("{} {}", text_of(own.value), unit);
-    line.interval = fmt::format("{} .. {}", text_of(own.low), text_of(own.high));
+    line.value = fmt::format("{} {}", digits_of(own.value), unit);
+    line.interval = fmt::format("{} .. {}", digits_of(own.low), digits_of(own.high));
   } else {
     line.value = "not seen";
     line.interval = own.low > 0 && std::isfinite(own.low)
-                        ? fmt::format("above {} {}", text_of(own.low), unit)
+                        ? fmt::format("above {} {}", digits_of(own.low), unit)
                         : "not determined";
   }
   if (result.attenuation > 0) {
@@ -75,7 +75,7 @@ void add_orders(const WindUpResult& result, const std::string& unit,
   if (result.most_order > 0) {
     lines.push_back(
         {result.joint, "other orders", "not seen",
-         fmt::format("below {} {}", text_of(result.lines_below), unit),
+         fmt::format("below {} {}", digits_of(result.lines_below), unit),
          fmt::format("orders {:.3g} to {:.3g}", result.least_order, result.most_order)});
   }
 }
@@ -93,7 +93,7 @@ ReportChart chart_of(const WindUpResult& result) {
   panel.y_label = fmt::format("torque [{}]", result.revolute ? "N m" : "N");
   panel.clouds.push_back({"measured", Role::kData, result.shown_wind_up, result.shown_load});
   panel.clouds.push_back({"fitted", Role::kModel, result.shown_fit, result.shown_load});
-  chart.views.push_back({"", {std::move(panel)}});
+  chart.views.push_back({"wind-up", {std::move(panel)}});
   return chart;
 }
 
