@@ -196,8 +196,8 @@ class Analysis {
 
   /// The delay at which the columns are taken is the one that is found.
   void settle() {
-    constexpr int kRounds = 3;  // the third changes it by the third power of the delay
-    for (int round = 0; round < kRounds; ++round) {
+    constexpr int kRepeats = 3;  // the third changes it by the third power of the delay
+    for (int round = 0; round < kRepeats; ++round) {
       fit_ = fit(terms_);
       delay_ = fit_.beta[kDelay];
     }

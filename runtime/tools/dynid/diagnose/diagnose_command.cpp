@@ -181,8 +181,7 @@ void add_two_encoders(const ToolOptions& options, const WindUpRules& rules,
                       const DescribedRobot& robot, const std::vector<MotionSource>& train,
                       ProgressLine& progress, DiagnosisReport& report) {
   if (report.residual_only || joints_with_two_encoders(train).empty()) return;
-  report.two_encoders = two_encoders_of(robot, fitted_load(robot.linear, train, options.rows),
-                                        train, options, rules, progress);
+  report.two_encoders = two_encoders_of(robot, std::nullopt, train, options, rules, progress);
   std::vector<ElasticityElsewhere> found;
   for (const Finding& finding : report.diagnosis.findings) {
     const EffectLaw& law = finding.effect.law;

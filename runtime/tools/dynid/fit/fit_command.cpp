@@ -400,10 +400,12 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     }
   }
   if (!joints_with_two_encoders(train.sources).empty()) {
-    const Estimate& estimate = report.main().estimate;
-    report.two_encoders =
-        two_encoders_of(report.robot, {estimate.beta, estimate.covariance}, train.sources, options,
-                        options.diagnose.diagnosis.rules.wind_up, progress);
+    std::optional<LoadModel> load;  // beside effects the fit's own
+    if (with_effects) {
+      load = LoadModel{report.main().estimate.beta, report.main().estimate.covariance};
+    }
+    report.two_encoders = two_encoders_of(report.robot, load, train.sources, options,
+                                          options.diagnose.diagnosis.rules.wind_up, progress);
     compare_elasticity(report.two_encoders, elasticity_of(report));
   }
   if (options.consistent) {

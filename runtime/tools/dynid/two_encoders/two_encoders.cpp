@@ -109,6 +109,36 @@ Index samples_of(const std::vector<MotionSource>& sources) {
   return samples;
 }
 
+/// A weighted fit of the rigid robot.
+LoadModel fitted_load(const LinearModel& model, const std::vector<MotionSource>& sources,
+                      const RowOptions& options) {
+  RecordingSummary all = empty_summary(model.columns, model.size());
+  std::vector<RowSource> rows;
+  for (const MotionSource& source : sources) {
+    merge(all, summarise_without_noise(model, source, options));
+    rows.push_back(rows_of(model, source, options));
+  }
+  const Estimate fit = weighted_least_squares(all.equations);
+  const NoiseFactor noise = noise_at(fit, all.equations, joined(std::move(rows)));
+  return {fit.beta,
+          correlated_covariance(all.equations, noise, fit.joint_weights, fit.scale, fit.unseen)};
+}
+
+/// Behind a low-pass below which links are rigid; a cut-off that was told stays.
+std::vector<MotionSource> slow_enough(const std::vector<MotionSource>& sources) {
+  std::vector<MotionSource> slow;
+  for (const MotionSource& source : sources) {
+    if (!source.others.at || !(source.cutoff.hz > kHighestLoadCutoff)) {
+      slow.push_back(source);
+      continue;
+    }
+    constexpr double kOwnTrim = -1;
+    slow.push_back(source.others.at({kHighestLoadCutoff, "of rigid links"}, kOwnTrim));
+    slow.back().recorded = source.recorded;
+  }
+  return slow;
+}
+
 }  // namespace
 
 std::vector<int> joints_with_two_encoders(const std::vector<MotionSource>& sources) {
@@ -128,27 +158,17 @@ std::vector<double> gears_of_map(const ToolOptions& options) {
   return options.map.empty() ? std::vector<double>() : read_import_map(options.map).gears;
 }
 
-LoadModel fitted_load(const LinearModel& model, const std::vector<MotionSource>& sources,
-                      const RowOptions& options) {
-  RecordingSummary all = empty_summary(model.columns, model.size());
-  std::vector<RowSource> rows;
-  for (const MotionSource& source : sources) {
-    merge(all, summarise_without_noise(model, source, options));
-    rows.push_back(rows_of(model, source, options));
-  }
-  const Estimate fit = weighted_least_squares(all.equations);
-  const NoiseFactor noise = noise_at(fit, all.equations, joined(std::move(rows)));
-  return {fit.beta,
-          correlated_covariance(all.equations, noise, fit.joint_weights, fit.scale, fit.unseen)};
-}
-
-TwoEncoders two_encoders_of(const DescribedRobot& robot, const LoadModel& load,
-                            const std::vector<MotionSource>& sources, const ToolOptions& options,
-                            const WindUpRules& rules, ProgressLine& progress) {
+TwoEncoders two_encoders_of(const DescribedRobot& robot, const std::optional<LoadModel>& given,
+                            const std::vector<MotionSource>& all_sources,
+                            const ToolOptions& options, const WindUpRules& rules,
+                            ProgressLine& progress) {
   TwoEncoders answer;
-  const std::vector<int> joints = joints_with_two_encoders(sources);
+  const std::vector<int> joints = joints_with_two_encoders(all_sources);
   if (joints.empty()) return answer;
   const LinearModel& model = robot.linear;
+  progress.show("load of the gears", 0, 1);
+  const std::vector<MotionSource> sources = slow_enough(all_sources);
+  const LoadModel load = given ? *given : fitted_load(model, sources, options.rows);
   const Index stride = 1 + samples_of(sources) / kMostModelRows;
   std::vector<JointSamples> all(joints.size());
   LoadEvaluation evaluate(model, load.beta);

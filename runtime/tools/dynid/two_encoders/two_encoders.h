@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,14 +35,15 @@ std::vector<int> joints_with_two_encoders(const std::vector<MotionSource>& sourc
 /// Turns of the motor for one of each joint, as a map has them; empty: not known.
 std::vector<double> gears_of_map(const ToolOptions& options);
 
+/// Hz, the highest cut-off at which loads of rigid links are used: arms swing on their gears from
+/// some 10 Hz on, and a rigid model has too large a load there.
+inline constexpr double kHighestLoadCutoff = 8;
+
 /// Analyses the wind-up of each such joint. The load is the inertial torque of the model.
-TwoEncoders two_encoders_of(const DescribedRobot& robot, const LoadModel& load,
+/// @param load  none: a weighted fit of the rigid robot at a cut-off of at most kHighestLoadCutoff
+TwoEncoders two_encoders_of(const DescribedRobot& robot, const std::optional<LoadModel>& load,
                             const std::vector<MotionSource>& sources, const ToolOptions& options,
                             const WindUpRules& rules, ProgressLine& progress);
-
-/// A weighted fit of the rigid robot, for a command that has none of its own.
-LoadModel fitted_load(const LinearModel& model, const std::vector<MotionSource>& sources,
-                      const RowOptions& options);
 
 /// An elasticity that comes from the torque alone.
 struct ElasticityElsewhere {

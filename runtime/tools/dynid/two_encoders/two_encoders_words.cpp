@@ -19,7 +19,8 @@ WindUpLine line_of(const WindUpResult& result, const char* quantity, const WindU
   WindUpLine line{result.joint, quantity, {}, {}, std::move(note)};
   if (own.seen) {
     line.value = fmt::format("{} {}", digits_of(factor * own.value), unit);
-    line.interval = fmt::format("{} .. {}", digits_of(factor * own.low), digits_of(factor * own.high));
+    line.interval =
+        fmt::format("{} .. {}", digits_of(factor * own.low), digits_of(factor * own.high));
   } else {
     line.value = "not seen";
     line.interval = std::isfinite(own.below)
