@@ -77,7 +77,8 @@ OrderRange orders_seen(const VectorXd& q, const VectorXd& dq, double sample_time
 }
 
 std::optional<GearLine> strongest_line(const VectorXd& q, const VectorXd& residual,
-                                       const OrderRange& range, int neighbours) {
+                                       const OrderRange& range, int neighbours,
+                                       const std::vector<double>& known) {
   if (range.empty()) return std::nullopt;
   constexpr int kFine = 4;  // orders looked at per resolution
   const auto count = static_cast<Index>((range.most - range.least) / range.resolution * kFine);
@@ -89,8 +90,14 @@ std::optional<GearLine> strongest_line(const VectorXd& q, const VectorXd& residu
     return range.least + static_cast<double>(i) * range.resolution / kFine;
   };
   for (Index i = 0; i < count; ++i) power[i] = bins.power(order(i));
+  constexpr double kApart = 1.5;  // resolutions
+  const auto is_known = [&](double at) {
+    return std::any_of(known.begin(), known.end(),
+                       [&](double own) { return std::abs(own - at) < kApart * range.resolution; });
+  };
   std::optional<GearLine> best;
   for (Index i = 0; i < count; ++i) {
+    if (is_known(order(i))) continue;
     double sum = 0;
     int used = 0;
     for (Index n = 0; n < half; ++n) {

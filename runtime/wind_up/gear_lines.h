@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 namespace dyngen::runtime {
 
@@ -25,9 +26,11 @@ struct GearLine {
 /// degrees to 2 of each neighbour; the chance is multiplied by the number of independent orders.
 /// Neighbours are one resolution apart, and none is within 1.5 of the line.
 /// @param q          (N) rad   @param neighbours  on both sides together
+/// @param known      orders that were found: what is closer than 1.5 resolutions is a part of them
 /// @return           none: too few orders
 std::optional<GearLine> strongest_line(const Eigen::VectorXd& q, const Eigen::VectorXd& residual,
-                                       const OrderRange& range, int neighbours);
+                                       const OrderRange& range, int neighbours,
+                                       const std::vector<double>& known = {});
 
 /// Orders that samples and travel can show: from `cycles` periods in the travel, to a quarter of a
 /// period per sample at the usual speed.

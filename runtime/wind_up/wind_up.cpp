@@ -302,8 +302,12 @@ class Analysis {
     if (orders.empty()) return;
     const auto neighbours = static_cast<int>(rules_.line_neighbours.value);
     for (int round = 0;; ++round) {
+      std::vector<double> known;
+      for (const Term& term : terms_) {
+        if (term.kind == Term::Kind::kLine) known.push_back(term.shape);
+      }
       const std::optional<GearLine> line =
-          strongest_line(late_position(), fit_.residual, orders, neighbours);
+          strongest_line(late_position(), fit_.residual, orders, neighbours, known);
       if (!line) return;
       result_.least_order = orders.least;
       result_.most_order = orders.most;
@@ -431,7 +435,7 @@ void Analysis::answer_load(const MatrixXd& D, const MatrixXd& noise_alone) {
               "wrong."
             : fmt::format(
                   "The stiffness is not determined, but for its least value: {:.3g} {} of the load "
-                  "({:.0f} %) vary apart from speed, position{} of the joint.",
+                  "({:.0f} %) vary apart from speed{} of the joint.",
                   result_.load_own, data_.revolute ? "N m" : "N",
                   100 * (1 - result_.load_explained), data_.rotor_open ? " and acceleration" : "");
     result_.remarks.push_back(std::move(why));

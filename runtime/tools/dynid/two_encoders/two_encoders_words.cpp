@@ -43,18 +43,14 @@ WindUpLine stiffness_line(const WindUpResult& result) {
   const WindUpNumber& own = result.stiffness;
   const std::string unit = result.revolute ? "N m/rad" : "N/m";
   WindUpLine line{result.joint, "stiffness", {}, {}, {}};
-  if (own.seen) {
-    line.value = fmt::format("{} {}", digits_of(own.value), unit);
-    line.interval = fmt::format("{} .. {}", digits_of(own.low), digits_of(own.high));
-  } else {
-    line.value = "not seen";
-    line.interval = own.low > 0 && std::isfinite(own.low)
-                        ? fmt::format("above {} {}", digits_of(own.low), unit)
-                        : "not determined";
-  }
+  const bool determined = own.low > 0 && std::isfinite(own.low);
+  line.value = own.value > 0 && std::isfinite(own.value) && determined
+                   ? fmt::format("{} {}", digits_of(own.value), unit)
+                   : std::string("not seen");
+  line.interval = determined ? fmt::format("{} .. {}", digits_of(own.low), digits_of(own.high))
+                             : std::string("not determined");
   if (result.attenuation > 0) {
-    line.note =
-        fmt::format("errors of the load lower 1/k by at most {:.1f} %", 100 * result.attenuation);
+    line.note = fmt::format("load errors: {:.0f} % of 1/k", 100 * result.attenuation);
   }
   return line;
 }
@@ -69,15 +65,14 @@ void add_orders(const WindUpResult& result, const std::string& unit,
   for (const GearErrorLine& own : result.lines) {
     lines.push_back(line_of(
         result, "gear error", own.amplitude, 1, unit,
-        fmt::format("order {:.4g} of the joint{}, p = {:.1g}", own.order,
-                    own.of_motor > 0 ? fmt::format(", {:.4g} of the motor", own.of_motor) : "",
+        fmt::format("order {:.4g}{}, p = {:.1g}", own.order,
+                    own.of_motor > 0 ? fmt::format(" ({:.4g} of the motor)", own.of_motor) : "",
                     own.chance)));
   }
   if (result.most_order > 0) {
-    lines.push_back(
-        {result.joint, "other orders", "not seen",
-         fmt::format("below {} {}", digits_of(result.lines_below), unit),
-         fmt::format("orders {:.3g} to {:.3g}", result.least_order, result.most_order)});
+    lines.push_back({result.joint, "other orders", "not seen",
+                     fmt::format("below {} {}", digits_of(result.lines_below), unit),
+                     fmt::format("{:.3g} to {:.3g}", result.least_order, result.most_order)});
   }
 }
 
@@ -130,7 +125,7 @@ std::string two_encoders_text(const TwoEncoders& encoders) {
   std::string text = "\ntwo encoders, 95 % intervals\n";
   int joint = -1;
   for (const WindUpLine& line : wind_up_lines(encoders)) {
-    text += fmt::format("{:<9}{:<17}{:<20}{:<28}{}",
+    text += fmt::format("{:<8}{:<16}{:<18}{:<22}{}",
                         line.joint != joint ? fmt::format("joint {}", line.joint + 1) : "",
                         line.quantity, line.value, line.interval, line.note);
     while (text.back() == ' ') text.pop_back();
