@@ -191,7 +191,7 @@ TEST_F(TwoEncodersTest, OfAnIndustrialRobotTheDelaysAreThreeMilliseconds) {
   const auto robot = test::shared_data("kr300/robot.robot");
   if (!raw || !robot) GTEST_SKIP() << test::skip_sentence(kRaw);
   std::ofstream(path("map.yaml"))
-      << "table: rec\ntime: {column: time_cont, unit: s}\n"
+      << "time: {column: time_cont, unit: s}\n"
          "position: {columns: \"act_pos_mot_deg[{n}]\", unit: deg, side: joint}\n"
          "link_position: {columns: \"act_pos_se_deg[{n}]\", unit: deg, side: joint}\n"
          "torque: {columns: \"act_torque_abs_nm[{n}]\", unit: N m, side: motor}\n"
