@@ -277,6 +277,9 @@ class Analysis {
     const Index count = best->columns.cols();
     best->chance = std::min(
         1.0, with.chance(with.beta.size() - count, count) * static_cast<double>(forms.size()));
+    // a gap or a hysteresis of a negative size is another thing: damping of the gear, for example
+    const bool has_sign = kind != Term::Kind::kHardening;
+    if (has_sign && with.beta[with.beta.size() - count] < 0) best->chance = 1;
     return std::move(*best);
   }
 
@@ -427,7 +430,7 @@ void Analysis::answer_load(const MatrixXd& D, const MatrixXd& noise_alone) {
   k.low = c.high > 0 ? 1 / c.high : kInfinite;
   k.high = c.low > 0 ? 1 / c.low : kInfinite;
   k.below = k.low;  // a bound from below: stiffer than that
-  constexpr double kMostExplained = 0.9;
+  constexpr double kMostExplained = 0.9, kWide = 1.5;
   if (!k.seen) {
     std::string why =
         c.value < 0 && c.seen
@@ -439,7 +442,7 @@ void Analysis::answer_load(const MatrixXd& D, const MatrixXd& noise_alone) {
                   result_.load_own, data_.revolute ? "N m" : "N",
                   100 * (1 - result_.load_explained), data_.rotor_open ? " and acceleration" : "");
     result_.remarks.push_back(std::move(why));
-  } else if (result_.load_explained > kMostExplained) {
+  } else if (result_.load_explained > kMostExplained && k.high > kWide * k.low) {
     result_.remarks.push_back(fmt::format(
         "Speed, position{} explain {:.0f} % of the load; what is left makes the interval wide.",
         data_.rotor_open ? " and acceleration" : "", 100 * result_.load_explained));

@@ -10,7 +10,7 @@ namespace dyngen::runtime {
 namespace {
 
 std::string digits_of(double value) {
-  return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("infinite");
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("infinite");
 }
 
 /// A quantity of a joint: its value where it is seen, else the bound of its size.
@@ -49,9 +49,6 @@ WindUpLine stiffness_line(const WindUpResult& result) {
                    : std::string("not seen");
   line.interval = determined ? fmt::format("{} .. {}", digits_of(own.low), digits_of(own.high))
                              : std::string("not determined");
-  if (result.attenuation > 0) {
-    line.note = fmt::format("load errors: {:.0f} % of 1/k", 100 * result.attenuation);
-  }
   return line;
 }
 
@@ -63,11 +60,12 @@ WindUpLine backlash_line(const WindUpResult& result, const std::string& unit) {
 void add_orders(const WindUpResult& result, const std::string& unit,
                 std::vector<WindUpLine>& lines) {
   for (const GearErrorLine& own : result.lines) {
-    lines.push_back(line_of(
-        result, "gear error", own.amplitude, 1, unit,
-        fmt::format("order {:.4g}{}, p = {:.1g}", own.order,
-                    own.of_motor > 0 ? fmt::format(" ({:.4g} of the motor)", own.of_motor) : "",
-                    own.chance)));
+    WindUpLine line = line_of(
+        result, "", own.amplitude, 1, unit,
+        fmt::format("p = {:.1g}{}", own.chance,
+                    own.of_motor > 0 ? fmt::format(", {:.4g} of the motor", own.of_motor) : ""));
+    line.quantity = fmt::format("order {:.4g}", own.order);
+    lines.push_back(std::move(line));
   }
   if (result.most_order > 0) {
     lines.push_back({result.joint, "other orders", "not seen",
@@ -108,7 +106,7 @@ std::vector<WindUpLine> wind_up_lines(const TwoEncoders& encoders) {
     lines.push_back(line_of(result, "hardening", result.hardening, 1,
                             result.revolute ? "rad/(N m)^3" : "m/N^3"));
     lines.push_back(line_of(result, "hysteresis", result.hysteresis, 1, unit,
-                            result.hysteresis.seen ? "driven by " + result.hysteresis_driver : ""));
+                            result.hysteresis.seen ? "by " + result.hysteresis_driver : ""));
     lines.push_back(backlash_line(result, unit));
     lines.push_back(line_of(result, "slow gear error", result.slow_error, 1, unit));
     add_orders(result, unit, lines);
@@ -125,7 +123,7 @@ std::string two_encoders_text(const TwoEncoders& encoders) {
   std::string text = "\ntwo encoders, 95 % intervals\n";
   int joint = -1;
   for (const WindUpLine& line : wind_up_lines(encoders)) {
-    text += fmt::format("{:<8}{:<16}{:<18}{:<22}{}",
+    text += fmt::format("{:<8}{:<16}{:<17}{:<24}{}",
                         line.joint != joint ? fmt::format("joint {}", line.joint + 1) : "",
                         line.quantity, line.value, line.interval, line.note);
     while (text.back() == ' ') text.pop_back();
