@@ -274,7 +274,9 @@ void ImportedRows::find_signals(const ColumnLookup& lookup) {
   layout_.dq = map_.velocity.has_value();
   layout_.ddq = map_.acceleration.has_value();
   layout_.tau_sim = map_.simulated_torque.has_value();
-  layout_.q_link = map_.link_position.has_value();
+  for (std::size_t j = 0; map_.link_position && j < joints_; ++j) {
+    layout_.links.push_back({static_cast<int>(j), 0, 0});
+  }
   find_duty(lookup);
 }
 

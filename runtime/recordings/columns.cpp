@@ -19,7 +19,7 @@ struct Spelling {
   Kind kind;
 };
 
-constexpr std::array<Spelling, 10> kNumbered = {{{"q", Kind::kQ},
+constexpr std::array<Spelling, 12> kNumbered = {{{"q", Kind::kQ},
                                                  {"tau", Kind::kTau},
                                                  {"qd", Kind::kDq},
                                                  {"dq", Kind::kDq},
@@ -28,6 +28,8 @@ constexpr std::array<Spelling, 10> kNumbered = {{{"q", Kind::kQ},
                                                  {"tausim", Kind::kTauSim},
                                                  {"tau_sim", Kind::kTauSim},
                                                  {"ql", Kind::kLinkQ},
+                                                 {"q_link", Kind::kLinkQ},
+                                                 {"qlink", Kind::kLinkQ},
                                                  {"temp", Kind::kTemperature}}};
 
 constexpr int kMostJoints = 1000;
@@ -160,6 +162,7 @@ class HeaderReader {
   void sort_out_names();
   void read_unit(const Field& field, const Meaning& meaning, std::size_t place);
   void check_group(Kind kind, std::string_view word, int expected) const;
+  void find_links(SampleLayout& layout) const;
   void place(Kind kind, int& next);
   ColumnGroup& group(Kind kind) { return groups_[static_cast<std::size_t>(kind)]; }
   [[nodiscard]] const ColumnGroup& group(Kind kind) const {
@@ -265,6 +268,18 @@ void HeaderReader::check_group(Kind kind, std::string_view word, int expected) c
   }
 }
 
+/// Some joints alone may have a second encoder: numbers may have gaps.
+void HeaderReader::find_links(SampleLayout& layout) const {
+  for (const auto& [number, place] : group(Kind::kLinkQ).fields) {
+    const Field& field = fields_[place];
+    if (number > layout.joints) {
+      fail(field.column, fmt::format("found column {}, expected ql1 to ql{} for {} joints",
+                                     quoted(field.text), layout.joints, layout.joints));
+    }
+    layout.links.push_back({number - 1, line_number_, field.column});
+  }
+}
+
 void HeaderReader::place(Kind kind, int& next) {
   for (const auto& [number, place] : group(kind).fields) columns_.target[place] = next++;
 }
@@ -299,7 +314,7 @@ Columns HeaderReader::read(char separator, int joints, bool torque_required) {
   layout.dq = recorded(Kind::kDq, "qd");
   layout.ddq = recorded(Kind::kDdq, "qdd");
   layout.tau_sim = recorded(Kind::kTauSim, "tausim");
-  layout.q_link = recorded(Kind::kLinkQ, "ql");
+  find_links(layout);
   check_group(Kind::kTemperature, "temp", 0);
   layout.temperatures = group(Kind::kTemperature).count();
 

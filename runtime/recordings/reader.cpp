@@ -112,7 +112,7 @@ void RecordingReader::State::finish() {
   filter.finish();
   if (data_rows == 0) {
     throw log.error(rows->last_place(), 1,
-                          "found no rows of data after the header, expected two or more");
+                    "found no rows of data after the header, expected two or more");
   }
   if (delivered + out.size() < 2) {
     throw log.error(
@@ -144,7 +144,12 @@ void RecordingReader::State::take(Recording& chunk, std::size_t count) {
   shape(chunk.dq, columns.dq, n);
   shape(chunk.ddq, columns.ddq, n);
   shape(chunk.tau_sim, columns.tau_sim, n);
-  shape(chunk.q_link, columns.q_link, n);
+  shape(chunk.q_link, !columns.links.empty(), n);
+  chunk.q_link.setConstant(std::numeric_limits<double>::quiet_NaN());
+  chunk.link_places.assign(columns.links.empty() ? 0 : static_cast<std::size_t>(n), {0, 0});
+  for (const LinkColumn& link : columns.links) {
+    chunk.link_places[static_cast<std::size_t>(link.joint)] = {link.line, link.column};
+  }
   shape(chunk.temperature, columns.temperatures > 0, columns.temperatures);
 
   for (std::size_t i = 0; i < count; ++i) {
@@ -155,10 +160,12 @@ void RecordingReader::State::take(Recording& chunk, std::size_t count) {
     if (starts_run || i == 0) chunk.run_starts.push_back(row);
     chunk.lines.push_back(static_cast<std::uint32_t>(out.info(0).line));
     chunk.time(row) = *value++;
-    for (Eigen::MatrixXd* matrix :
-         {&chunk.q, &chunk.tau, &chunk.dq, &chunk.ddq, &chunk.tau_sim, &chunk.q_link,
-          &chunk.temperature}) {
+    for (Eigen::MatrixXd* matrix : {&chunk.q, &chunk.tau, &chunk.dq, &chunk.ddq, &chunk.tau_sim}) {
       for (Eigen::Index j = 0; j < matrix->cols(); ++j) (*matrix)(row, j) = *value++;
+    }
+    for (const LinkColumn& link : columns.links) chunk.q_link(row, link.joint) = *value++;
+    for (Eigen::Index j = 0; j < chunk.temperature.cols(); ++j) {
+      chunk.temperature(row, j) = *value++;
     }
     out.pop_front();
   }
@@ -263,6 +270,7 @@ Recording read_all(RecordingReader& reader) {
 
   all.file_name = chunks.front().file_name;
   all.place_word = chunks.front().place_word;
+  all.link_places = chunks.front().link_places;
   all.time.resize(samples);
   for (const auto part : kRecordingParts) {
     const Eigen::Index width = (chunks.front().*part).cols();

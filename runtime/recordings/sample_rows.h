@@ -5,24 +5,32 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "runtime/recordings/notice_log.h"
 #include "runtime/recordings/row_queue.h"
 
 namespace dyngen::runtime {
 
+/// A column ql of a file.
+struct LinkColumn {
+  int joint = 0;                     ///< from 0
+  std::size_t line = 0, column = 0;  ///< of its name in the file; 0: not known
+};
+
 /// Which values a sample has. They stand in one order whatever the file's: time, q, tau, dq, ddq,
-/// tau_sim, q_link, temperature; all but time and q only if recorded.
+/// tau_sim, q_link, temperature; all but time and q only if recorded. q_link has the joints of
+/// `links` alone.
 struct SampleLayout {
   int joints = 0;
-  bool tau = false, dq = false, ddq = false, tau_sim = false, q_link = false;
+  bool tau = false, dq = false, ddq = false, tau_sim = false;
+  std::vector<LinkColumn> links;  ///< by joint
   int temperatures = 0;
 
   /// Number of values a sample has.
   [[nodiscard]] std::size_t width() const {
-    const int groups = 1 + (tau ? 1 : 0) + (dq ? 1 : 0) + (ddq ? 1 : 0) + (tau_sim ? 1 : 0) +
-                       (q_link ? 1 : 0);
-    return static_cast<std::size_t>(1 + groups * joints + temperatures);
+    const int groups = 1 + (tau ? 1 : 0) + (dq ? 1 : 0) + (ddq ? 1 : 0) + (tau_sim ? 1 : 0);
+    return static_cast<std::size_t>(1 + groups * joints + temperatures) + links.size();
   }
 };
 

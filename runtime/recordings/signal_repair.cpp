@@ -12,6 +12,7 @@
 #include "runtime/recordings/glitches.h"
 #include "runtime/recordings/held_columns.h"
 #include "runtime/recordings/jumps.h"
+#include "runtime/recordings/link_encoders.h"
 #include "runtime/recordings/notice_log.h"
 #include "runtime/recordings/row_repair.h"
 #include "runtime/recordings/stuck_columns.h"
@@ -53,7 +54,11 @@ class SignalRepair {
 
   void run() {
     if (recording_.samples() == 0) return;
-    for (Index j = 0; j < recording_.q.cols(); ++j) repair_position(j);
+    for (Index j = 0; j < positions(); ++j) {
+      if (j < recording_.q.cols() || recording_.has_link(j - recording_.q.cols())) {
+        repair_position(j);
+      }
+    }
     for (Index j = 0; j < recording_.tau.cols(); ++j) {
       repair_held("tau", recording_.tau, j);
       repair_torque(j);
@@ -62,6 +67,7 @@ class SignalRepair {
     for (Index j = 0; j < recording_.ddq.cols(); ++j) repair_held("qdd", recording_.ddq, j);
     judge_jumps();
     take_out();
+    check_link_encoders(recording_, notices_);
   }
 
  private:
@@ -72,16 +78,28 @@ class SignalRepair {
   [[nodiscard]] Index first(std::size_t run) const { return recording_.run_starts[run]; }
   [[nodiscard]] Index count(std::size_t run) const { return run_end(recording_, run) - first(run); }
 
+  /// Positions of the joints, then those behind their gears.
+  [[nodiscard]] Index positions() const { return recording_.q.cols() + recording_.q_link.cols(); }
+  [[nodiscard]] auto position(Index j) {
+    return j < recording_.q.cols() ? recording_.q.col(j)
+                                   : recording_.q_link.col(j - recording_.q.cols());
+  }
+  [[nodiscard]] std::string position_name(Index j) const {
+    const Index n = recording_.q.cols();
+    return j < n ? fmt::format("q{}", j + 1) : fmt::format("ql{}", j - n + 1);
+  }
+
   void tell(Index row, const std::string& message) {
     notices_.push_back({recording_.file_name, line(row), 0, message, recording_.place_word});
   }
 
   /// A step that is small for the column; of a coarse encoder, its count.
-  [[nodiscard]] double resolution(Index column) const {
+  [[nodiscard]] double resolution(Index column) {
+    const auto values = position(column);
     std::vector<double> steps;
     for (std::size_t run = 0; run < runs(); ++run) {
       for (Index k = first(run) + 1; k < first(run) + count(run); ++k) {
-        const double step = std::abs(recording_.q(k, column) - recording_.q(k - 1, column));
+        const double step = std::abs(values(k) - values(k - 1));
         if (step > 0) steps.push_back(step);
       }
     }
@@ -90,25 +108,26 @@ class SignalRepair {
   }
 
   void repair_position(Index j) {
-    const Unwrapping turns = unwrap(recording_, j);
+    const Unwrapping turns = unwrap(recording_, position(j));
     if (turns.count > 0) {
-      tell(turns.row, fmt::format("q{} jumps by a whole turn, from {:.6g} to {:.6g}; unwrapped{}",
-                                  j + 1, turns.before, turns.after, times_in_all(turns.count)));
+      tell(turns.row,
+           fmt::format("{} jumps by a whole turn, from {:.6g} to {:.6g}; unwrapped{}",
+                       position_name(j), turns.before, turns.after, times_in_all(turns.count)));
     }
     const double small = resolution(j);
     std::vector<Glitch> glitches;
     std::vector<Stuck> stuck;
     for (std::size_t run = 0; run < runs(); ++run) {
       const auto time = recording_.time.segment(first(run), count(run));
-      const auto position = recording_.q.col(j).segment(first(run), count(run));
-      append(glitches, repair_position_glitches(time, position, sample_time_, small), run);
-      append(stuck, find_frozen_positions(time, position, sample_time_, small), run);
-      for (const Jump& jump : find_jumps(time, position, sample_time_, small)) {
+      auto own = position(j).segment(first(run), count(run));
+      append(glitches, repair_position_glitches(time, own, sample_time_, small), run);
+      append(stuck, find_frozen_positions(time, own, sample_time_, small), run);
+      for (const Jump& jump : find_jumps(time, own, sample_time_, small)) {
         jumps_[first(run) + jump.row].push_back({j, run, jump});
       }
     }
-    tell_glitches(fmt::format("q{}", j + 1), recording_.q.col(j), glitches);
-    tell_stuck(fmt::format("q{} freezes while the joint moves", j + 1), stuck);
+    tell_glitches(position_name(j), position(j), glitches);
+    tell_stuck(fmt::format("{} freezes while the joint moves", position_name(j)), stuck);
   }
 
   void repair_torque(Index j) {
@@ -229,7 +248,7 @@ class SignalRepair {
   void take_out();
 
   struct JumpOfJoint {
-    Index joint = 0;
+    Index joint = 0;  ///< place among the positions
     std::size_t run = 0;
     Jump jump;
   };
@@ -248,7 +267,7 @@ class SignalRepair {
 void SignalRepair::judge_jumps() {
   constexpr double kMissingRows = 50;
   std::vector<std::vector<std::pair<Index, JumpOfJoint>>> alone(
-      static_cast<std::size_t>(recording_.q.cols()));
+      static_cast<std::size_t>(positions()));
   for (const auto& [row, jumps] : jumps_) {
     if (left_out_[static_cast<std::size_t>(row - 1)]) continue;  // after what was stuck
     const JumpOfJoint& one = jumps.front();
@@ -257,10 +276,10 @@ void SignalRepair::judge_jumps() {
       continue;
     }
     if (splits_.empty()) {
-      tell(row, fmt::format("q{} jumps from {:.6g} to {:.6g} as if rows were missing; a new run "
+      tell(row, fmt::format("{} jumps from {:.6g} to {:.6g} as if rows were missing; a new run "
                             "begins here, and at each such jump",
-                            one.joint + 1, recording_.q(row - 1, one.joint),
-                            recording_.q(row, one.joint)));
+                            position_name(one.joint), position(one.joint)(row - 1),
+                            position(one.joint)(row)));
     }
     splits_.push_back(row);
   }
@@ -277,15 +296,15 @@ void SignalRepair::judge_jumps() {
       if (!comes_back) {
         throw recording_error(
             recording_.file_name, line(row), 0,
-            fmt::format(
-                "found q{} at {:.6g} after {:.6g}, from where it goes on, expected no jump: "
-                "was its zero lost? Leave out the rows on one side",
-                one.joint + 1, recording_.q(row, one.joint), recording_.q(row - 1, one.joint)));
+            fmt::format("found {} at {:.6g} after {:.6g}, from where it goes on, expected no jump: "
+                        "was its zero lost? Leave out the rows on one side",
+                        position_name(one.joint), position(one.joint)(row),
+                        position(one.joint)(row - 1)));
       }
       tell(row,
-           fmt::format("q{} is off by {:.4g} for {} samples, and comes back; {}, and a new run "
+           fmt::format("{} is off by {:.4g} for {} samples, and comes back; {}, and a new run "
                        "begins after them",
-                       one.joint + 1, one.jump.size, end - row, left_out(end - row)));
+                       position_name(one.joint), one.jump.size, end - row, left_out(end - row)));
       mark(row, end - row);
     }
   }

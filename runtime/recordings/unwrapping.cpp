@@ -17,11 +17,11 @@ constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kQuarter = kTurn / 4;
 
 /// Of all steps within runs; 0 of none.
-double median_step(const Recording& recording, Index column) {
+double median_step(const Recording& recording, const Eigen::Ref<const Eigen::VectorXd>& position) {
   std::vector<double> steps;
   for (std::size_t run = 0; run < recording.run_starts.size(); ++run) {
     for (Index k = recording.run_starts[run] + 1; k < run_end(recording, run); ++k) {
-      steps.push_back(std::abs(recording.q(k, column) - recording.q(k - 1, column)));
+      steps.push_back(std::abs(position(k) - position(k - 1)));
     }
   }
   if (steps.empty()) return 0;
@@ -31,10 +31,9 @@ double median_step(const Recording& recording, Index column) {
 }
 
 /// But for a few values that no sensor gave.
-bool lies_within_a_turn(const Recording& recording, Index column) {
+bool lies_within_a_turn(const Eigen::Ref<const Eigen::VectorXd>& position) {
   constexpr double kSlack = 0.05;  // rad, of noise and of calibration
   constexpr double kTail = 0.005;  // of all values, at either end
-  const auto position = recording.q.col(column);
   std::vector<double> values(position.begin(), position.end());
   const auto tail = static_cast<std::ptrdiff_t>(kTail * static_cast<double>(values.size()));
   const auto low = values.begin() + tail, high = values.end() - 1 - tail;
@@ -47,8 +46,8 @@ bool lies_within_a_turn(const Recording& recording, Index column) {
 /// A column while it is unwrapped, run by run.
 class Unwrapper {
  public:
-  Unwrapper(Recording& recording, Index column)
-      : time_(recording.time), position_(recording.q.col(column)) {}
+  Unwrapper(const Recording& recording, Eigen::Ref<Eigen::VectorXd> position)
+      : time_(recording.time), position_(position) {}
 
   void run(Index first, Index end) {
     double offset = 0, before = 0;
@@ -167,13 +166,13 @@ class Unwrapper {
 
 }  // namespace
 
-Unwrapping unwrap(Recording& recording, Index column) {
+Unwrapping unwrap(const Recording& recording, Eigen::Ref<Eigen::VectorXd> position) {
   constexpr double kSlow = 0.5;  // rad a sample: white noise is faster
-  if (recording.samples() < 2 || !lies_within_a_turn(recording, column) ||
-      median_step(recording, column) > kSlow) {
+  if (recording.samples() < 2 || !lies_within_a_turn(position) ||
+      median_step(recording, position) > kSlow) {
     return {};
   }
-  Unwrapper unwrapper(recording, column);
+  Unwrapper unwrapper(recording, position);
   for (std::size_t run = 0; run < recording.run_starts.size(); ++run) {
     unwrapper.run(recording.run_starts[run], run_end(recording, run));
   }

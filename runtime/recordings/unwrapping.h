@@ -22,7 +22,8 @@ struct Unwrapping {
 /// before of less than a quarter turn. Up to 10 samples between the ends of a jump that somebody
 /// has interpolated are put on the line. A gap in time is crossed as the speeds at its ends say;
 /// where time starts again, the position does too.
-/// @param column  of recording.q
-Unwrapping unwrap(Recording& recording, Eigen::Index column);
+/// @param recording  whose times and runs they are
+/// @param position   (N) changed
+Unwrapping unwrap(const Recording& recording, Eigen::Ref<Eigen::VectorXd> position);
 
 }  // namespace dyngen::runtime

@@ -103,11 +103,16 @@ void append_number(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
+/// All but positions behind gears that have no second encoder.
+bool is_written(const Recording& recording, const Part& part, Index joint) {
+  return part.matrix != &Recording::q_link || recording.has_link(joint);
+}
+
 std::string header_of(const Recording& recording, bool segments) {
   std::string text = "time";
   for (const Part& part : kWrittenParts) {
     for (Index j = 0; j < (recording.*part.matrix).cols(); ++j) {
-      text += fmt::format(",{}{}", part.name, j + 1);
+      if (is_written(recording, part, j)) text += fmt::format(",{}{}", part.name, j + 1);
     }
   }
   text += segments ? ",segment\n" : "\n";
@@ -124,6 +129,7 @@ void write_rows(const Recording& recording, bool segments, std::size_t first_run
     for (const Part& part : kWrittenParts) {
       const Eigen::MatrixXd& matrix = recording.*part.matrix;
       for (Index j = 0; j < matrix.cols(); ++j) {
+        if (!is_written(recording, part, j)) continue;
         text += ',';
         append_number(text, matrix(k, j));
       }
@@ -180,12 +186,13 @@ RecordingWriter::RecordingWriter(const std::string& path, bool segments)
 
 RecordingWriter::~RecordingWriter() { state_->remove(); }
 
-void RecordingWriter::write(const Recording& chunk, bool continues_run, const WriteOptions& options) {
+void RecordingWriter::write(const Recording& chunk, bool continues_run,
+                            const WriteOptions& options) {
   check(chunk, options);
   const std::string header = header_of(chunk, state_->segments);
   if (!state_->header.empty() && header != state_->header) {
-    throw std::invalid_argument(fmt::format(
-        "RecordingWriter::write(): found columns {} after {}", header, state_->header));
+    throw std::invalid_argument(
+        fmt::format("RecordingWriter::write(): found columns {} after {}", header, state_->header));
   }
   state_->guarded([&] {
     if (state_->header.empty()) state_->file->write(header);

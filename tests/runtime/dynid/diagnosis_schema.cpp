@@ -23,6 +23,7 @@ Check kind(const std::string& kinds) {
       if (k == 'n' && value.is_number()) return;
       if (k == 'i' && value.is_number_integer() && value.get<int>() >= 0) return;
       if (k == '0' && value.is_null()) return;
+      if (k == 'b' && value.is_boolean()) return;
     }
     faults.push_back(place + ": of the wrong kind: " + value.dump());
   };
@@ -40,8 +41,9 @@ Check array_of(Check element) {
   };
 }
 
-Check object(std::map<std::string, Check> keys) {
-  return [keys](const Json& value, const std::string& place, Faults& faults) {
+/// @param optional  keys that may be absent
+Check object(std::map<std::string, Check> keys, std::map<std::string, Check> optional = {}) {
+  return [keys, optional](const Json& value, const std::string& place, Faults& faults) {
     if (!value.is_object()) {
       faults.push_back(place + ": expected an object");
       return;
@@ -54,7 +56,12 @@ Check object(std::map<std::string, Check> keys) {
       }
     }
     for (const auto& item : value.items()) {
-      if (!keys.contains(item.key())) faults.push_back(place + "/" + item.key() + ": unknown");
+      if (keys.contains(item.key())) continue;
+      if (optional.contains(item.key())) {
+        optional.at(item.key())(item.value(), place + "/" + item.key(), faults);
+      } else {
+        faults.push_back(place + "/" + item.key() + ": unknown");
+      }
     }
   };
 }
@@ -78,6 +85,43 @@ Check one_of(std::set<std::string> words) {
       faults.push_back(place + ": not one of the words: " + value.dump());
     }
   };
+}
+
+/// A joint with two encoders; one that is not judged has remarks alone.
+Check two_encoders() {
+  const Check number = kind("n0"), text = kind("s");
+  std::map<std::string, Check> keys = {{"value", number}, {"low", number},     {"high", number},
+                                       {"p", number},     {"seen", kind("b")}, {"below", number},
+                                       {"unit", text}};
+  const Check quantity = object(keys);
+  const Check or_null = [quantity](const Json& value, const std::string& place, Faults& faults) {
+    if (!value.is_null()) quantity(value, place, faults);
+  };
+  keys.insert({{"driver", text}, {"reach", number}});
+  const Check line = object({{"order", number},
+                             {"of_motor", number},
+                             {"amplitude", quantity},
+                             {"phase", number},
+                             {"p", number}});
+  return object({{"joint", kind("i")}, {"judged", kind("b")}, {"remarks", array_of(text)}},
+                {{"delay", quantity},
+                 {"stiffness", quantity},
+                 {"compliance", quantity},
+                 {"hardening", quantity},
+                 {"hysteresis", object(keys)},
+                 {"backlash", or_null},
+                 {"slow_gear_error", quantity},
+                 {"rotor_inertia", or_null},
+                 {"gear_error", object({{"lines", array_of(line)},
+                                        {"below", number},
+                                        {"least_order", number},
+                                        {"most_order", number}})},
+                 {"load", object({{"explained", number},
+                                  {"own_rms", number},
+                                  {"attenuation", number},
+                                  {"model_share", number}})},
+                 {"residual", number},
+                 {"degrees", kind("i")}});
 }
 
 Check schema() {
@@ -129,7 +173,8 @@ Check schema() {
                            {"rms_after", array_of(number)},
                            {"noise_floor", array_of(number)}})},
        {"effort", object({{"done", number}, {"limit", number}, {"not_searched", array_of(text)}})},
-       {"next_experiment", object({{"purpose", kind("s0")}, {"trajectory", kind("s0")}})}});
+       {"next_experiment", object({{"purpose", kind("s0")}, {"trajectory", kind("s0")}})}},
+      {{"two_encoders", array_of(two_encoders())}});
 }
 
 void add_keys(const Json& json, const Json::json_pointer& place,

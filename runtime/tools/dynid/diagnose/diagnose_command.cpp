@@ -31,6 +31,7 @@
 #include "runtime/tools/dynid/recordings/loading.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
 #include "runtime/tools/dynid/robot/write_back.h"
+#include "runtime/tools/dynid/two_encoders/two_encoders.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -175,6 +176,29 @@ void refuse_with_hold(const ToolOptions& options, const HeldNumbers& held) {
   }
 }
 
+/// What two encoders say of gears, and whether the findings agree with it.
+void add_two_encoders(const ToolOptions& options, const WindUpRules& rules,
+                      const DescribedRobot& robot, const std::vector<MotionSource>& train,
+                      ProgressLine& progress, DiagnosisReport& report) {
+  if (report.residual_only || joints_with_two_encoders(train).empty()) return;
+  report.two_encoders = two_encoders_of(robot, std::nullopt, train, options, rules, progress);
+  std::vector<ElasticityElsewhere> found;
+  for (const Finding& finding : report.diagnosis.findings) {
+    const EffectLaw& law = finding.effect.law;
+    if (law.family != "joint_elasticity" || finding.effect.joint < 0) continue;
+    for (std::size_t p = 0; p < finding.parameters.size(); ++p) {
+      if (law.parameters[p].name != "c") continue;
+      found.push_back({finding.effect.joint, finding.parameters[p].value,
+                       finding.parameters[p].stddev, "the finding", true});
+    }
+  }
+  for (const CertificateLine& line : report.diagnosis.certificate) {
+    if (line.effect.law.name != "joint_elasticity" || line.effect.joint < 0) continue;
+    found.push_back({line.effect.joint, line.smallest, 0, "the torque", false});
+  }
+  compare_elasticity(report.two_encoders, found);
+}
+
 /// The JSON and the page, then the robot file: an answer is not lost with it.
 void write_outputs(const ToolOptions& options, const DescribedRobot& robot, DiagnosisReport& report,
                    ProgressLine& progress) {
@@ -276,6 +300,11 @@ int run_diagnose(const ToolOptions& options) {
   report.version = DYNGEN_VERSION;
   const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
   LateError late;
+  if (!input.train.empty()) {
+    late.during([&] {
+      add_two_encoders(how, settings.rules.wind_up, robot, input.train, progress, report);
+    });
+  }
   if (answered && !options.diagnose.loop.controller.empty()) {
     late.during([&] {
       report.forward = simulated(options, report, robot, catalogue, std::move(proof), progress);

@@ -348,6 +348,9 @@ ReportDocument diagnosis_document(const DiagnosisReport& report) {
   add_unexplained(report, document.sections);
   add_heldout(report, document.sections);
   add_forward(report, document.sections);
+  if (report.two_encoders.any()) {
+    document.sections.push_back(two_encoders_section(report.two_encoders));
+  }
   add_next(report, document.sections);
   add_certificate(report, document.sections);
   add_not_judged(diagnosis, document.sections);

@@ -14,6 +14,7 @@
 #include "runtime/tools/dynid/diagnose/text_plot.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 #include "runtime/tools/dynid/robot/identified_description.h"
+#include "runtime/tools/dynid/two_encoders/two_encoders.h"
 
 namespace dyngen::runtime {
 
@@ -58,6 +59,7 @@ struct DiagnosisReport {
   std::optional<ForwardComparison> forward;  ///< where a controller is given
   std::vector<std::string> written;          ///< files
   std::optional<WrittenBack> written_back;   ///< where -o is URDF or MJCF
+  TwoEncoders two_encoders;
 
   [[nodiscard]] int joints() const { return static_cast<int>(revolute.size()); }
   /// Unit of a joint's torque: "N m" or "N".

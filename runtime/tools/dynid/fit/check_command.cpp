@@ -11,6 +11,7 @@
 #include "runtime/tools/dynid/options/commands.h"
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
+#include "runtime/tools/dynid/two_encoders/two_encoders.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -37,14 +38,22 @@ VectorXd values_of(const DescribedRobot& robot) {
   return beta;
 }
 
+std::string two_encoders_words(const std::vector<int>& joints) {
+  std::vector<int> numbers;
+  for (const int joint : joints) numbers.push_back(joint + 1);
+  return fmt::format("  two encoders: joint{} {}; 'dynid fit' says what they show\n",
+                     numbers.size() == 1 ? "" : "s", fmt::join(numbers, ", "));
+}
+
 std::string check_text(const CheckReport& report) {
   std::string text = fmt::format("{}: {} joints, {} base parameters, numbers of the file\n",
                                  report.robot, report.revolute.size(), report.base_parameters);
-  for (const auto& [line, equations, residual] : report.recordings) {
+  for (const auto& [line, equations, residual, two_encoders] : report.recordings) {
     text += fmt::format(
         "\n{}: {:.1f} s at {:.6g} Hz, {:.0f} equations a joint, cut-off {:.3g} Hz\n", line.name,
         line.seconds, 1 / line.condition.sample_time, equations, line.cutoff);
     for (const std::string& message : line.condition.messages) text += "  " + message + "\n";
+    if (!two_encoders.empty()) text += two_encoders_words(two_encoders);
     if (equations == 0) {
       text += "  no equations, so nothing is known of these numbers\n";
       continue;
@@ -85,8 +94,8 @@ int run_check(const ToolOptions& options) {
                                ? rows_of(robot.linear, loaded.sources[i], options.rows)
                                : rows_beside_effects(task, robot, options, loaded.sources[i], beta);
     const TorqueFactor equations = factor_of(rows, robot.linear.columns, robot.linear.size());
-    report.recordings.push_back(
-        {loaded.lines[i], equations.samples(), residual_of(equations, beta)});
+    report.recordings.push_back({loaded.lines[i], equations.samples(), residual_of(equations, beta),
+                                 joints_with_two_encoders({loaded.sources[i]})});
     RecordingLine& line = report.recordings.back().line;
     line.equations = equations_of(equations);
     const std::string reason = why_no_equations(line, options.rows);

@@ -9,7 +9,8 @@ std::string check_json(const CheckReport& report) {
   for (const CheckReport::Recording& recording : report.recordings) {
     const RecordingLine& line = recording.line;
     const Residual& residual = recording.residual;
-    Json repairs = Json::array();
+    Json repairs = Json::array(), two_encoders = Json::array();
+    for (const int joint : recording.two_encoders) two_encoders.push_back(joint + 1);
     for (const Notice& notice : line.condition.repairs) repairs.push_back(notice.text());
     files.push_back({{"file", line.name},
                      {"seconds", line.seconds},
@@ -19,6 +20,7 @@ std::string check_json(const CheckReport& report) {
                      {"equations", recording.equations},
                      {"rms", numbers(residual.rms)},
                      {"percent", numbers(residual.percent)},
+                     {"two_encoders", std::move(two_encoders)},
                      {"repairs", repairs},
                      {"messages", line.condition.messages}});
   }

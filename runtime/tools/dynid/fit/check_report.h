@@ -15,6 +15,7 @@ struct CheckReport {
     RecordingLine line;
     double equations = 0;  ///< of a joint
     Residual residual;
+    std::vector<int> two_encoders;  ///< joints that have them, from 0
   };
   std::string robot;
   std::vector<bool> revolute;  ///< of each joint

@@ -253,6 +253,23 @@ void refuse_with_hold(const ToolOptions& options, const HeldNumbers& held, bool 
   }
 }
 
+/// Elasticities of the robot file's effects, as fitted.
+std::vector<ElasticityElsewhere> elasticity_of(const FitReport& report) {
+  std::vector<ElasticityElsewhere> found;
+  if (!report.effects) return found;
+  const EffectFit& fit = report.effects->fit;
+  for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
+    const EffectInstance& effect = fit.point.effects[k];
+    if (effect.law.family != "joint_elasticity" || effect.joint < 0) continue;
+    for (std::size_t p = 0; p < fit.parameters[k].size(); ++p) {
+      if (effect.law.parameters[p].name != "c") continue;
+      found.push_back({effect.joint, fit.parameters[k][p].value, fit.parameters[k][p].stddev,
+                       "the effect", true});
+    }
+  }
+  return found;
+}
+
 /// How far the fit can be trusted, and what the recordings do not see.
 void examine(FitReport& report, ProgressLine& progress) {
   progress.show("trust", 0, 1);
@@ -381,6 +398,15 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
          notes_of_negatives(model, fit.estimate.beta, deviations, fit.interval)) {
       report.notes.push_back(std::move(note));
     }
+  }
+  if (!joints_with_two_encoders(train.sources).empty()) {
+    std::optional<LoadModel> load;  // beside effects the fit's own
+    if (with_effects) {
+      load = LoadModel{report.main().estimate.beta, report.main().estimate.covariance};
+    }
+    report.two_encoders = two_encoders_of(report.robot, load, train.sources, options,
+                                          options.diagnose.diagnosis.rules.wind_up, progress);
+    compare_elasticity(report.two_encoders, elasticity_of(report));
   }
   if (options.consistent) {
     progress.show("physical consistency", 0, 1);

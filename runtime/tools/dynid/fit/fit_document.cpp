@@ -357,6 +357,9 @@ ReportDocument fit_document(const FitReport& report, const std::string& command)
   document.sections.push_back(parameter_section(report));
   add_effects(report, document.sections);
   add_torque(report, document.sections);
+  if (report.two_encoders.any()) {
+    document.sections.push_back(two_encoders_section(report.two_encoders));
+  }
   add_unseen(report, document.sections);
   add_consistent(report, document.sections);
   add_hierarchy(report, document.sections);

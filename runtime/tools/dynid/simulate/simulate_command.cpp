@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -52,6 +53,29 @@ void record_effects(const RobotSource& source, const SimulatedRobot& plant, Clos
   run.truth.tau =
       recorded_torque(robot, plant.recorded_effects, run.links, TorqueOfGains::kRecorded);
   run.measured.tau = run.truth.tau + noise;
+}
+
+/// A second encoder behind each gear that gives, with the steps of the first and without noise.
+void add_link_encoders(const SimulatedRobot& plant, const ClosedLoopOptions& loop,
+                       ClosedLoopRun& run) {
+  const std::vector<int>& links = plant.plant.links;
+  if (links.empty()) return;
+  const Index samples = run.measured.samples();
+  for (Recording* recording : {&run.measured, &run.truth}) {
+    recording->q_link.setConstant(samples, plant.joints(),
+                                  std::numeric_limits<double>::quiet_NaN());
+  }
+  for (std::size_t j = 0; j < links.size(); ++j) {
+    const auto joint = static_cast<Index>(j);
+    if (links[j] == static_cast<int>(j)) continue;  // rigid
+    run.truth.q_link.col(joint) = run.links.q.col(joint);
+    const double step = loop.encoder_step.size() > joint ? loop.encoder_step[joint] : 0;
+    run.measured.q_link.col(joint) = run.links.q.col(joint);
+    if (step > 0) {
+      run.measured.q_link.col(joint) =
+          (run.links.q.col(joint) / step).array().round().matrix() * step;
+    }
+  }
 }
 
 std::string conditions(const SimulateOptions& options, const Controller& controller,
@@ -161,6 +185,7 @@ int run_simulate(const ToolOptions& tool) {
     progress.show("effects of the recording", 0, 1);
     record_effects(same ? options.robot : options.plant, plant, run);
   }
+  add_link_encoders(plant, loop, run);
   progress.clear();
   write_recording(run.measured, options.output);
   if (!options.truth.empty()) write_recording(run.truth, options.truth);

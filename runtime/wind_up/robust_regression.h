@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+namespace dyngen::runtime {
+
+/// Least squares whose covariance holds for noise of any correlation.
+struct RobustRegression {
+  Eigen::VectorXd beta;        ///< (k)
+  Eigen::MatrixXd covariance;  ///< (k x k)
+  Eigen::MatrixXd inverse;     ///< (D'D)^-1; a pseudo-inverse where columns depend on one another
+  Eigen::VectorXd residual;    ///< (N)
+  int degrees = 0;             ///< of the covariance: of Student's t for one parameter
+
+  [[nodiscard]] double deviation(Eigen::Index i) const;
+  /// P of a parameter as far from 0 as this one, if it is 0.
+  [[nodiscard]] double chance(Eigen::Index i) const;
+  /// The same of `count` parameters from `first` on together.
+  [[nodiscard]] double chance(Eigen::Index first, Eigen::Index count) const;
+};
+
+/// Degrees of freedom for so many independent rows: factor n^(2/3), at least 4. A factor of 0.4 is
+/// recommended for tests of one mean.
+/// Source: Lazarus, Lewis, Stock and Watson, "HAR inference: recommendations for practice", 2018.
+int cosines_for(double independent_rows, double factor);
+
+/// w = D beta + noise. The long-run covariance of the scores is the mean over `cosines` products
+/// with the first cosines of half-integer periods (equal-weighted cosine estimator); tests are
+/// Student's t and Fisher's F with as many degrees.
+/// Source: Mueller 2004; Sun 2013, "A heteroskedasticity and autocorrelation robust F test using an
+/// orthonormal series variance estimator".
+RobustRegression robust_regression(const Eigen::MatrixXd& D, const Eigen::VectorXd& w, int cosines);
+
+}  // namespace dyngen::runtime
