@@ -15,7 +15,7 @@ namespace dyngen::runtime {
 
 struct DiagnosisOptions {
   double false_alarm = 0.002;  ///< of the whole diagnosis, 0 .. 0.5
-  int most_findings = 20;      ///< the answer says where the search ended by it
+  int most_findings = 12;      ///< the answer says where the search ended by it
   /// Work that the search may do, in 1e9 multiplications (WorkCount); 0: as much as it needs. What
   /// the model alone leaves is looked at in any case.
   double effort = 0;

@@ -34,9 +34,10 @@ void each(Rules& rules, const Visit& visit) {
     visit(*rule);
   }
   auto& wind_up = rules.wind_up;
-  for (auto* rule : {&wind_up.chance, &wind_up.slow_degree, &wind_up.cosines,
-                     &wind_up.line_neighbours, &wind_up.line_cycles, &wind_up.most_lines,
-                     &wind_up.load_reversals, &wind_up.least_own, &wind_up.least_rows}) {
+  for (auto* rule :
+       {&wind_up.chance, &wind_up.slow_degree, &wind_up.cosines, &wind_up.line_neighbours,
+        &wind_up.line_cycles, &wind_up.most_lines, &wind_up.load_reversals, &wind_up.least_own,
+        &wind_up.least_steps, &wind_up.least_rows}) {
     visit(*rule);
   }
 }

@@ -277,9 +277,11 @@ class Analysis {
     const Index count = best->columns.cols();
     best->chance = std::min(
         1.0, with.chance(with.beta.size() - count, count) * static_cast<double>(forms.size()));
-    // a gap or a hysteresis of a negative size is another thing: damping of the gear, for example
+    // a gap or a hysteresis of a negative size is another thing: damping of the gear, for example;
+    // one that is far below an encoder step is rounding
     const bool has_sign = kind != Term::Kind::kHardening;
-    if (has_sign && with.beta[with.beta.size() - count] < 0) best->chance = 1;
+    const double least = rules_.least_steps * data_.position_step;
+    if (has_sign && with.beta[with.beta.size() - count] < least) best->chance = 1;
     return std::move(*best);
   }
 

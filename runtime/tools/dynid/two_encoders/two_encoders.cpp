@@ -251,6 +251,11 @@ TwoEncoders two_encoders_of(const DescribedRobot& robot, const std::optional<Loa
     data.ddq = vector_of(own.ddq);
     data.load = vector_of(own.load);
     data.revolute = model.revolute[static_cast<std::size_t>(joints[i])];
+    for (const MotionSource& source : sources) {
+      const std::vector<double>& steps = source.condition.position_step;
+      const auto joint = static_cast<std::size_t>(joints[i]);
+      if (joint < steps.size()) data.position_step = std::max(data.position_step, steps[joint]);
+    }
     data.gear_ratio = of_joint(gears, static_cast<std::size_t>(joints[i]), 0);
     data.rotor_open = rotor_is_grouped(robot, joints[i]);
     const std::vector<int> places = load_places(model, joints[i]);
