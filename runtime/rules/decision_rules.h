@@ -204,9 +204,9 @@ struct WindUpRules {
                          "Rms of the load that speed, position and acceleration do not explain, "
                          "over that of the load, below which no stiffness is given.",
                          "rounding of the joint state"};
-  DecisionRule least_steps{0.25, "wind_up.least_steps", "encoder steps",
-                           "Hysteresis and backlash that are smaller are within rounding.",
-                           "as for position errors in a diagnosis: deviation of rounding is 0.29"};
+  DecisionRule least_steps{2, "wind_up.least_steps", "encoder steps",
+                           "Hysteresis and backlash that are smaller cannot be resolved.",
+                           "as the effects backlash and dahl have it"};
   DecisionRule least_rows{60, "wind_up.least_rows", "1",
                           "Independent rows from which a joint is judged.", "6 degrees of freedom"};
 };

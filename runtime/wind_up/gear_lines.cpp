@@ -96,6 +96,7 @@ std::optional<GearLine> strongest_line(const VectorXd& q, const VectorXd& residu
                        [&](double own) { return std::abs(own - at) < kApart * range.resolution; });
   };
   std::optional<GearLine> best;
+  Index place = 0;
   for (Index i = 0; i < count; ++i) {
     if (is_known(order(i))) continue;
     double sum = 0;
@@ -113,10 +114,16 @@ std::optional<GearLine> strongest_line(const VectorXd& q, const VectorXd& residu
     if (best && ratio <= best->ratio) continue;
     const double orders = static_cast<double>(count) / kFine;
     // orders between the independent ones are looked at too: twice as many tests
-    best =
-        GearLine{order(i), ratio,
-                 std::min(1.0, 2 * orders * variance_ratio_tail(ratio, 2, 2.0 * used)), power[i]};
+    place = i;
+    best = GearLine{0, ratio, std::min(1.0, 2 * orders * variance_ratio_tail(ratio, 2, 2.0 * used)),
+                    0};
   }
+  if (!best) return best;
+  // beside a line the neighbours may be fewer still: the line is where the power is largest
+  const Index from = std::max<Index>(0, place - kFine);
+  const Index size = std::min(count, place + kFine + 1) - from;
+  best->power = power.segment(from, size).maxCoeff(&place);
+  best->order = order(from + place);
   return best;
 }
 

@@ -278,7 +278,7 @@ class Analysis {
     best->chance = std::min(
         1.0, with.chance(with.beta.size() - count, count) * static_cast<double>(forms.size()));
     // a gap or a hysteresis of a negative size is another thing: damping of the gear, for example;
-    // one that is far below an encoder step is rounding
+    // one of less than two encoder steps is not resolved
     const bool has_sign = kind != Term::Kind::kHardening;
     const double least = rules_.least_steps * data_.position_step;
     if (has_sign && with.beta[with.beta.size() - count] < least) best->chance = 1;

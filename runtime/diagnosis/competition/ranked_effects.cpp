@@ -89,6 +89,7 @@ std::optional<RankedEffect> RankedEffects::next(bool outdone) {
     if (named.best.score.delta_chi2 < judges_.stiction.unseen_on(joints)) continue;
     const Beside beside = judges_.conditions.beside(named, system_, screening_);
     if ((beside == Beside::kOutdone) != outdone) continue;
+    if (outdone && !judges_.nameless.sure(screening_, named.surprise)) continue;
     const StictionImpulses::Part stiction =
         judges_.stiction.part_in(system_, screening_, judges_.sought.hypotheses[place], named);
     if (stiction == StictionImpulses::Part::kAll ||

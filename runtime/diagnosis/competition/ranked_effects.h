@@ -45,8 +45,8 @@ class RankedEffects {
   RankedEffects(const RoundJudges& judges, const EvidenceSystem& system, Screening& screening,
                 ScreeningData& readers, const std::function<void(double)>& progress);
 
-  /// The next one, or none. @param outdone  those beside which what has no name explains more;
-  /// else those beside which nothing does
+  /// The next one, or none. @param outdone  those beside which what has no name explains more,
+  /// which have to be beyond doubt; else those beside which nothing does
   [[nodiscard]] std::optional<RankedEffect> next(bool outdone);
   /// That one was fitted, and turned down if another one is asked for.
   void tried(std::size_t hypothesis) { attempted_.insert(hypothesis); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "runtime/diagnosis/scans/in_parallel.h"
@@ -309,6 +310,13 @@ TrialScore refined(const EffectRecordings& data, EffectSignals& signals,
                    const EvidenceSystem& system, const Hypothesis& hypothesis, TrialScore best,
                    const EffectScales& scales) {
   constexpr int kHalvings = 6, kHalvingsOfScans = 9;
+  std::optional<TrialScore> usual;  // the last that was best, before one that pays for more
+  const auto tried = [&](EffectInstance trial) {
+    for (const int linear : hypothesis.linear) {
+      trial.parameters[linear] = hypothesis.effect.parameters[linear];
+    }
+    return try_hypothesis(data, signals, system, hypothesis, trial, scales, false);
+  };
   const EffectSizes sizes = hypothesis.effect.law.sizes(scales);
   const auto count = static_cast<Index>(hypothesis.shapes.size());
   VectorXd steps(count);
@@ -335,15 +343,13 @@ TrialScore refined(const EffectRecordings& data, EffectSignals& signals,
       const int p = hypothesis.shapes[static_cast<std::size_t>(i)];
       for (const int direction : {-1, 1}) {
         EffectInstance trial = best.effect;
-        for (const int linear : hypothesis.linear) {
-          trial.parameters[linear] = hypothesis.effect.parameters[linear];
-        }
         double& value = trial.parameters[p];
         value = logarithmic[static_cast<std::size_t>(i)] ? value * std::exp(direction * steps[i])
                                                          : value + direction * steps[i];
         value = std::clamp(value, sizes.min[p], sizes.max[p]);
-        TrialScore next = try_hypothesis(data, signals, system, hypothesis, trial, scales, false);
+        TrialScore next = tried(trial);
         if (better(next, best)) {
+          if (next.unusual > best.unusual) usual = best;
           best = std::move(next);
           break;
         }
@@ -351,7 +357,20 @@ TrialScore refined(const EffectRecordings& data, EffectSignals& signals,
     }
     steps *= 0.5;
   }
-  return best;
+  if (!usual || usual->unusual >= best.unusual) return best;
+  // at the limit of the usual range, between both
+  EffectInstance beyond = best.effect;
+  for (int halving = 0; halving < 2 * kHalvings; ++halving) {
+    EffectInstance middle = usual->effect;
+    middle.parameters = 0.5 * (middle.parameters + beyond.parameters);
+    TrialScore next = tried(middle);
+    if (next.unusual > usual->unusual) {
+      beyond = std::move(middle);
+    } else {
+      usual = std::move(next);
+    }
+  }
+  return better(*usual, best) ? *usual : best;
 }
 
 }  // namespace dyngen::runtime

@@ -257,7 +257,7 @@ TEST(DiagnosisText, FitsATerminal) {
         "Fs = 13 +- 0.49 N m",
         "delta = 2 (held)",
         "held-out rms 21 % lower",
-        "; or presliding\n",
+        "; or presliding; vs = 0.15 rad/s: unusual, a wider curve",
         "2. viscous_coupling of joint 3 with joint 2",
         "t 2 .. 7 s",
         "model alone",
