@@ -32,7 +32,7 @@ struct WindUpData {
   /// The torque cannot tell the rotor from the link: its inertia is in `load`, and is estimated.
   bool rotor_open = false;
   bool revolute = true;
-  double position_step = 0;  ///< rad or m, of the encoder at the motor; 0: not known
+  double position_step = 0;  ///< rad or m, of the coarser encoder; 0: not known
   double gear_ratio = 0;     ///< turns of the motor for one of the joint; 0: not known
   std::vector<Eigen::Index> run_starts = {0};
 };

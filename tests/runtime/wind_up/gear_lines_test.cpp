@@ -50,7 +50,7 @@ TEST(GearLines, TheStrongestStandsOutOfWhiteNoise) {
   const auto found = strongest_line(sweep.q, noise(5000, 3) + 0.4 * line, orders, 10);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->order, 101, orders.resolution / 2);
-  EXPECT_LT(found->chance, 1e-6);
+  EXPECT_LT(found->chance, 1e-5);  // the line leaks into its neighbours, which bounds the ratio
   // its amplitude follows from its power
   EXPECT_NEAR(2 * std::sqrt(found->power) / 5000, 0.4, 0.04);
 }

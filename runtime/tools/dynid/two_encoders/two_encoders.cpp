@@ -12,6 +12,7 @@
 #include "runtime/estimation/covariance.h"
 #include "runtime/identification/summary.h"
 #include "runtime/import/map_file.h"
+#include "runtime/recordings/quantisation.h"
 #include "runtime/signals/joint_state.h"
 
 namespace dyngen::runtime {
@@ -139,6 +140,18 @@ std::vector<MotionSource> slow_enough(const std::vector<MotionSource>& sources) 
   return slow;
 }
 
+/// Of both encoders of a joint, rad or m; 0: none was found.
+double coarser_step(const std::vector<MotionSource>& sources, int joint) {
+  double step = 0;
+  for (const MotionSource& source : sources) {
+    if (!source.recorded || !source.recorded->has_link(joint)) continue;
+    for (const MatrixXd* positions : {&source.recorded->q, &source.recorded->q_link}) {
+      step = std::max(step, find_quantisation(positions->col(joint)).step);
+    }
+  }
+  return step;
+}
+
 }  // namespace
 
 std::vector<int> joints_with_two_encoders(const std::vector<MotionSource>& sources) {
@@ -251,11 +264,7 @@ TwoEncoders two_encoders_of(const DescribedRobot& robot, const std::optional<Loa
     data.ddq = vector_of(own.ddq);
     data.load = vector_of(own.load);
     data.revolute = model.revolute[static_cast<std::size_t>(joints[i])];
-    for (const MotionSource& source : sources) {
-      const std::vector<double>& steps = source.condition.position_step;
-      const auto joint = static_cast<std::size_t>(joints[i]);
-      if (joint < steps.size()) data.position_step = std::max(data.position_step, steps[joint]);
-    }
+    data.position_step = coarser_step(sources, joints[i]);
     data.gear_ratio = of_joint(gears, static_cast<std::size_t>(joints[i]), 0);
     data.rotor_open = rotor_is_grouped(robot, joints[i]);
     const std::vector<int> places = load_places(model, joints[i]);
