@@ -90,10 +90,11 @@ std::optional<GearLine> strongest_line(const VectorXd& q, const VectorXd& residu
     return range.least + static_cast<double>(i) * range.resolution / kFine;
   };
   for (Index i = 0; i < count; ++i) power[i] = bins.power(order(i));
-  constexpr double kApart = 1.5;  // resolutions
+  constexpr double kPartOfLine = 1.5;  // resolutions
   const auto is_known = [&](double at) {
-    return std::any_of(known.begin(), known.end(),
-                       [&](double own) { return std::abs(own - at) < kApart * range.resolution; });
+    return std::any_of(known.begin(), known.end(), [&](double own) {
+      return std::abs(own - at) < kPartOfLine * range.resolution;
+    });
   };
   std::optional<GearLine> best;
   Index place = 0;
