@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <functional>
 #include <unsupported/Eigen/FFT>
 
 #include "runtime/estimation/whitener.h"
@@ -205,52 +204,6 @@ Choice choice_of(const JointDifferences& joint, const DifferenceLengths& lengths
   return choice;
 }
 
-/// What two of several values reach, or both of two, or the only one.
-double reached_by_two(std::vector<double> values) {
-  const auto second = values.begin() + (values.size() > 1 ? 1 : 0);
-  std::nth_element(values.begin(), second, values.end(), std::greater<>());
-  return *second;
-}
-
-/// Slow parts that outlast half of a period may be physics that drifts, if one joint or two have
-/// them alone: noise is of all. No joint keeps far more of them, beside the rest of its noise at
-/// the motion's frequency, than two others have; its process has what the differences show of the
-/// rest, where that is not far less likely.
-void keep_what_all_joints_have(std::vector<JointNoise>& noise,
-                               const std::vector<JointDifferences>& joints, double period,
-                               const NoiseRules& rules) {
-  if (noise.size() < 2) return;
-  const auto lasts = [&](const SlowNoise& part) { return memory_of(part) > period / 2; };
-  std::vector<double> lasting;
-  for (const JointNoise& joint : noise) {
-    double all = 0;
-    for (const SlowNoise& part : joint.slow) {
-      if (lasts(part)) all += density(part, 1 / period);
-    }
-    lasting.push_back(all / (joint.density(1 / period) - all));
-  }
-  for (std::size_t j = 0; j < noise.size(); ++j) {
-    std::vector<double> others = lasting;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
-    const double most =
-        std::max<double>(rules.density_floor, rules.density_ratio * reached_by_two(others));
-    if (lasting[j] <= most) continue;
-    for (SlowNoise& part : noise[j].slow) {
-      if (lasts(part)) part.deviation *= std::sqrt(most / lasting[j]);
-    }
-    const VectorXd& covariance = joints[j].covariance;
-    JointNoise again = noise[j];
-    again.quick = fit_autoregression(
-        covariance - differences_of(again.slow, covariance.size(), period), joints[j].samples);
-    // what is left of noise of accelerations may be no covariance, nor near one
-    if (again.quick.innovation > 0 &&
-        likelihood(joints[j].lines, again) >
-            likelihood(joints[j].lines, noise[j]) - rules.likelihood_loss) {
-      noise[j] = std::move(again);
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<JointNoise> noise_of_differences(const std::vector<JointDifferences>& joints,
@@ -264,7 +217,6 @@ std::vector<JointNoise> noise_of_differences(const std::vector<JointDifferences>
   }
   std::vector<JointNoise> all;
   for (const Choice& choice : choices) all.push_back(gain > 0 ? choice.with_slow : choice.alone);
-  keep_what_all_joints_have(all, joints, lengths.period, rules);
   for (JointNoise& joint : all) {
     const double least = kNegligible * joint.deviation();
     std::erase_if(joint.slow, [&](const SlowNoise& part) { return part.deviation <= least; });

@@ -18,6 +18,29 @@ namespace {
 
 bool is_not_zero(double value) { return value != 0; }
 bool is_positive(double value) { return value > 0; }
+bool is_a_sign(double value) { return std::abs(value) == 1; }
+bool is_an_efficiency(double value) { return value > 0 && value <= 1; }
+
+/// The keys of a signal, which differ by what is measured.
+MapEntries entries_of(const YAML::Node& node, const char* key, ColumnQuantity quantity,
+                      MapFaults& faults) {
+  if (quantity == ColumnQuantity::kTorque) {
+    return {node,
+            key,
+            {"columns", "column", "unit", "side", "sign", "gain", "offset", "delay", "file",
+             "table", "constant", "efficiency", "rated", "duty", "full", "voltage", "resistance",
+             "back_emf", "bits"},
+            faults};
+  }
+  if (quantity == ColumnQuantity::kTemperature) {
+    return {node, key, {"columns", "column", "unit", "delay", "file", "table", "bits"}, faults};
+  }
+  return {node,
+          key,
+          {"columns", "column", "unit", "side", "sign", "gain", "offset", "delay", "file", "table",
+           "counts_per_rev", "bits"},
+          faults};
+}
 
 /// Values of a key that mean nothing are faults, each at its place.
 void check_values(const MapEntries& entries, const char* key, const PerJoint& values,
@@ -104,28 +127,72 @@ void SignalReader::duty(const MapEntries& entries, SignalMap& signal) {
   signal.duty = std::move(law);
 }
 
+PerJoint SignalReader::numbers(const MapEntries& entries, const char* key, MapNumber kind) {
+  PerJoint values = entries.numbers(key, kind);
+  lengths_->note(entries, key, fmt::format("numbers in '{}'", key), values.size());
+  return values;
+}
+
+void SignalReader::conversion(const MapEntries& entries, bool torque, SignalMap& signal) {
+  const auto check = [&](const char* own, const PerJoint& values, bool (*is_right)(double),
+                         const char* expected) {
+    check_values(entries, own, values, is_right, expected, *faults_);
+  };
+  signal.sign = numbers(entries, "sign", MapNumber::kRatio);
+  check("sign", signal.sign, is_a_sign, "1 or -1");
+  signal.gain = numbers(entries, "gain", MapNumber::kRatio);
+  check("gain", signal.gain, is_not_zero,
+        "another number than 0, which makes every value 0; leave 'gain' out if values are right "
+        "as they are");
+  const MapNumber offset = torque ? MapNumber::kTorque : MapNumber::kPosition;
+  signal.offset = numbers(entries, "offset", offset);
+  signal.offset_units = entries.units_of_numbers("offset", offset);
+  signal.offset_places = entries.places_of_values("offset");
+  signal.delay = entries.number("delay", MapNumber::kDuration).value_or(0);
+  signal.counts_per_turn = numbers(entries, "counts_per_rev", MapNumber::kRatio);
+  check("counts_per_rev", signal.counts_per_turn, is_not_zero,
+        "the counts of one turn of the encoder");
+  signal.constant = numbers(entries, "constant", MapNumber::kConstant);
+  check("constant", signal.constant, is_not_zero, "the torque of one ampere");
+  signal.efficiency = numbers(entries, "efficiency", MapNumber::kRatio);
+  check("efficiency", signal.efficiency, is_an_efficiency, "more than 0, at most 1");
+  signal.rated = numbers(entries, "rated", MapNumber::kTorque);
+  check("rated", signal.rated, is_not_zero, "the torque at 100 %");
+}
+
+/// Keys that exclude or need one another.
+void SignalReader::check_keys(const MapEntries& entries, const char* key, ColumnQuantity quantity,
+                              const SignalMap& signal) {
+  if (entries.has("bits") && signal.bits != 8 && signal.bits != 16 && signal.bits != 32) {
+    faults_->add(entries.place_of_value("bits"),
+                 fmt::format("found {} bits, expected 8, 16 or 32", signal.bits));
+  }
+  for (const char* own : {"full", "voltage", "resistance", "back_emf"}) {
+    if (entries.has("duty") || !entries.has(own)) continue;
+    faults_->add(entries.place_of_value(own),
+                 fmt::format("found '{}' without 'duty' in '{}', expected the column of the "
+                             "duty cycle",
+                             own, key));
+  }
+  if (entries.has("columns") + entries.has("column") + entries.has("duty") != 1) {
+    faults_->add(signal.place,
+                 fmt::format("expected in '{}' one of 'columns'{}", key,
+                             quantity == ColumnQuantity::kTorque ? ", 'column' and 'duty'"
+                                                                 : " and 'column'"));
+  }
+  if ((quantity == ColumnQuantity::kVelocity || quantity == ColumnQuantity::kAcceleration) &&
+      entries.has("offset")) {
+    faults_->add(
+        entries.place_of_value("offset"),
+        fmt::format("found 'offset' in '{}', expected it of positions and torques alone", key));
+  }
+}
+
 std::optional<SignalMap> SignalReader::read(const MapEntries& top, const char* key,
                                             ColumnQuantity quantity) {
   const YAML::Node* node = top.find(key);
   if (node == nullptr) return std::nullopt;
-  const bool torque = quantity == ColumnQuantity::kTorque;
-  const auto entries = [&] {
-    if (torque) {
-      return MapEntries(*node, key,
-                        {"columns", "column", "unit", "side", "sign", "gain", "offset", "delay",
-                         "file", "table", "constant", "efficiency", "rated", "duty", "full",
-                         "voltage", "resistance", "back_emf", "bits"},
-                        *faults_);
-    }
-    if (quantity == ColumnQuantity::kTemperature) {
-      return MapEntries(*node, key, {"columns", "column", "unit", "delay", "file", "table", "bits"},
-                        *faults_);
-    }
-    return MapEntries(*node, key,
-                      {"columns", "column", "unit", "side", "sign", "gain", "offset", "delay",
-                       "file", "table", "counts_per_rev", "bits"},
-                      *faults_);
-  }();
+  const MapEntries entries = entries_of(*node, key, quantity, *faults_);
   SignalMap signal;
   signal.place = entries.place();
   signal.file = entries.text("file");
@@ -134,66 +201,12 @@ std::optional<SignalMap> SignalReader::read(const MapEntries& top, const char* k
   signal.columns = entries.columns(entries.has("column") ? "column" : "columns");
   lengths_->note(signal.columns.place, "columns",
                  quantity == ColumnQuantity::kTemperature ? 0 : signal.columns.names.size());
+  signal.bits = static_cast<int>(entries.number("bits", MapNumber::kRatio).value_or(0));
   units(entries, quantity, signal);
   sides(entries, signal);
-  const auto numbers = [&](const char* own, MapNumber kind) {
-    PerJoint values = entries.numbers(own, kind);
-    lengths_->note(entries, own, fmt::format("numbers in '{}'", own), values.size());
-    return values;
-  };
-  signal.sign = numbers("sign", MapNumber::kRatio);
-  const auto check = [&](const char* own, const PerJoint& values, bool (*is_right)(double),
-                         const char* expected) {
-    check_values(entries, own, values, is_right, expected, *faults_);
-  };
-  check(
-      "sign", signal.sign, [](double value) { return std::abs(value) == 1; }, "1 or -1");
-  signal.bits = static_cast<int>(entries.number("bits", MapNumber::kRatio).value_or(0));
-  if (entries.has("bits") && signal.bits != 8 && signal.bits != 16 && signal.bits != 32) {
-    faults_->add(entries.place_of_value("bits"),
-                 fmt::format("found {} bits, expected 8, 16 or 32", signal.bits));
-  }
-  signal.gain = numbers("gain", MapNumber::kRatio);
-  check("gain", signal.gain, is_not_zero,
-        "another number than 0, which makes every value 0; leave 'gain' out if values are right "
-        "as they are");
-  const MapNumber offset = torque ? MapNumber::kTorque : MapNumber::kPosition;
-  signal.offset = numbers("offset", offset);
-  signal.offset_units = entries.units_of_numbers("offset", offset);
-  signal.offset_places = entries.places_of_values("offset");
-  signal.delay = entries.number("delay", MapNumber::kDuration).value_or(0);
-  signal.counts_per_turn = numbers("counts_per_rev", MapNumber::kRatio);
-  check("counts_per_rev", signal.counts_per_turn, is_not_zero,
-        "the counts of one turn of the encoder");
-  signal.constant = numbers("constant", MapNumber::kConstant);
-  check("constant", signal.constant, is_not_zero, "the torque of one ampere");
-  signal.efficiency = numbers("efficiency", MapNumber::kRatio);
-  check(
-      "efficiency", signal.efficiency, [](double value) { return value > 0 && value <= 1; },
-      "more than 0, at most 1");
-  signal.rated = numbers("rated", MapNumber::kTorque);
-  check("rated", signal.rated, is_not_zero, "the torque at 100 %");
-  if (entries.has("duty")) {
-    duty(entries, signal);
-  } else {
-    for (const char* own : {"full", "voltage", "resistance", "back_emf"}) {
-      if (!entries.has(own)) continue;
-      faults_->add(entries.place_of_value(own),
-                   fmt::format("found '{}' without 'duty' in '{}', expected the column of the "
-                               "duty cycle",
-                               own, key));
-    }
-  }
-  if (entries.has("columns") + entries.has("column") + entries.has("duty") != 1) {
-    faults_->add(signal.place, fmt::format("expected in '{}' one of 'columns'{}", key,
-                                           torque ? ", 'column' and 'duty'" : " and 'column'"));
-  }
-  if ((quantity == ColumnQuantity::kVelocity || quantity == ColumnQuantity::kAcceleration) &&
-      entries.has("offset")) {
-    faults_->add(
-        entries.place_of_value("offset"),
-        fmt::format("found 'offset' in '{}', expected it of positions and torques alone", key));
-  }
+  conversion(entries, quantity == ColumnQuantity::kTorque, signal);
+  if (entries.has("duty")) duty(entries, signal);
+  check_keys(entries, key, quantity, signal);
   return signal;
 }
 

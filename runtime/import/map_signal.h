@@ -24,6 +24,10 @@ class SignalReader {
   void units(const MapEntries& entries, ColumnQuantity quantity, SignalMap& signal);
   void sides(const MapEntries& entries, SignalMap& signal);
   void duty(const MapEntries& entries, SignalMap& signal);
+  void conversion(const MapEntries& entries, bool torque, SignalMap& signal);
+  void check_keys(const MapEntries& entries, const char* key, ColumnQuantity quantity,
+                  const SignalMap& signal);
+  PerJoint numbers(const MapEntries& entries, const char* key, MapNumber kind);
 
   const ImportMap* map_;
   MapLengths* lengths_;

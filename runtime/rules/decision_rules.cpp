@@ -9,21 +9,19 @@ template <class Rules, class Visit>
 void each(Rules& rules, const Visit& visit) {
   auto& noise = rules.noise;
   for (auto* rule : {&noise.least_independent, &noise.line_transmission, &noise.slow_part_price,
-                     &noise.density_ratio, &noise.density_floor, &noise.likelihood_loss,
                      &noise.course_runs, &noise.course_chi_square}) {
     visit(*rule);
   }
   auto& equations = rules.equations;
   for (auto* rule :
-       {&equations.longest_reversal, &equations.least_kept, &equations.fewest_periods,
-        &equations.period_mismatch, &equations.heldout_motion, &equations.repeated_rounding,
-        &equations.least_equations, &equations.most_predicted, &equations.jolt_bandwidth}) {
+       {&equations.longest_reversal, &equations.fewest_periods, &equations.period_mismatch,
+        &equations.heldout_motion, &equations.repeated_rounding, &equations.least_equations,
+        &equations.most_predicted, &equations.jolt_bandwidth}) {
     visit(*rule);
   }
   auto& scans = rules.scans;
-  for (auto* rule :
-       {&scans.longest_push, &scans.window_deviations, &scans.jolt_equations, &scans.jolt_gain,
-        &scans.line_periods, &scans.line_nearest, &scans.line_farthest}) {
+  for (auto* rule : {&scans.longest_push, &scans.window_deviations, &scans.jolt_equations,
+                     &scans.line_periods, &scans.line_nearest, &scans.line_farthest}) {
     visit(*rule);
   }
   visit(rules.priors.unusual_value);

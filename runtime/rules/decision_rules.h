@@ -34,17 +34,6 @@ struct NoiseRules {
       2, "noise.slow_part_price", "1",
       "Twice the log likelihood by which each slow part of the noise must pay for itself.",
       "Akaike 1974"};
-  DecisionRule density_ratio{
-      3, "noise.density_ratio", "1",
-      "s_j <= ratio * max(s_k, s_l): the slow density of a joint beside that of any two others.",
-      "sensitivity"};
-  DecisionRule density_floor{0.1, "noise.density_floor", "1",
-                             "Slow density, over the rest of the noise, that every joint may keep.",
-                             "sensitivity"};
-  DecisionRule likelihood_loss{
-      20, "noise.likelihood_loss", "1",
-      "Twice the log likelihood that may be lost where a joint's slow parts are bounded by others.",
-      "sensitivity"};
   DecisionRule course_runs{
       3, "noise.course_runs", "1",
       "Runs from which a drift common to all of them can be told from their noise.",
@@ -62,11 +51,6 @@ struct EquationRules {
       0.1, "equations.longest_reversal", "s",
       "A joint that stays below its standstill speed for longer stands; a quicker passage is a "
       "reversal.",
-      "sensitivity"};
-  DecisionRule least_kept{
-      0.1, "equations.least_kept", "1",
-      "Part of a joint's held-out equations that must stay when those at unvisited positions are "
-      "left out.",
       "sensitivity"};
   DecisionRule fewest_periods{
       3, "equations.fewest_periods", "1",
@@ -87,8 +71,8 @@ struct EquationRules {
       "sensitivity"};
   DecisionRule least_equations{
       30, "equations.least_equations", "1",
-      "Equations of a joint beyond twice the number of parameters that they determine; with fewer "
-      "the joint is not judged.",
+      "Equations of a joint, beyond twice the number of parameters that they determine, with which "
+      "it is judged; held-out ones at visited positions, with which those elsewhere are left out.",
       "sensitivity"};
   DecisionRule most_predicted{
       0.4, "equations.most_predicted", "1",
@@ -111,11 +95,10 @@ struct ScanRules {
       2, "scans.window_deviations", "standard deviations",
       "Mean chi-square per degree in other windows that white noise explains.",
       "two-sided 95 % of the normal distribution"};
-  DecisionRule jolt_equations{
-      3, "scans.jolt_equations", "1",
-      "An effect whose gain comes from so few equations is a jolt and no event.", "sensitivity"};
-  DecisionRule jolt_gain{0.6, "scans.jolt_gain", "1",
-                         "Part of the gain that those few equations must have.", "sensitivity"};
+  DecisionRule jolt_equations{3, "scans.jolt_equations", "1",
+                              "An effect that has the larger part of its gain from so few "
+                              "equations is a jolt and no event.",
+                              "sensitivity"};
   DecisionRule line_periods{
       1.5, "scans.line_periods", "1",
       "Periods that a spectral line must have in the longest run: with fewer it is a drift.",

@@ -27,6 +27,9 @@ for (const own of kCases) {
       const findings = JSON.parse(readFileSync(join(REPORT_FOLDER, own.name, "findings.json"), "utf8"));
       assert.equal(findings.verdict, own.verdict);
       assert.equal(findings.findings.length, own.findings);
+      // what has a test against it is said to be uncertain, and explains nothing
+      const objected = findings.findings.filter(({ probability }) => probability <= 0.5);
+      assert.equal(objected.length, own.uncertain ?? 0);
     });
 
     test("has every section, in order", async () => {
@@ -41,6 +44,8 @@ for (const own of kCases) {
         assert.ok(await page.locator(`#${id} math`).count() > 0, "a formula");
         assert.equal(await page.locator(`#${id} figure.chart`).count(), 3);
       }
+      const titles = await page.locator("main > section h2").allTextContents();
+      assert.equal(titles.filter((title) => title.includes("Uncertain: ")).length, own.uncertain ?? 0);
       const links = await page.locator("nav a").evaluateAll((all) => all.map((link) => link.getAttribute("href").slice(1)));
       assert.deepEqual(links, sections);
       assert.ok((await page.locator("#origin pre").first().textContent()).startsWith("dynid diagnose "));

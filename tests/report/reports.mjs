@@ -12,7 +12,8 @@ export const kCases = [
   { name: "one", joints: 3, rows: "effect load_friction joint=3 mu=0.12\n", verdict: "explained", findings: 1 },
   { name: "two", joints: 3, rows: "effect load_friction joint=3 mu=0.12\neffect cogging joint=2 a=1.5 b=0.6 n=24\n",
     verdict: "explained", findings: 2 },
-  { name: "unknown", joints: 3, rows: "effect oddity joint=3 a=1.5 v=1\n", verdict: "unexplained_structure", findings: 0 },
+  { name: "unknown", joints: 3, rows: "effect oddity joint=3 a=1.5 v=1\n", verdict: "unexplained_structure",
+    findings: 1, uncertain: 1 },
 ];
 /** Of a recording: what must stay text. */
 export const kEvil = "<img src=x onerror=alert(1)>&amp;.csv";

@@ -148,7 +148,7 @@ Found found(const Search& search, std::size_t place, const Naming& naming, Effec
   }
   finding.unusual = unusual_values(
       finding.effect, ScaleTable(search.sets().train).of(fit.point.beta, finding.effect));
-  finding.uncertain = finding.probability < rules.probable;
+  finding.uncertain = finding.doubted || finding.probability < rules.probable;
   finding.why = why(finding, naming);
   return {std::move(finding), std::move(where)};
 }

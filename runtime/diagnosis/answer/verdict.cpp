@@ -39,10 +39,11 @@ std::string explanation(const std::vector<Finding>& findings, double probable) {
                        effects == 1 ? "" : "s", effects == 1 ? "s" : "");
   }
   if (uncertain > 0) {
-    text +=
-        fmt::format("{}{} effect{} {} found whose name{} uncertain (probability below {:g}).",
-                    text.empty() ? "" : " ", uncertain, uncertain == 1 ? "" : "s",
-                    uncertain == 1 ? "was" : "were", uncertain == 1 ? " is" : "s are", probable);
+    text += fmt::format(
+        "{}{} effect{} {} found whose name{} uncertain (probability below {:g}, or a "
+        "test against it).",
+        text.empty() ? "" : " ", uncertain, uncertain == 1 ? "" : "s",
+        uncertain == 1 ? "was" : "were", uncertain == 1 ? " is" : "s are", probable);
   }
   if (changes > 0) {
     text += fmt::format(
@@ -105,6 +106,8 @@ Conclusion concluded(const Search& search, const std::vector<Finding>& findings,
   const bool doubted = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
     return !finding.since_reference && finding.doubted;
   });
+  const bool some_certain = std::any_of(findings.begin(), findings.end(),
+                                        [](const Finding& own) { return !own.uncertain; });
   // no other name is as good as an uncertain one: what is as good has none
   const bool without_name =
       std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
@@ -112,9 +115,9 @@ Conclusion concluded(const Search& search, const std::vector<Finding>& findings,
       });
   if (open) {
     return {Verdict::kUnexplainedStructure,
-            findings.empty() ? "There is structure that no effect of the catalogue explains."
-                             : "Effects were found, and there is structure beside them that none "
-                               "explains."};
+            some_certain
+                ? "Effects were found, and there is structure beside them that none explains."
+                : "There is structure that no effect of the catalogue explains."};
   }
   if (doubted) {
     return {Verdict::kUnexplainedStructure,

@@ -161,7 +161,7 @@ void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& trai
         count += run.rows.counted(k, j);
       }
     }
-    if (count > (1 - rules.least_kept) * all) continue;
+    if (all - count < rules.least_equations) continue;
     for (std::size_t r = 0; r < heldout.runs.size(); ++r) {
       EffectRun& run = heldout.runs[r];
       const Index size = run.rows.Y.cols() / run.motion.joints();

@@ -40,7 +40,7 @@ void mark_stiction(EffectRun& run, const Motion& motion, const Eigen::VectorXd& 
 
 /// Takes out of held-out recordings the equations of joints outside of the positions of the fitted
 /// recordings: the extrapolation of a polynomial there is no proof for or against it. A joint that
-/// is nearly always outside keeps its equations.
+/// would have fewer than EquationRules::least_equations keeps all of its equations.
 void leave_out_unvisited(EffectRecordings& heldout, const EffectRecordings& train,
                          const EquationRules& rules = {});
 

@@ -237,7 +237,7 @@ bool is_jolt(const EvidenceSystem& system, const JointColumns& torque) {
   std::partial_sort(gains.begin(), gains.begin() + static_cast<std::ptrdiff_t>(few), gains.end(),
                     std::greater<>());
   for (std::size_t i = 0; i < few; ++i) of_few += gains[i];
-  return of_few > system.rules().jolt_gain * all;
+  return 2 * of_few > all;
 }
 
 }  // namespace dyngen::runtime

@@ -27,7 +27,7 @@ WindowScan scan_windows(const EffectRecordings& data, EffectSignals& signals,
                         const EvidenceSystem& system, const Hypothesis& hypothesis,
                         bool surrogates);
 
-/// Whether three equations at most hold the larger part of what a torque explains: a jolt, or a
+/// Whether ScanRules::jolt_equations hold the larger part of what a torque explains: a jolt, or a
 /// wild value, and nothing that lasts.
 /// @param torque  one whitened column
 bool is_jolt(const EvidenceSystem& system, const JointColumns& torque);

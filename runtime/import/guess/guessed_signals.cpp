@@ -27,6 +27,81 @@ using Eigen::VectorXd;
 /// Joints that turn farther are rare.
 constexpr double kMostRadians = 3 * std::numbers::pi;
 
+/// A unit that values themselves suggest; an empty one: people are asked.
+struct UnitGuess {
+  std::string unit, why;
+  int sure = kPlausible;  ///< per cent
+};
+
+/// Whether positions times a factor are within the robot's limits, and a little beyond.
+bool are_within(const MatrixXd& positions, double factor, const GuessRobot& robot) {
+  if (robot.lowest.size() != positions.cols()) return false;
+  constexpr double kSlack = 0.05;
+  for (Index j = 0; j < positions.cols(); ++j) {
+    if (!std::isfinite(robot.lowest[j]) || !std::isfinite(robot.highest[j])) return false;
+    const double slack = kSlack * (robot.highest[j] - robot.lowest[j]);
+    if (factor * positions.col(j).minCoeff() < robot.lowest[j] - slack) return false;
+    if (factor * positions.col(j).maxCoeff() > robot.highest[j] + slack) return false;
+  }
+  return true;
+}
+
+UnitGuess position_unit(const MatrixXd& values, const GuessRobot& robot) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  constexpr double kFewestCounts = 1000, kMostDegrees = 720;
+  const double most = values.cwiseAbs().maxCoeff();
+  const bool whole = (values.array() == values.array().round()).all();
+  if (whole && most > kFewestCounts) {
+    return {"counts", fmt::format("whole numbers up to {:.0f}", most), kLikely};
+  }
+  if (most <= kMostRadians) {
+    const bool within = are_within(values, 1, robot);
+    return {"rad",
+            fmt::format("values up to {:.4g}{}", most,
+                        within ? ", within the robot's limits" : ": degrees would hardly move"),
+            within ? kSure : kLikely};
+  }
+  const bool within = are_within(values, kDegree, robot);
+  if (within || most <= kMostDegrees) {
+    return {"deg",
+            fmt::format("values up to {:.4g}{}", most,
+                        within ? ", within the robot's limits in degrees"
+                               : ": as radians they would turn several times"),
+            within ? kSure : kLikely};
+  }
+  return {"", fmt::format("values up to {:.4g} are beyond any joint in degrees: are they the "
+                          "motors', or counts",
+                          most)};
+}
+
+/// @param words  of the columns' names
+UnitGuess torque_unit(const MatrixXd& values, const std::vector<std::string>& words,
+                      const GuessRobot& robot) {
+  if (robot.gravity_torque.size() != values.cols()) {
+    if (std::find(words.begin(), words.end(), "effort") != words.end()) {
+      return {"N m", "ROS gives effort in N m; some drivers give currents or percent", kLikely};
+    }
+    return {"N m", fmt::format("values up to {:.4g}", values.cwiseAbs().maxCoeff()), kPlausible};
+  }
+  Index j = 0;  // the joint that carries most
+  const double weight = robot.gravity_torque.maxCoeff(&j);
+  const double most = values.col(j).cwiseAbs().maxCoeff(), ratio = most / weight;
+  constexpr double kNear = 10, kMilli = 1000;
+  if (ratio > 1 / kNear && ratio < kNear) {
+    return {"N m",
+            fmt::format("the robot's weight takes up to {:.4g} N m of joint {}, as here", weight,
+                        j + 1),
+            kSure};
+  }
+  if (ratio > kMilli / kNear && ratio < kMilli * kNear) {
+    return {"mN m", fmt::format("a thousand times the robot's weight ({:.4g} N m)", weight),
+            kLikely};
+  }
+  return {"", fmt::format("joint {} reaches {:.4g}, its weight takes {:.4g} N m: the motor's side, "
+                          "percent, or another unit",
+                          j + 1, most, weight)};
+}
+
 }  // namespace
 
 void MapGuess::guess_position() {
@@ -40,65 +115,25 @@ void MapGuess::guess_position() {
   }
   used_.push_back(chosen);
   const MatrixXd values = values_of(*chosen);
-  const double most = values.cwiseAbs().maxCoeff();
-  std::string unit = chosen->unit, why = why_unit(*chosen);
-  int sure = sure_of_unit(*chosen);
-  bool asks = false;
-  const bool limits = robot_.lowest.size() == values.cols();
-  const auto within = [&](double factor) {
-    if (!limits) return false;
-    constexpr double kSlack = 0.05;
-    for (Index j = 0; j < values.cols(); ++j) {
-      if (!std::isfinite(robot_.lowest[j]) || !std::isfinite(robot_.highest[j])) return false;
-      const double slack = kSlack * (robot_.highest[j] - robot_.lowest[j]);
-      if (factor * values.col(j).minCoeff() < robot_.lowest[j] - slack) return false;
-      if (factor * values.col(j).maxCoeff() > robot_.highest[j] + slack) return false;
-    }
-    return true;
-  };
-  constexpr double kDegree = std::numbers::pi / 180;
-  if (unit.empty()) {
-    const bool whole = (values.array() == values.array().round()).all();
-    if (whole && most > 1000) {
-      unit = "counts";
-      sure = kLikely;
-      why = fmt::format("whole numbers up to {:.0f}", most);
-    } else if (most <= kMostRadians) {
-      unit = "rad";
-      sure = within(1) ? kSure : kLikely;
-      why = fmt::format("values up to {:.4g}{}", most,
-                        within(1) ? ", within the robot's limits" : ": degrees would hardly move");
-    } else if (within(kDegree) || most <= 720) {
-      unit = "deg";
-      sure = within(kDegree) ? kSure : kLikely;
-      why = fmt::format("values up to {:.4g}{}", most,
-                        within(kDegree) ? ", within the robot's limits in degrees"
-                                        : ": as radians they would turn several times");
-    } else {
-      asks = true;
-      why = fmt::format(
-          "values up to {:.4g} are beyond any joint in degrees: are they the motors', "
-          "or counts",
-          most);
-    }
-  }
-  if (asks) {
-    question(fmt::format("in which unit are the positions ({})?", why));
+  UnitGuess guess{chosen->unit, why_unit(*chosen), sure_of_unit(*chosen)};
+  if (guess.unit.empty()) guess = position_unit(values, robot_);
+  if (guess.unit.empty()) {
+    question(fmt::format("in which unit are the positions ({})?", guess.why));
     line(fmt::format("position: {{{}, unit: \"?\"}}", columns_of(*chosen)));
     return;
   }
-  reason(sure, fmt::format("{} by name; unit {}: {}",
-                           chosen->family.pattern.empty() ? "the first columns are positions"
-                                                          : chosen->family.pattern,
-                           unit, why));
-  position_unit_ = unit;
-  if (unit == "counts") {
+  reason(guess.sure, fmt::format("{} by name; unit {}: {}",
+                                 chosen->family.pattern.empty() ? "the first columns are positions"
+                                                                : chosen->family.pattern,
+                                 guess.unit, guess.why));
+  position_unit_ = guess.unit;
+  if (guess.unit == "counts") {
     question("how many counts make one turn?");
     line(fmt::format("position: {{{}, unit: counts, counts_per_rev: \"?\"}}", columns_of(*chosen)));
     return;
   }
-  line(fmt::format("position: {{{}, unit: {}}}", columns_of(*chosen), unit));
-  const auto conversion = unit_conversion(unit, ColumnQuantity::kPosition);
+  line(fmt::format("position: {{{}, unit: {}}}", columns_of(*chosen), guess.unit));
+  const auto conversion = unit_conversion(guess.unit, ColumnQuantity::kPosition);
   if (!conversion || values.rows() != recording_.time.size()) return;
   recording_.q = values.unaryExpr([&](double value) { return (*conversion)(value); });
   recording_.run_starts = {0};
@@ -218,91 +253,64 @@ void MapGuess::note_torque_lag(const MatrixXd& torque) {
   }
 }
 
+/// Where no column is a torque.
+void MapGuess::guess_torque_of_motors() {
+  if (const Candidate* current = choose(ColumnRole::kCurrent, "torque")) {
+    used_.push_back(current);
+    const std::string unit = current->unit.empty() ? "A" : current->unit;
+    reason(current->unit.empty() ? kPlausible : sure_of_unit(*current),
+           fmt::format("no torque is recorded; {} are currents", current->family.pattern));
+    question("which torque at the joint does one ampere make (N m/A, gear included)?");
+    line(fmt::format("torque: {{{}, unit: {}, constant: \"?\"}}", columns_of(*current), unit));
+    return;
+  }
+  if (!lines_.empty() && lines_.back().starts_with("torque:")) return;
+  if (const Candidate* duty = choose(ColumnRole::kDuty, "torque")) {
+    used_.push_back(duty);
+    reason(kPlausible,
+           fmt::format("no torque is recorded; {} is a duty cycle", duty->family.pattern));
+    question(
+        "which value is full voltage, which voltage, resistance (ohm) and torque constant "
+        "(N m/A) has the servo?");
+    const int bits = bits_of(*duty);
+    line(fmt::format(
+        "torque: {{duty: {}, full: \"?\", voltage: \"?\", resistance: \"?\", "
+        "constant: \"?\"{}}}",
+        yaml_text(duty->family.pattern), bits > 0 ? fmt::format(", bits: {}", bits) : ""));
+    return;
+  }
+  question("which columns are the torques of the joints?");
+  line("torque: {columns: \"?\", unit: \"?\"}");
+}
+
 void MapGuess::guess_torque() {
   const Candidate* chosen = choose(ColumnRole::kTorque, "torque");
   const bool asked = !lines_.empty() && lines_.back().starts_with("torque:");
   if (asked) return;
   if (chosen == nullptr) {
-    if (const Candidate* current = choose(ColumnRole::kCurrent, "torque")) {
-      used_.push_back(current);
-      const std::string unit = current->unit.empty() ? "A" : current->unit;
-      reason(current->unit.empty() ? kPlausible : sure_of_unit(*current),
-             fmt::format("no torque is recorded; {} are currents", current->family.pattern));
-      question("which torque at the joint does one ampere make (N m/A, gear included)?");
-      line(fmt::format("torque: {{{}, unit: {}, constant: \"?\"}}", columns_of(*current), unit));
-      return;
-    }
-    if (!lines_.empty() && lines_.back().starts_with("torque:")) return;
-    if (const Candidate* duty = choose(ColumnRole::kDuty, "torque")) {
-      used_.push_back(duty);
-      reason(kPlausible,
-             fmt::format("no torque is recorded; {} is a duty cycle", duty->family.pattern));
-      question(
-          "which value is full voltage, which voltage, resistance (ohm) and torque constant "
-          "(N m/A) has the servo?");
-      const int bits = bits_of(*duty);
-      line(fmt::format(
-          "torque: {{duty: {}, full: \"?\", voltage: \"?\", resistance: \"?\", "
-          "constant: \"?\"{}}}",
-          yaml_text(duty->family.pattern), bits > 0 ? fmt::format(", bits: {}", bits) : ""));
-      return;
-    }
-    question("which columns are the torques of the joints?");
-    line("torque: {columns: \"?\", unit: \"?\"}");
+    guess_torque_of_motors();
     return;
   }
   used_.push_back(chosen);
   const MatrixXd values = values_of(*chosen);
-  std::string unit = chosen->unit, why = why_unit(*chosen);
-  int sure = sure_of_unit(*chosen);
-  const auto& words = chosen->family.words;
-  const bool ros = std::find(words.begin(), words.end(), "effort") != words.end();
-  bool asks = false;
-  if (unit.empty()) {
-    const double most = values.cwiseAbs().maxCoeff();
-    unit = "N m";
-    sure = ros ? kLikely : kPlausible;
-    why = ros ? std::string("ROS gives effort in N m; some drivers give currents or percent")
-              : fmt::format("values up to {:.4g}", most);
-    if (robot_.gravity_torque.size() == values.cols()) {
-      // the joint that carries most
-      Index j = 0;
-      const double weight = robot_.gravity_torque.maxCoeff(&j);
-      const double ratio = values.col(j).cwiseAbs().maxCoeff() / weight;
-      constexpr double kNear = 10;
-      if (ratio > 1 / kNear && ratio < kNear) {
-        sure = kSure;
-        why = fmt::format("the robot's weight takes up to {:.4g} N m of joint {}, as here", weight,
-                          j + 1);
-      } else if (ratio > 1000 / kNear && ratio < 1000 * kNear) {
-        unit = "mN m";
-        sure = kLikely;
-        why = fmt::format("a thousand times the robot's weight ({:.4g} N m)", weight);
-      } else {
-        asks = true;
-        why = fmt::format(
-            "joint {} reaches {:.4g}, its weight takes {:.4g} N m: the motor's side, "
-            "percent, or another unit",
-            j + 1, values.col(j).cwiseAbs().maxCoeff(), weight);
-      }
-    }
-  }
-  if (asks) {
-    question(fmt::format("in which unit are the torques ({})?", why));
+  UnitGuess guess{chosen->unit, why_unit(*chosen), sure_of_unit(*chosen)};
+  if (guess.unit.empty()) guess = torque_unit(values, chosen->family.words, robot_);
+  if (guess.unit.empty()) {
+    question(fmt::format("in which unit are the torques ({})?", guess.why));
     line(fmt::format("torque: {{{}, unit: \"?\"}}", columns_of(*chosen)));
     return;
   }
-  reason(sure,
+  reason(guess.sure,
          fmt::format("{} by name; unit {}: {}",
                      chosen->family.pattern.empty() ? "the last block" : chosen->family.pattern,
-                     unit, why));
+                     guess.unit, guess.why));
   if (robot_.gravity_torque.size() != values.cols()) {
     remark(
         "taken as torque at the joints; what is measured at the motors needs 'side: motor' and "
         "'gears'");
   }
   note_torque_lag(values);
-  line(fmt::format("torque: {{{}, unit: {}}}", columns_of(*chosen), unit));
+  line(fmt::format("torque: {{{}, unit: {}}}", columns_of(*chosen), guess.unit));
 }
 
 void MapGuess::guess_temperature() {

@@ -67,6 +67,7 @@ class MapGuess {
   void guess_position();
   void guess_velocity();
   void guess_torque();
+  void guess_torque_of_motors();
   void guess_temperature();
   void note_others();
   void note_torque_lag(const Eigen::MatrixXd& torque);

@@ -218,27 +218,5 @@ TEST(SlowNoise, OfFirstOrderThereIsHardlyAny) {
   EXPECT_NEAR(slowest / kDraws, 0, 0.15);
 }
 
-TEST(SlowNoise, OfOneJointAloneThatOutlastsThePeriodIsNot) {
-  std::mt19937_64 random(20261123);
-  const Series drifting = [](std::mt19937_64& source) {
-    VectorXd series = first_order(source);
-    add_first_order(std::exp(-1 / (3 * kSlowPeriod)), 3, source, series);
-    return series;
-  };
-  constexpr int kDraws = 40;
-  double first = 0, second = 0;
-  for (int draw = 0; draw < kDraws; ++draw) {
-    const std::vector<JointDifferences> joints = {differences(drifting, random),
-                                                  differences(first_order, random)};
-    const std::vector<JointNoise> noise =
-        noise_of_differences(joints, {kSlowPeriod, double{kSlowSamples}});
-    first += std::pow(noise[0].deviation(), 2) / kDraws;
-    second += std::pow(noise[1].deviation(), 2) / kDraws;
-  }
-  // 9 of the variance outlast the period; differences of neighbours show 2.5 of them
-  EXPECT_NEAR(first, 1 + 9 * (1 - std::exp(-1.0 / 3)), 0.8);
-  EXPECT_NEAR(second, 1, 0.05);
-}
-
 }  // namespace
 }  // namespace dyngen::runtime
