@@ -13,11 +13,10 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-using Sums = std::vector<std::complex<double>>;
+using ComplexSums = std::vector<std::complex<double>>;
 
-constexpr double kTurn = 2 * std::numbers::pi;
-constexpr int kFine = 4;            // orders looked at per resolution
-constexpr double kPerPeriod = 16;   // pieces of the angle: a wave loses 0.6 % in them
+constexpr int kPerResolution = 4;        // orders looked at per resolution
+constexpr double kPiecesPerPeriod = 16;  // pieces of the angle: a wave loses 0.6 % in them
 constexpr double kMostPieces = 1 << 22;  // 64 MB of complex numbers
 
 /// Logarithm of P(F > f) of 2 and of 4 degrees to `degrees`: closed forms of the incomplete beta.
@@ -49,7 +48,7 @@ class SpeedCounts {
     for (Index i = 0; i < counts_.size(); ++i) {
       if (counts_[i] == 0) continue;
       const double speed = step * (static_cast<double>(i) + 0.5);
-      sum += counts_[i] * white.gain(order * speed * white.data().sample_time / kTurn);
+      sum += counts_[i] * white.gain(order * speed * white.data().sample_time / kOrderTurn);
     }
     return sum;
   }
@@ -122,23 +121,26 @@ OrderReach order_reach(const WhiteResidual& white, const RippleOptions& options)
   VectorXd visits = VectorXd::Zero(kParts);
   for (Index k = 0; k < counts.size(); ++k) {
     if (counts[k] == 0) continue;
-    visits[std::min(kParts - 1, static_cast<Index>((data.q[k] - low) / (high - low) * kParts))] += 1;
+    visits[std::min(kParts - 1, static_cast<Index>((data.q[k] - low) / (high - low) * kParts))] +=
+        1;
   }
-  reach.resolution = kTurn / (high - low);
+  reach.resolution = kOrderTurn / (high - low);
   reach.apart = reach.resolution * kParts * visits.squaredNorm() / std::pow(visits.sum(), 2);
   constexpr double kCycles = 2.5;  // in the travel: 1.5 are slow structure, and one is a resolution
   reach.least = std::max(options.least_order, kCycles * reach.resolution);
-  const auto place = speeds.begin() + static_cast<std::ptrdiff_t>(
-                                          options.least_samples * static_cast<double>(speeds.size()));
+  const auto place =
+      speeds.begin() +
+      static_cast<std::ptrdiff_t>(options.least_samples * static_cast<double>(speeds.size()));
   std::nth_element(speeds.begin(), place, speeds.end());
   reach.most = std::min(options.most_order,
-                        options.most_per_sample * kTurn / (*place * data.sample_time));
-  reach.most = std::min(reach.most, kMostPieces / (4 * kPerPeriod * kFine) * reach.resolution);
+                        options.most_per_sample * kOrderTurn / (*place * data.sample_time));
+  reach.most = std::min(reach.most,
+                        kMostPieces / (4 * kPiecesPerPeriod * kPerResolution) * reach.resolution);
   return reach;
 }
 
-OrderSpectrum::OrderSpectrum(const WhiteResidual& white, const VectorXd& e,
-                             const OrderReach& reach, const RippleOptions& options)
+OrderSpectrum::OrderSpectrum(const WhiteResidual& white, const VectorXd& e, const OrderReach& reach,
+                             const RippleOptions& options)
     : reach_(reach), options_(options) {
   for (double from = reach.least; from < reach.most; from *= 2) {
     bands_.push_back(band(white, e, from, std::min(2 * from, reach.most)));
@@ -150,10 +152,11 @@ OrderSpectrum::Band OrderSpectrum::band(const WhiteResidual& white, const Vector
   const RippleData& data = white.data();
   Band own{from, to, 0, {}};
   const double beyond = to + (options_.nearest + options_.neighbours) * reach_.apart;
-  const double width = kTurn / beyond / kPerPeriod;
+  const double width = kOrderTurn / beyond / kPiecesPerPeriod;
   std::size_t size = 1;
-  while (static_cast<double>(size) * width * reach_.resolution / kFine < kTurn) size *= 2;
-  own.step = kTurn / (width * static_cast<double>(size));
+  while (static_cast<double>(size) * width * reach_.resolution / kPerResolution < kOrderTurn)
+    size *= 2;
+  own.step = kOrderTurn / (width * static_cast<double>(size));
   own.sums.resize(1 + static_cast<std::size_t>(beyond / own.step));
   const VectorXd seen = white.seen(to, options_.most_per_sample);
   const double first = data.q.minCoeff();
@@ -161,13 +164,13 @@ OrderSpectrum::Band OrderSpectrum::band(const WhiteResidual& white, const Vector
     const VectorXd counted = of_side(white, seen, side);
     if (counted.sum() < options_.least_samples / 2 * static_cast<double>(white.counted())) continue;
     const VectorXd u = white.transposed(e.cwiseProduct(counted));
-    Sums pieces(size, 0);
+    ComplexSums pieces(size, 0);
     for (Index k = 0; k < u.size(); ++k) {
       if (u[k] == 0) continue;
       // pieces beyond the counted travel are those of the filter's memory: some samples
       pieces[static_cast<std::size_t>((data.q[k] - first) / width) % size] += u[k];
     }
-    const Sums transform = fourier(pieces);
+    const ComplexSums transform = fourier(pieces);
     const SpeedCounts speeds(white, counted, side == 0 ? 1 : -1);
     for (std::size_t i = 1; i < own.sums.size(); ++i) {
       own.sums[i].sum[side] = transform[i];
@@ -193,8 +196,8 @@ std::optional<OrderTest> OrderSpectrum::level_in(const Band& band, Index place) 
   const auto size = static_cast<Index>(band.sums.size());
   const auto least = static_cast<Index>(reach_.least / 2 / band.step);
   for (int n = 0; n < options_.neighbours; ++n) {
-    const auto away = static_cast<Index>(
-        std::lround((options_.nearest + n) * reach_.apart / band.step));
+    const auto away =
+        static_cast<Index>(std::lround((options_.nearest + n) * reach_.apart / band.step));
     for (const Index at : {place - away, place + away}) {
       if (at < least || at >= size) continue;
       const OrderSums& own = band.sums[static_cast<std::size_t>(at)];
@@ -223,9 +226,8 @@ std::optional<OrderSpectrum::Peak> OrderSpectrum::strongest(
     const auto to = static_cast<Index>(band.to / band.step);
     for (auto i = static_cast<Index>(std::ceil(band.from / band.step)); i <= to; ++i) {
       const double order = static_cast<double>(i) * band.step;
-      const bool is_known = std::any_of(known.begin(), known.end(), [&](double own) {
-        return std::abs(own - order) < part;
-      });
+      const bool is_known = std::any_of(known.begin(), known.end(),
+                                        [&](double own) { return std::abs(own - order) < part; });
       if (is_known) continue;
       const std::optional<OrderTest> level = level_in(band, i);
       if (!level) continue;
@@ -255,8 +257,8 @@ OrderSpectrum::Shown OrderSpectrum::shown(Index count, double log_tail) const {
         if (!(gain > 0)) continue;
         all.amplitude[i] = std::max(all.amplitude[i], 2 * std::sqrt(sums.common() / gain));
         if (const auto level = level_in(band, k)) {
-          all.noise[i] = std::max(
-              all.noise[i], amplitude_at(sums, level->level, level->degrees, log_tail));
+          all.noise[i] =
+              std::max(all.noise[i], amplitude_at(sums, level->level, level->degrees, log_tail));
         }
       }
     }

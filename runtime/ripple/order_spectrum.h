@@ -33,10 +33,10 @@ struct OrderSums {
 
 /// How an order stands out of its neighbours.
 struct OrderTest {
-  double level = 1;        ///< mean power of the neighbours: the noise's variance
-  double degrees = 0;      ///< of the level
-  double log_tail = 0;     ///< logarithm of the probability of the better of both
-  bool separate = false;   ///< waves of their own in each direction stand out more
+  double level = 1;       ///< mean power of the neighbours: the noise's variance
+  double degrees = 0;     ///< of the level
+  double log_tail = 0;    ///< logarithm of the probability of the better of both
+  bool separate = false;  ///< waves of their own in each direction stand out more
 };
 OrderTest order_test(const OrderSums& sums, double level, double degrees);
 

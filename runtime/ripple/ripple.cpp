@@ -24,10 +24,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kInterval = 0.95;
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kWaveInterval = 0.95;
 
-void check(const RippleData& data) {
+void check_data(const RippleData& data) {
   for (const VectorXd* own : {&data.dq, &data.ddq, &data.residual}) {
     if (own->size() == data.q.size()) continue;
     throw std::invalid_argument(
@@ -49,7 +48,7 @@ double spread_of(const VectorXd& q, const VectorXd& weights) {
 }
 
 /// An order with its test.
-struct Candidate {
+struct OrderCandidate {
   double order = 0;
   OrderTest test;
   OrderSums sums;
@@ -57,9 +56,9 @@ struct Candidate {
   double log_chance = 0;
 };
 
-class Analysis {
+class RippleAnalysis {
  public:
-  Analysis(const RippleData& data, const RippleOptions& options)
+  RippleAnalysis(const RippleData& data, const RippleOptions& options)
       : data_(data), options_(options), white_(data, options) {}
 
   RippleResult run() {
@@ -69,7 +68,7 @@ class Analysis {
     for (int round = 0; round < rounds; ++round) {
       if (static_cast<int>(result_.lines.size()) >= options_.most_lines) break;
       const OrderSpectrum spectrum(white_, left_, reach_, options_);
-      std::optional<Candidate> best = best_stated(spectrum);
+      std::optional<OrderCandidate> best = best_stated(spectrum);
       if (!best) best = best_of_all(spectrum);
       if (!best) break;
       take(*best);
@@ -141,8 +140,8 @@ class Analysis {
   }
 
   /// The test of an order against neighbours from which its own side lobes were taken.
-  [[nodiscard]] std::optional<Candidate> tested(double order, double tests) const {
-    Candidate own;
+  [[nodiscard]] std::optional<OrderCandidate> tested(double order, double tests) const {
+    OrderCandidate own;
     own.order = order;
     own.sums = sums_at(order);
     const VectorXd beside =
@@ -155,7 +154,7 @@ class Analysis {
     return own;
   }
 
-  [[nodiscard]] std::optional<Candidate> best_stated(const OrderSpectrum& spectrum) const {
+  [[nodiscard]] std::optional<OrderCandidate> best_stated(const OrderSpectrum& spectrum) const {
     const std::vector<double> found = known();
     std::vector<double> open;
     for (const double order : data_.stated) {
@@ -164,7 +163,7 @@ class Analysis {
       });
       if (!near && order >= reach_.least && order <= reach_.most) open.push_back(order);
     }
-    std::optional<Candidate> best;
+    std::optional<OrderCandidate> best;
     for (const double order : open) {
       const std::optional<OrderTest> level = spectrum.level_at(order);
       if (!level) continue;
@@ -172,26 +171,35 @@ class Analysis {
       const OrderTest quick = order_test(sums_at(order), level->level, level->degrees);
       if (quick.log_tail + std::log(tests) > limit()) continue;
       if (best && quick.log_tail >= best->test.log_tail) continue;
-      std::optional<Candidate> own = tested(refined(order, quick.separate), tests);
+      std::optional<OrderCandidate> own = tested(refined(order, quick.separate), tests);
       if (!own || own->log_chance > limit()) continue;
-      if (std::abs(own->order - order) > half_interval(*own)) continue;
+      if (!is_same(*own, order)) continue;
       own->stated = order;
       best = std::move(own);
     }
     return best;
   }
 
-  [[nodiscard]] std::optional<Candidate> best_of_all(const OrderSpectrum& spectrum) const {
+  [[nodiscard]] std::optional<OrderCandidate> best_of_all(const OrderSpectrum& spectrum) const {
     const std::optional<OrderSpectrum::Peak> peak = spectrum.strongest(known());
     if (!peak) return std::nullopt;
-    std::optional<Candidate> own =
+    std::optional<OrderCandidate> own =
         tested(refined(peak->order, peak->test.separate), spectrum.tests());
     if (!own || own->log_chance > limit()) return std::nullopt;
+    for (const double order : data_.stated) {
+      if (is_same(*own, order)) own->stated = order;
+    }
     return own;
   }
 
+  /// Whether an order may be a stated one: within its interval of 99.7 %.
+  [[nodiscard]] bool is_same(const OrderCandidate& own, double stated) const {
+    constexpr double kWider = 1.5;
+    return std::abs(own.order - stated) <= kWider * half_interval(own);
+  }
+
   /// Half of the order's interval: from the curvature of its power.
-  [[nodiscard]] double half_interval(const Candidate& own) const {
+  [[nodiscard]] double half_interval(const OrderCandidate& own) const {
     const VectorXd seen = white_.seen(own.order, options_.most_per_sample);
     double information = 0;
     if (own.test.separate) {
@@ -204,11 +212,11 @@ class Analysis {
       information = 2 * own.sums.common() * spread_of(data_.q, seen);
     }
     if (!(information > 0)) return reach_.resolution;
-    return student_interval(kInterval, own.test.degrees) *
+    return student_interval(kWaveInterval, own.test.degrees) *
            std::sqrt(own.test.level / information);
   }
 
-  void take(const Candidate& own) {
+  void take(const OrderCandidate& own) {
     RippleLine line;
     const double half = half_interval(own);
     line.order = {own.order, own.order - half, own.order + half};
@@ -249,8 +257,8 @@ class Analysis {
     std::sort(speeds.begin(), speeds.end());
     constexpr double kEdge = 0.05;
     const double last = static_cast<double>(speeds.size() - 1);
-    return {order / kTurn * speeds[static_cast<std::size_t>(kEdge * last)],
-            order / kTurn * speeds[static_cast<std::size_t>((1 - kEdge) * last)]};
+    return {order / kOrderTurn * speeds[static_cast<std::size_t>(kEdge * last)],
+            order / kOrderTurn * speeds[static_cast<std::size_t>((1 - kEdge) * last)]};
   }
 
   [[nodiscard]] const VectorXd& base() const { return base_.size() > 0 ? base_ : white_.start(); }
@@ -276,8 +284,7 @@ class Analysis {
         continue;
       }
       errors_.push_back({count, 0});
-      parts.push_back(
-          position_columns(white_, line.order.value, options_.most_per_sample));
+      parts.push_back(position_columns(white_, line.order.value, options_.most_per_sample));
       errors_.back().second = parts.back().cols();
       if (parts.back().norm() > 0) parts.back() *= parts.front().norm() / parts.back().norm();
       count += parts.back().cols();
@@ -316,7 +323,7 @@ RippleWave wave_of(double a, double b, const Eigen::Matrix2d& covariance, int de
   RippleWave wave;
   wave.known = true;
   const double amplitude = std::hypot(a, b), phase = std::atan2(b, a);
-  const double t = student_interval(kInterval, degrees);
+  const double t = student_interval(kWaveInterval, degrees);
   const Eigen::Vector2d along(std::cos(phase), std::sin(phase));
   const Eigen::Vector2d across(-along[1], along[0]);
   const double half = t * std::sqrt(std::max(0.0, along.dot(covariance * along)));
@@ -327,7 +334,7 @@ RippleWave wave_of(double a, double b, const Eigen::Matrix2d& covariance, int de
   return wave;
 }
 
-void Analysis::answer() {
+void RippleAnalysis::answer() {
   result_.judged = true;
   result_.least_order = reach_.least;
   result_.most_order = reach_.most;
@@ -371,7 +378,7 @@ void set_waves(RippleLine& line, const WaveColumns& waves, const RobustRegressio
 
 /// Amplitudes and phases of all lines together, with intervals for noise of any correlation. A
 /// position error has those that its torque has in the mean.
-void Analysis::answer_waves() {
+void RippleAnalysis::answer_waves() {
   if (result_.lines.empty()) return;
   std::vector<Index> rows;
   for (Index k = 0; k < left_.size(); ++k) {
@@ -391,7 +398,8 @@ void Analysis::answer_waves() {
     }
     const Index count = waves.columns.cols();
     const auto [first, more] = errors_[i];
-    const VectorXd own = left_ + columns_.middleCols(places_[i], count) * beta_.segment(places_[i], count) +
+    const VectorXd own = left_ +
+                         columns_.middleCols(places_[i], count) * beta_.segment(places_[i], count) +
                          columns_.middleCols(first, more) * beta_.segment(first, more);
     const RobustRegression alone =
         robust_regression(waves.columns(rows, Eigen::all), VectorXd(own(rows)), cosines);
@@ -399,7 +407,7 @@ void Analysis::answer_waves() {
   }
 }
 
-void Analysis::answer_spectrum() {
+void RippleAnalysis::answer_spectrum() {
   constexpr Index kMost = 1200;  // values of a chart
   const OrderSpectrum before(white_, white_.start(), reach_, options_);
   const OrderSpectrum left(white_, left_, reach_, options_);
@@ -421,8 +429,8 @@ void Analysis::answer_spectrum() {
 }  // namespace
 
 RippleResult analyse_ripple(const RippleData& data, const RippleOptions& options) {
-  check(data);
-  return Analysis(data, options).run();
+  check_data(data);
+  return RippleAnalysis(data, options).run();
 }
 
 }  // namespace dyngen::runtime

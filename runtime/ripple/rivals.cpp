@@ -17,14 +17,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// Of an order's power that a rival must leave for the order to stand: a line that is 30 % apart in
 /// its frequency leaves more.
-constexpr double kLeastLeft = 0.3;
+constexpr double kLeastShare = 0.3;
 
 /// Columns of one direction behind the filter, where its samples count.
 template <typename Wave>
-MatrixXd columns_of(const WhiteResidual& white, const VectorXd& seen, const Wave& wave) {
+MatrixXd side_columns(const WhiteResidual& white, const VectorXd& seen, const Wave& wave) {
   const RippleData& data = white.data();
   std::vector<VectorXd> columns;
   for (const double direction : {1.0, -1.0}) {
@@ -32,9 +31,8 @@ MatrixXd columns_of(const WhiteResidual& white, const VectorXd& seen, const Wave
         (white.direction().array() == direction).select(seen, VectorXd::Zero(seen.size()));
     if (own.sum() == 0) continue;
     for (const int part : {0, 1}) {
-      const VectorXd signal = VectorXd::NullaryExpr(data.q.size(), [&](Index k) {
-        return data.dq[k] * direction > 0 ? wave(k, part) : 0.0;
-      });
+      const VectorXd signal = VectorXd::NullaryExpr(
+          data.q.size(), [&](Index k) { return data.dq[k] * direction > 0 ? wave(k, part) : 0.0; });
       columns.push_back(white.filtered(signal).cwiseProduct(own));
     }
   }
@@ -44,7 +42,7 @@ MatrixXd columns_of(const WhiteResidual& white, const VectorXd& seen, const Wave
 }
 
 /// A piece of the samples in which a line has a phase of its own.
-struct Piece {
+struct LinePiece {
   Index from = 0, to = 0;
 };
 
@@ -55,17 +53,18 @@ struct FixedLine {
   double tests = 1;      ///< independent frequencies that were tried, twice
 };
 
-FixedLine strongest_fixed(const VectorXd& e, const VectorXd& seen, const std::vector<Piece>& pieces,
-                          double from, double to) {
+FixedLine strongest_fixed(const VectorXd& e, const VectorXd& seen,
+                          const std::vector<LinePiece>& pieces, double from, double to) {
   Index longest = 1;
-  for (const Piece& piece : pieces) longest = std::max(longest, piece.to - piece.from);
-  constexpr Index kFine = 8;  // frequencies per resolution: 1.3 % of the power is lost between
+  for (const LinePiece& piece : pieces) longest = std::max(longest, piece.to - piece.from);
+  constexpr Index kFiner = 8;  // frequencies per resolution: 1.3 % of the power is lost between
   std::size_t size = 1;
-  while (static_cast<Index>(size) < kFine * longest) size *= 2;
+  while (static_cast<Index>(size) < kFiner * longest) size *= 2;
   const auto first = static_cast<std::size_t>(from * static_cast<double>(size));
-  const auto last = std::min(size / 2, 1 + static_cast<std::size_t>(to * static_cast<double>(size)));
+  const auto last =
+      std::min(size / 2, 1 + static_cast<std::size_t>(to * static_cast<double>(size)));
   VectorXd power = VectorXd::Zero(static_cast<Index>(last - first) + 1);
-  for (const Piece& piece : pieces) {
+  for (const LinePiece& piece : pieces) {
     const double count = seen.segment(piece.from, piece.to - piece.from).sum();
     if (count == 0) continue;
     std::vector<std::complex<double>> signal(size, 0);
@@ -80,21 +79,21 @@ FixedLine strongest_fixed(const VectorXd& e, const VectorXd& seen, const std::ve
   FixedLine line;
   Index place = 0;
   line.power = power.maxCoeff(&place);
-  line.frequency = static_cast<double>(first + static_cast<std::size_t>(place)) /
-                   static_cast<double>(size);
+  line.frequency =
+      static_cast<double>(first + static_cast<std::size_t>(place)) / static_cast<double>(size);
   line.tests = 1 + 2 * (to - from) * static_cast<double>(longest);
   return line;
 }
 
 /// Without a line that has its own phase in each piece.
-VectorXd without_fixed(const VectorXd& e, const VectorXd& seen, const std::vector<Piece>& pieces,
-                       double frequency) {
+VectorXd without_fixed(const VectorXd& e, const VectorXd& seen,
+                       const std::vector<LinePiece>& pieces, double frequency) {
   VectorXd left = e;
-  for (const Piece& piece : pieces) {
+  for (const LinePiece& piece : pieces) {
     const Index count = piece.to - piece.from;
     MatrixXd D(count, 2);
     for (Index k = 0; k < count; ++k) {
-      const double angle = kTurn * frequency * static_cast<double>(k);
+      const double angle = kOrderTurn * frequency * static_cast<double>(k);
       D(k, 0) = seen[piece.from + k] * std::cos(angle);
       D(k, 1) = seen[piece.from + k] * std::sin(angle);
     }
@@ -114,7 +113,7 @@ std::pair<double, double> frequencies_of(const WhiteResidual& white, const Vecto
   if (speeds.empty()) return {0, 0};
   std::sort(speeds.begin(), speeds.end());
   const double last = static_cast<double>(speeds.size() - 1);
-  const double scale = order * data.sample_time / kTurn;
+  const double scale = order * data.sample_time / kOrderTurn;
   return {scale * speeds[static_cast<std::size_t>(part * last)],
           scale * speeds[static_cast<std::size_t>((1 - part) * last)]};
 }
@@ -125,7 +124,7 @@ bool stands_beside(const WhiteResidual& white, const VectorXd& left, double orde
   const OrderSums sums = order_sums(white, left, order, options.most_per_sample);
   const double own = test.separate ? sums.separate() : sums.common();
   return order_test(sums, test.level, test.degrees).log_tail <= std::log(options.beside) &&
-         own >= kLeastLeft * power;
+         own >= kLeastShare * power;
 }
 
 std::optional<Rival> fixed_rival(const WhiteResidual& white, const VectorXd& e, double order,
@@ -135,14 +134,14 @@ std::optional<Rival> fixed_rival(const WhiteResidual& white, const VectorXd& e, 
   const VectorXd seen = white.seen(order, options.most_per_sample);
   constexpr double kEdge = 0.01;
   const auto [from, to] = frequencies_of(white, seen, order, kEdge);
-  std::vector<Piece> runs, ways;
+  std::vector<LinePiece> runs, ways;
   for (std::size_t i = 0; i < data.run_starts.size(); ++i) {
     runs.push_back({data.run_starts[i], end_of_run(data, i)});
   }
   for (const OneWay& way : white.stretches()) ways.push_back({way.from, way.to});
   const VectorXd beside =
       left_beside(wave_columns(white, order, options.most_per_sample).columns, e);
-  for (const std::vector<Piece>* pieces : {&runs, &ways}) {
+  for (const std::vector<LinePiece>* pieces : {&runs, &ways}) {
     const FixedLine line = strongest_fixed(e, seen, *pieces, from, to);
     VectorXd left = without_fixed(e, seen, *pieces, line.frequency);
     if (stands_beside(white, left, order, test, power, options)) continue;
@@ -151,8 +150,7 @@ std::optional<Rival> fixed_rival(const WhiteResidual& white, const VectorXd& e, 
     if (pieces->size() > kFew) {
       const FixedLine more = strongest_fixed(beside, seen, *pieces, from, to);
       const double degrees = 2 * static_cast<double>(pieces->size());
-      const double chance =
-          more.tests * chi_square_tail(2 * more.power / test.level, degrees);
+      const double chance = more.tests * chi_square_tail(2 * more.power / test.level, degrees);
       if (chance > options.beside) continue;
     }
     return Rival{RippleKind::kFrequency, line.frequency / data.sample_time, std::move(left)};
@@ -165,7 +163,7 @@ std::optional<Rival> fixed_rival(const WhiteResidual& white, const VectorXd& e, 
 struct UsualSpeed {
   double speed = 0, part = 0;
 };
-UsualSpeed usual_speed(const WhiteResidual& white, const VectorXd& seen) {
+UsualSpeed most_usual_speed(const WhiteResidual& white, const VectorXd& seen) {
   constexpr double kWidth = 1.01;  // half a period in a hundred samples at Nyquist
   std::vector<double> speeds;
   for (Index k = 0; k < seen.size(); ++k) {
@@ -185,11 +183,11 @@ std::optional<Rival> image_rival(const WhiteResidual& white, const VectorXd& e, 
                                  const OrderTest& test, double power,
                                  const RippleOptions& options) {
   const VectorXd seen = white.seen(order, options.most_per_sample);
-  const UsualSpeed usual = usual_speed(white, seen);
-  if (usual.part < kLeastLeft) return std::nullopt;
+  const UsualSpeed usual = most_usual_speed(white, seen);
+  if (usual.part < kLeastShare) return std::nullopt;
   const OrderReach reach = order_reach(white, options);
-  const double sampling = kTurn / (usual.speed * white.data().sample_time);  // orders
-  constexpr double kEverySample = 1e9;                                      // periods per sample
+  const double sampling = kOrderTurn / (usual.speed * white.data().sample_time);  // orders
+  constexpr double kEverySample = 1e9;  // periods per sample
   for (const double centre : {sampling - order, sampling + order, 2 * sampling - order}) {
     if (!(centre > 0) || centre > options.most_order) continue;
     constexpr int kSteps = 16;
@@ -217,7 +215,7 @@ WaveColumns wave_columns(const WhiteResidual& white, double order, double most) 
   WaveColumns waves;
   waves.forward = (seen.array() * white.direction().array() > 0).any();
   waves.backward = (seen.array() * white.direction().array() < 0).any();
-  waves.columns = columns_of(white, seen, [&](Index k, int part) {
+  waves.columns = side_columns(white, seen, [&](Index k, int part) {
     return part == 0 ? std::cos(order * q[k]) : std::sin(order * q[k]);
   });
   return waves;
@@ -225,7 +223,7 @@ WaveColumns wave_columns(const WhiteResidual& white, double order, double most) 
 
 MatrixXd position_columns(const WhiteResidual& white, double order, double most) {
   const RippleData& data = white.data();
-  return columns_of(white, white.seen(order, most), [&](Index k, int part) {
+  return side_columns(white, white.seen(order, most), [&](Index k, int part) {
     const double c = std::cos(order * data.q[k]), s = std::sin(order * data.q[k]);
     const double square = order * order * data.dq[k] * data.dq[k], turn = order * data.ddq[k];
     return part == 0 ? -(square * c + turn * s) : -(square * s - turn * c);
@@ -235,8 +233,7 @@ MatrixXd position_columns(const WhiteResidual& white, double order, double most)
 VectorXd left_beside(const MatrixXd& columns, const VectorXd& e) {
   if (columns.cols() == 0) return e;
   const MatrixXd products = columns.transpose() * columns;
-  return e - columns *
-                 products.completeOrthogonalDecomposition().solve(columns.transpose() * e);
+  return e - columns * products.completeOrthogonalDecomposition().solve(columns.transpose() * e);
 }
 
 std::optional<Rival> rival_of(const WhiteResidual& white, const VectorXd& e, double order,

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <vector>
 
 #include "runtime/ripple/ripple.h"
 
 namespace dyngen::runtime {
+
+/// Orders are periods per turn.
+inline constexpr double kOrderTurn = 2 * std::numbers::pi;
 
 /// Samples of one run between two reversals.
 struct OneWay {

@@ -79,9 +79,8 @@ RippleTruth made_ripple(const MadeRipple& made, std::mt19937& random) {
       const bool forward = data.dq[k] >= 0;
       const double angle = made.order * data.q[k] - (forward ? made.phase : made.backward_phase);
       const double square = std::pow(made.order * data.dq[k], 2), turn = made.order * data.ddq[k];
-      wave[k] = made.position_error
-                    ? -(square * std::cos(angle) + turn * std::sin(angle))
-                    : (forward ? 1 : made.backward) * std::cos(angle);
+      wave[k] = made.position_error ? -(square * std::cos(angle) + turn * std::sin(angle))
+                                    : (forward ? 1 : made.backward) * std::cos(angle);
     }
     const VectorXd white = wave.tail(samples - 1) - made.memory * wave.head(samples - 1);
     truth.amplitude = made.noise * std::sqrt(made.lambda / white.squaredNorm());
@@ -90,8 +89,8 @@ RippleTruth made_ripple(const MadeRipple& made, std::mt19937& random) {
   data.residual += noise_of(made, random, samples);
   if (made.slow > 0) {
     // as friction that is bent and a gravity that is a little wrong
-    data.residual.array() += made.slow * (3 * data.dq.array()).tanh() +
-                             made.slow * (1.7 * data.q.array() + 0.4).sin();
+    data.residual.array() +=
+        made.slow * (3 * data.dq.array()).tanh() + made.slow * (1.7 * data.q.array() + 0.4).sin();
   }
   if (made.line > 0) {
     for (Index k = 0; k < samples; ++k) {

@@ -52,7 +52,8 @@ TEST(Ripple, FindsOrdersFrom5To400) {
     const RippleResult result = analyse_ripple(truth.data);
     ASSERT_TRUE(result.judged) << result.why_not;
     const RippleLine* line = near(result, made.order);
-    const bool seen = line != nullptr && std::abs(line->order.value - made.order) < result.resolution;
+    const bool seen =
+        line != nullptr && std::abs(line->order.value - made.order) < result.resolution;
     if (!seen) {
       std::cout << "missed: order " << made.order << " of lambda " << made.lambda << "\n";
       continue;
@@ -243,7 +244,7 @@ TEST(Ripple, AtOneSpeedAnOrderAboveNyquistIsNotCalledARipple) {
   made.sweep = Sweep::kSpeeds;
   made.rate = 250;
   made.seconds = 40;
-  made.reach = 60;  // turns: nearly all samples at 1.3 rad/s
+  made.reach = 60;                                     // turns: nearly all samples at 1.3 rad/s
   made.order = 2 * std::numbers::pi * 250 / 1.3 - 80;  // 1128: 233 Hz, seen at 17 Hz
   made.lambda = 500;
   const RippleResult result = analyse_ripple(made_ripple(made, random).data);
@@ -251,6 +252,8 @@ TEST(Ripple, AtOneSpeedAnOrderAboveNyquistIsNotCalledARipple) {
   for (const RippleLine& line : result.lines) {
     ADD_FAILURE() << "order " << line.order.value;
   }
+  ASSERT_FALSE(result.ruled_out.empty());
+  EXPECT_NE(result.ruled_out.front().kind, RippleKind::kTorque);
 }
 
 TEST(Ripple, StatedOrdersAreTestedFirst) {

@@ -54,8 +54,8 @@ struct FitReport {
   std::optional<HierarchyFit> hierarchy;    ///< robots that share inertia
   std::optional<WrittenBack> written_back;  ///< where -o is URDF or MJCF
   TwoEncoders two_encoders;
-  JointRipples ripples;
   std::vector<std::string> notes;
+  JointRipples ripples;
 
   [[nodiscard]] const MethodFit& main() const { return fits.front(); }
 };

@@ -77,25 +77,23 @@ void compare(JointRipple& own, const EffectRipple& effect) {
     const RippleNumber& amplitude = lines[i].both.amplitude;
     std::string judged = "has the same order";
     if (std::isfinite(effect.amplitude)) {
-      const bool within =
-          effect.amplitude >= amplitude.low && effect.amplitude <= amplitude.high;
+      const bool within = effect.amplitude >= amplitude.low && effect.amplitude <= amplitude.high;
       judged = within ? "agrees with it" : "has the same order and another amplitude";
     }
-    own.remarks.push_back(fmt::format("The equations have {}; the torque at full rate {}: {:.3g} N m "
-                                      "({:.3g} to {:.3g}).",
-                                      words, judged, amplitude.value, amplitude.low,
-                                      amplitude.high));
+    own.remarks.push_back(
+        fmt::format("The equations have {}; the torque at full rate {}: {:.3g} N m "
+                    "({:.3g} to {:.3g}).",
+                    words, judged, amplitude.value, amplitude.low, amplitude.high));
     return;
   }
   if (!own.result.judged || effect.order < own.result.least_order ||
       effect.order > own.result.most_order) {
-    own.remarks.push_back(
-        fmt::format("The equations have {}; the torque at full rate was not looked at there.",
-                    words));
+    own.remarks.push_back(fmt::format(
+        "The equations have {}; the torque at full rate was not looked at there.", words));
     return;
   }
-  own.remarks.push_back(fmt::format(
-      "The equations have {}; the torque at full rate does not show it.", words));
+  own.remarks.push_back(
+      fmt::format("The equations have {}; the torque at full rate does not show it.", words));
 }
 
 }  // namespace
@@ -142,7 +140,8 @@ std::vector<RippleRun> ripple_runs(const LinearModel& model, const VectorXd& bet
         at += rows;
       }
       for (std::size_t j = 0; j < source.condition.torque_dead.size(); ++j) {
-        if (source.condition.torque_dead[j]) run.residual.col(static_cast<Index>(j)).setConstant(kNoNumber);
+        if (source.condition.torque_dead[j])
+          run.residual.col(static_cast<Index>(j)).setConstant(kNoNumber);
       }
       runs.push_back(std::move(run));
     }

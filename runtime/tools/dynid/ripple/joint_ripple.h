@@ -17,9 +17,9 @@ namespace dyngen::runtime {
 
 /// A run at full rate with the torque that the slow model leaves.
 struct RippleRun {
-  double sample_time = 0;             ///< s
-  Eigen::MatrixXd q, dq, ddq;         ///< (N x n)
-  Eigen::MatrixXd residual;           ///< (N x n); NaN of a joint without torque
+  double sample_time = 0;      ///< s
+  Eigen::MatrixXd q, dq, ddq;  ///< (N x n)
+  Eigen::MatrixXd residual;    ///< (N x n); NaN of a joint without torque
 };
 
 /// Samples that are looked at: two minutes at 1 kHz take some seconds for six joints.
@@ -59,8 +59,8 @@ struct JointRipples {
 
 /// @param gears  turns of the motor for one of each joint; may be empty
 JointRipples ripples_of(const LinearModel& model, const std::vector<RippleRun>& runs,
-                        const std::vector<double>& gears,
-                        const std::vector<EffectRipple>& effects, ProgressLine& progress);
+                        const std::vector<double>& gears, const std::vector<EffectRipple>& effects,
+                        ProgressLine& progress);
 
 /// Effects `cogging` of the lines that no effect has yet, for a robot file: torques of the position
 /// that both directions share.

@@ -11,7 +11,8 @@ namespace dyngen::runtime {
 namespace {
 
 std::string order_words(const RippleLine& line) {
-  return fmt::format("order {:.5g} +- {:.1g}", line.order.value, line.order.high - line.order.value);
+  return fmt::format("order {:.5g} +- {:.1g}", line.order.value,
+                     line.order.high - line.order.value);
 }
 
 std::string note_of(const RippleLine& line, const std::string& found_as) {
@@ -35,14 +36,15 @@ std::vector<std::string> line_remarks(const RippleLine& line) {
                       " may be a torque or a position error: the speed varies too little to tell.");
   }
   if (line.by_speed) {
-    remarks.push_back(order + " changes with the speed: a position error, or the control loop, has "
-                              "a part in it.");
+    remarks.push_back(order +
+                      " changes with the speed: a position error, or the control loop, has "
+                      "a part in it.");
   }
   if (line.differs) {
-    remarks.push_back(fmt::format("{} differs between the directions: {:.3g} N m forward, {:.3g} N "
-                                  "m backward.",
-                                  order, line.forward.amplitude.value,
-                                  line.backward.amplitude.value));
+    remarks.push_back(
+        fmt::format("{} differs between the directions: {:.3g} N m forward, {:.3g} N "
+                    "m backward.",
+                    order, line.forward.amplitude.value, line.backward.amplitude.value));
   }
   return remarks;
 }
@@ -50,7 +52,8 @@ std::vector<std::string> line_remarks(const RippleLine& line) {
 std::string ruled_out_words(const RippleLine& line) {
   if (line.kind == RippleKind::kImage) {
     return fmt::format(
-        "Order {:.5g} may be the image of order {:.5g} above Nyquist: the joint moves at one speed. "
+        "Order {:.5g} may be the image of order {:.5g} above Nyquist: the joint moves at one "
+        "speed. "
         "It is no ripple here.",
         line.order.value, line.rival);
   }
@@ -65,8 +68,8 @@ ReportView view_of(const JointRipple& own) {
   panel.x_label = "order [periods per turn]";
   panel.y_label = "amplitude [N m]";
   panel.x = result.shown_order;
-  panel.series.push_back({"torque less the slow model", Role::kData, result.shown_amplitude, {}, {},
-                          false, false});
+  panel.series.push_back(
+      {"torque less the slow model", Role::kData, result.shown_amplitude, {}, {}, false, false});
   panel.series.push_back({"limit of noise", Role::kFloor, result.shown_noise, {}, {}, true, false});
   if (!result.lines.empty()) {
     ReportCloud cloud{"ripple", Role::kModel, {}, {}};
@@ -145,11 +148,11 @@ std::vector<std::string> ripple_comment(const JointRipples& ripples) {
     for (std::size_t i = 0; i < own.result.lines.size(); ++i) {
       const RippleLine& line = own.result.lines[i];
       if (line.kind != RippleKind::kTorque || !own.found_as[i].empty()) continue;
-      comment.push_back(fmt::format("  ripple of {}: order {:.6g} +- {:.1g}, {:.3g} N m ({:.3g} to "
-                                    "{:.3g})",
-                                    joint_words(own.result.joint), line.order.value,
-                                    line.order.high - line.order.value, line.both.amplitude.value,
-                                    line.both.amplitude.low, line.both.amplitude.high));
+      comment.push_back(fmt::format(
+          "  ripple of {}: order {:.6g} +- {:.1g}, {:.3g} N m ({:.3g} to "
+          "{:.3g})",
+          joint_words(own.result.joint), line.order.value, line.order.high - line.order.value,
+          line.both.amplitude.value, line.both.amplitude.low, line.both.amplitude.high));
     }
   }
   return comment;
