@@ -147,6 +147,14 @@ OrderSpectrum::OrderSpectrum(const WhiteResidual& white, const VectorXd& e, cons
   }
 }
 
+OrderSpectrum::OrderSpectrum(const WhiteResidual& white, const VectorXd& e, const OrderReach& reach,
+                             const RippleOptions& options, double order)
+    : reach_(reach), options_(options) {
+  double from = reach.least;
+  while (2 * from < std::min(order, reach.most)) from *= 2;
+  bands_.push_back(band(white, e, from, std::min(2 * from, reach.most)));
+}
+
 OrderSpectrum::Band OrderSpectrum::band(const WhiteResidual& white, const VectorXd& e, double from,
                                         double to) const {
   const RippleData& data = white.data();

@@ -59,6 +59,9 @@ class OrderSpectrum {
  public:
   OrderSpectrum(const WhiteResidual& white, const Eigen::VectorXd& e, const OrderReach& reach,
                 const RippleOptions& options);
+  /// The octave of one order alone.
+  OrderSpectrum(const WhiteResidual& white, const Eigen::VectorXd& e, const OrderReach& reach,
+                const RippleOptions& options, double order);
 
   /// The order that stands out most, but for those near `known`.
   struct Peak {

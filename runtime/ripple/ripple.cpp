@@ -66,11 +66,12 @@ class RippleAnalysis {
     left_ = white_.start();
     const int rounds = 2 * options_.most_lines;  // those that are ruled out as well
     for (int round = 0; round < rounds; ++round) {
-      if (static_cast<int>(result_.lines.size()) >= options_.most_lines) break;
       const OrderSpectrum spectrum(white_, left_, reach_, options_);
       std::optional<OrderCandidate> best = best_stated(spectrum);
       if (!best) best = best_of_all(spectrum);
       if (!best) break;
+      result_.cut_off = static_cast<int>(result_.lines.size()) >= options_.most_lines;
+      if (result_.cut_off) break;
       take(*best);
     }
     answer();
@@ -146,7 +147,7 @@ class RippleAnalysis {
     own.sums = sums_at(order);
     const VectorXd beside =
         left_beside(wave_columns(white_, order, options_.most_per_sample).columns, left_);
-    const OrderSpectrum without(white_, beside, reach_, options_);
+    const OrderSpectrum without(white_, beside, reach_, options_, order);
     const std::optional<OrderTest> level = without.level_at(order);
     if (!level) return std::nullopt;
     own.test = order_test(own.sums, level->level, level->degrees);
@@ -376,8 +377,8 @@ void set_waves(RippleLine& line, const WaveColumns& waves, const RobustRegressio
   line.both = wave_of(mean[0], mean[1], of_mean, fit.degrees);
 }
 
-/// Amplitudes and phases of all lines together, with intervals for noise of any correlation. A
-/// position error has those that its torque has in the mean.
+/// Amplitudes and phases of all lines together, with intervals for noise of any correlation. What
+/// changes with the speed has those of the mean.
 void RippleAnalysis::answer_waves() {
   if (result_.lines.empty()) return;
   std::vector<Index> rows;
@@ -392,7 +393,7 @@ void RippleAnalysis::answer_waves() {
   for (std::size_t i = 0; i < result_.lines.size(); ++i) {
     RippleLine& line = result_.lines[i];
     const WaveColumns waves = wave_columns(white_, line.order.value, options_.most_per_sample);
-    if (line.kind != RippleKind::kPosition) {
+    if (line.kind != RippleKind::kPosition && !line.by_speed) {
       set_waves(line, waves, fit, places_[i], options_.beside);
       continue;
     }

@@ -9,9 +9,9 @@ namespace dyngen::runtime {
 
 /// Numbers that decide what is a ripple.
 struct RippleOptions {
-  /// Probability that noise shows any order as strong, below which an order is kept: one false
-  /// order in a thousand joints.
-  double chance = 1e-3;
+  /// Probability that noise shows any order as strong, below which an order is kept: 200 joints
+  /// without ripple show none 19 times in 20, 1 - 0.95^(1/200).
+  double chance = 2.5e-4;
   /// Probability of what is left of an order beside a rival explanation, below which the rival does
   /// not explain it: a single test.
   double beside = 0.01;
@@ -36,7 +36,7 @@ struct RippleOptions {
   /// an amplitude that changes over the travel.
   double part_of_line = 3;
   /// Orders of a joint that are sought at most.
-  int most_lines = 8;
+  int most_lines = 12;
   /// Samples in motion from which a joint is judged: 60 periods of 16 samples.
   Eigen::Index least_moving = 1000;
   /// Coefficients of the noise's autoregression at most: one resonance takes two.
@@ -96,11 +96,12 @@ struct RippleResult {
   std::string why_not;                ///< a sentence where it is not judged
   std::vector<RippleLine> lines;      ///< kTorque and kPosition, strongest first
   std::vector<RippleLine> ruled_out;  ///< kFrequency and kImage
+  bool cut_off = false;               ///< more orders stand out than are sought
   double below = 0;                   ///< N m: a ripple of this amplitude would have been found
   double least_order = 0, most_order = 0, resolution = 0;  ///< that were looked at
   double noise = 0;  ///< N m, standard deviation of the white part of the noise
   /// For charts: (M) orders, amplitudes that the torque shows there, and the amplitude of noise
-  /// that one order in a thousand exceeds.
+  /// above which an order is found.
   Eigen::VectorXd shown_order, shown_amplitude, shown_noise;
 };
 

@@ -155,6 +155,7 @@ Check ripple() {
   return object({{"joint", kind("i")}, {"judged", flag}, {"remarks", array_of(text)}},
                 {{"lines", array_of(line)},
                  {"ruled_out", array_of(ruled_out)},
+                 {"cut_off", flag},
                  {"below", number},
                  {"least_order", number},
                  {"most_order", number},

@@ -65,6 +65,14 @@ bool same_order(const RippleLine& line, double order) {
          std::max(kSameOrder * order, line.order.high - line.order.value);
 }
 
+/// Whether one wave stands for both directions: a row has no other.
+bool is_shared(const RippleLine& line) {
+  constexpr double kHalf = 0.7;  // its square: half of the power
+  return line.both.amplitude.low > 0 &&
+         line.both.amplitude.value >=
+             kHalf * std::max(line.forward.amplitude.value, line.backward.amplitude.value);
+}
+
 void compare(JointRipple& own, const EffectRipple& effect) {
   const std::string words = std::isfinite(effect.amplitude)
                                 ? fmt::format("{} of order {:.4g} with {:.3g} N m", effect.name,
@@ -240,18 +248,23 @@ JointRipples ripples_of(const LinearModel& model, const std::vector<RippleRun>& 
   return answer;
 }
 
+bool makes_row(const JointRipple& ripple, std::size_t line) {
+  constexpr double kMostOrder = 1000;  // of the effect's parameter n
+  const RippleLine& own = ripple.result.lines[line];
+  return own.kind == RippleKind::kTorque && ripple.found_as[line].empty() &&
+         own.order.value <= kMostOrder && is_shared(own);
+}
+
 std::vector<EffectInstance> ripple_effects(const JointRipples& ripples, const RobotModel& model,
                                            const EffectCatalogue& catalogue) {
   std::vector<EffectInstance> effects;
   const auto file = catalogue.find("cogging");
   if (!file) return effects;
   const EffectLaw law = effect_law(*file);
-  constexpr double kMostOrder = 1000;  // of the effect's parameter n
   for (const JointRipple& own : ripples.joints) {
     for (std::size_t i = 0; i < own.result.lines.size(); ++i) {
       const RippleLine& line = own.result.lines[i];
-      if (line.kind != RippleKind::kTorque || !own.found_as[i].empty()) continue;
-      if (line.order.value > kMostOrder) continue;
+      if (!makes_row(own, i)) continue;
       EffectInstance effect;
       effect.law = law;
       effect.joint = own.result.joint;

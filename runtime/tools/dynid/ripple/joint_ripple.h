@@ -62,8 +62,11 @@ JointRipples ripples_of(const LinearModel& model, const std::vector<RippleRun>& 
                         const std::vector<double>& gears, const std::vector<EffectRipple>& effects,
                         ProgressLine& progress);
 
-/// Effects `cogging` of the lines that no effect has yet, for a robot file: torques of the position
-/// that both directions share.
+/// Whether a line is a row `cogging` of the robot file: a torque of the position that both
+/// directions share, and that no effect has yet.
+bool makes_row(const JointRipple& ripple, std::size_t line);
+
+/// The effects of these rows.
 std::vector<EffectInstance> ripple_effects(const JointRipples& ripples, const RobotModel& model,
                                            const EffectCatalogue& catalogue);
 

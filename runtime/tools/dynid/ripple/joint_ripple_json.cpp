@@ -58,6 +58,7 @@ Json joint_json(const JointRipple& own) {
   for (const RippleLine& line : result.ruled_out) ruled_out.push_back(ruled_out_json(line));
   json["lines"] = std::move(lines);
   json["ruled_out"] = std::move(ruled_out);
+  json["cut_off"] = result.cut_off;
   json["below"] = number(result.below);
   json["least_order"] = number(result.least_order);
   json["most_order"] = number(result.most_order);

@@ -22,30 +22,46 @@ std::string note_of(const RippleLine& line, const std::string& found_as) {
   return note;
 }
 
-/// What a line is besides a torque of the position.
-std::vector<std::string> line_remarks(const RippleLine& line) {
-  std::vector<std::string> remarks;
-  const std::string order = fmt::format("Order {:.5g}", line.order.value);
-  if (line.kind == RippleKind::kPosition) {
-    remarks.push_back(order +
-                      " grows with speed and acceleration as the torque of a position error does: "
-                      "of the gear or the encoder. It is not compensated.");
+/// "Order 48 grows", "Orders 48, 96 grow": of the lines of a joint that are so; empty: none is.
+template <typename Is>
+std::string of_orders(const RippleResult& result, const Is& is, const char* one, const char* many) {
+  std::string orders;
+  int count = 0;
+  for (const RippleLine& line : result.lines) {
+    if (!is(line)) continue;
+    orders += fmt::format("{}{:.5g}", orders.empty() ? "" : ", ", line.order.value);
+    ++count;
   }
-  if (line.open) {
-    remarks.push_back(order +
-                      " may be a torque or a position error: the speed varies too little to tell.");
-  }
-  if (line.by_speed) {
-    remarks.push_back(order +
-                      " changes with the speed: a position error, or the control loop, has "
-                      "a part in it.");
-  }
-  if (line.differs) {
+  if (count == 0) return {};
+  return fmt::format("{} {} {}", count == 1 ? "Order" : "Orders", orders, count == 1 ? one : many);
+}
+
+/// What lines are besides torques of the position.
+std::vector<std::string> line_remarks(const RippleResult& result) {
+  std::vector<std::string> remarks = {
+      of_orders(
+          result, [](const RippleLine& line) { return line.kind == RippleKind::kPosition; },
+          "grows with speed and acceleration as a position error of the gear or the encoder does. "
+          "It is not compensated.",
+          "grow with speed and acceleration as position errors of the gear or the encoder do. They "
+          "are not compensated."),
+      of_orders(
+          result, [](const RippleLine& line) { return line.open; },
+          "may be a torque or a position error: the speed varies too little to tell.",
+          "may be torques or position errors: the speed varies too little to tell."),
+      of_orders(
+          result, [](const RippleLine& line) { return line.by_speed; },
+          "changes with the speed: a position error, a delay or the control loop has a part in it.",
+          "change with the speed: a position error, a delay or the control loop has a part in "
+          "them."),
+      of_orders(
+          result, [](const RippleLine& line) { return line.differs; },
+          "differs between the directions.", "differ between the directions.")};
+  if (result.cut_off) {
     remarks.push_back(
-        fmt::format("{} differs between the directions: {:.3g} N m forward, {:.3g} N "
-                    "m backward.",
-                    order, line.forward.amplitude.value, line.backward.amplitude.value));
+        fmt::format("More orders stand out; the search ended after {}.", result.lines.size()));
   }
+  std::erase(remarks, std::string());
   return remarks;
 }
 
@@ -92,9 +108,7 @@ std::vector<std::string> all_remarks(const JointRipples& ripples) {
     const auto add = [&](const std::string& remark) {
       remarks.push_back(fmt::format("{}: {}", joint_words(own.result.joint), remark));
     };
-    for (const RippleLine& line : own.result.lines) {
-      for (const std::string& remark : line_remarks(line)) add(remark);
-    }
+    for (const std::string& remark : line_remarks(own.result)) add(remark);
     for (const RippleLine& line : own.result.ruled_out) add(ruled_out_words(line));
     for (const std::string& remark : own.remarks) add(remark);
   }
@@ -119,6 +133,7 @@ std::vector<RippleTextLine> ripple_lines(const JointRipples& ripples) {
                        fmt::format("{:.3g} .. {:.3g}", amplitude.low, amplitude.high),
                        note_of(line, own.found_as[i])});
     }
+    if (result.cut_off) continue;
     lines.push_back({result.joint, result.lines.empty() ? "orders" : "other orders", "not seen",
                      fmt::format("below {:.3g} N m", result.below),
                      fmt::format("{:.3g} to {:.4g}", result.least_order, result.most_order)});
@@ -131,7 +146,7 @@ std::string ripple_text(const JointRipples& ripples) {
   std::string text = "\nripple, periods per turn of the joint, 95 % intervals\n";
   int joint = -1;
   for (const RippleTextLine& line : ripple_lines(ripples)) {
-    text += fmt::format("{:<8}{:<19}{:<13}{:<17}{}",
+    text += fmt::format("{:<8}{:<21}{:<12}{:<18}{}",
                         line.joint != joint ? fmt::format("joint {}", line.joint + 1) : "",
                         line.quantity, line.value, line.interval, line.note);
     while (text.back() == ' ') text.pop_back();
@@ -147,7 +162,7 @@ std::vector<std::string> ripple_comment(const JointRipples& ripples) {
   for (const JointRipple& own : ripples.joints) {
     for (std::size_t i = 0; i < own.result.lines.size(); ++i) {
       const RippleLine& line = own.result.lines[i];
-      if (line.kind != RippleKind::kTorque || !own.found_as[i].empty()) continue;
+      if (!makes_row(own, i)) continue;
       comment.push_back(fmt::format(
           "  ripple of {}: order {:.6g} +- {:.1g}, {:.3g} N m ({:.3g} to "
           "{:.3g})",
@@ -172,7 +187,7 @@ ReportSection ripple_section(const JointRipples& ripples) {
   chart.title = "Order spectrum of the torque";
   chart.caption =
       "Amplitude of each order in the torque at full rate, less the slow model. An order above the "
-      "limit is found: noise is as large in one of a thousand joints.";
+      "limit is found: noise is as large in one of 4000 joints.";
   chart.choice = "joint";
   for (const JointRipple& own : ripples.joints) {
     if (own.result.judged) chart.views.push_back(view_of(own));
