@@ -124,6 +124,44 @@ Check two_encoders() {
                  {"degrees", kind("i")}});
 }
 
+/// Orders of a joint's angle; a joint that is not judged has remarks alone.
+Check ripple() {
+  const Check number = kind("n0"), text = kind("s"), flag = kind("b");
+  const Check interval =
+      object({{"value", number}, {"low", number}, {"high", number}, {"unit", text}});
+  const Check wave = object({{"amplitude", interval}, {"phase", interval}});
+  const Check wave_or_null = [wave](const Json& value, const std::string& place, Faults& faults) {
+    if (!value.is_null()) wave(value, place, faults);
+  };
+  const Check line = object({{"kind", one_of({"torque", "position_error"})},
+                             {"order", interval},
+                             {"stated", number},
+                             {"of_motor", number},
+                             {"both", wave_or_null},
+                             {"forward", wave_or_null},
+                             {"backward", wave_or_null},
+                             {"directions_differ", flag},
+                             {"position_error_open", flag},
+                             {"changes_with_speed", flag},
+                             {"p", number},
+                             {"lambda", number},
+                             {"from_hz", number},
+                             {"to_hz", number},
+                             {"found_as", text}});
+  const Check ruled_out = object({{"order", number},
+                                  {"reason", one_of({"fixed_frequency", "image"})},
+                                  {"hz", number},
+                                  {"other_order", number}});
+  return object({{"joint", kind("i")}, {"judged", flag}, {"remarks", array_of(text)}},
+                {{"lines", array_of(line)},
+                 {"ruled_out", array_of(ruled_out)},
+                 {"cut_off", flag},
+                 {"below", number},
+                 {"least_order", number},
+                 {"most_order", number},
+                 {"resolution", number}});
+}
+
 Check schema() {
   const Check text = kind("s"), number = kind("n0"), joint = kind("i"), texts = array_of(text);
   const Check where = object({{"variable", kind("s0")},
@@ -173,7 +211,8 @@ Check schema() {
                            {"rms_after", array_of(number)},
                            {"noise_floor", array_of(number)}})},
        {"effort", object({{"done", number}, {"limit", number}, {"not_searched", array_of(text)}})},
-       {"next_experiment", object({{"purpose", kind("s0")}, {"trajectory", kind("s0")}})}},
+       {"next_experiment", object({{"purpose", kind("s0")}, {"trajectory", kind("s0")}})},
+       {"ripple", array_of(ripple())}},
       {{"two_encoders", array_of(two_encoders())}});
 }
 

@@ -29,6 +29,7 @@
 #include "runtime/tools/dynid/recordings/inputs.h"
 #include "runtime/tools/dynid/recordings/judged.h"
 #include "runtime/tools/dynid/recordings/loading.h"
+#include "runtime/tools/dynid/ripple/joint_ripple.h"
 #include "runtime/tools/dynid/robot/identified_file.h"
 #include "runtime/tools/dynid/robot/write_back.h"
 #include "runtime/tools/dynid/two_encoders/two_encoders.h"
@@ -199,6 +200,15 @@ void add_two_encoders(const ToolOptions& options, const WindUpRules& rules,
   compare_elasticity(report.two_encoders, found);
 }
 
+/// Ripple above the band of the equations, and rows of what no finding has.
+void add_ripple(const std::vector<RippleRun>& runs, const ToolOptions& options,
+                const DescribedRobot& robot, const EffectCatalogue& catalogue,
+                ProgressLine& progress, DiagnosisReport& report) {
+  report.ripples = ripples_of(robot.linear, runs, gears_of_map(options),
+                              ripples_in(report.diagnosis.fit.point.effects), progress);
+  report.ripple_effects = ripple_effects(report.ripples, robot.model, catalogue);
+}
+
 /// The JSON and the page, then the robot file: an answer is not lost with it.
 void write_outputs(const ToolOptions& options, const DescribedRobot& robot, DiagnosisReport& report,
                    ProgressLine& progress) {
@@ -253,6 +263,7 @@ int run_diagnose(const ToolOptions& options) {
   input.robot = effect_robot(robot);
   Diagnosis diagnosis;
   DiagnosisViews views;
+  std::vector<RippleRun> runs;
   Eigen::VectorXd posture = Eigen::VectorXd::Zero(robot.linear.joints());
   const auto observer = [&](const DiagnosedRecordings& shown) {
     std::vector<std::string> plots;
@@ -260,6 +271,7 @@ int run_diagnose(const ToolOptions& options) {
       plots.push_back(catalogue.find(effect.law.name)->plot);
     }
     views = views_for_report(shown, plots);
+    if (!settings.residual_only) runs = ripple_runs(shown.train, shown.after);
     const Eigen::MatrixXd& q = shown.heldout.runs.front().motion.q;
     posture = q.row(q.rows() / 2);
   };
@@ -304,6 +316,9 @@ int run_diagnose(const ToolOptions& options) {
     late.during([&] {
       add_two_encoders(how, settings.rules.wind_up, robot, input.train, progress, report);
     });
+  }
+  if (answered && !runs.empty()) {
+    late.during([&] { add_ripple(runs, how, robot, catalogue, progress, report); });
   }
   if (answered && !options.diagnose.loop.controller.empty()) {
     late.during([&] {

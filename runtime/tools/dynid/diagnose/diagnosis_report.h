@@ -12,6 +12,7 @@
 #include "runtime/report/residual_views.h"
 #include "runtime/tools/dynid/diagnose/forward_comparison.h"
 #include "runtime/tools/dynid/diagnose/text_plot.h"
+#include "runtime/tools/dynid/ripple/joint_ripple.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 #include "runtime/tools/dynid/robot/identified_description.h"
 #include "runtime/tools/dynid/two_encoders/two_encoders.h"
@@ -60,6 +61,9 @@ struct DiagnosisReport {
   std::vector<std::string> written;          ///< files
   std::optional<WrittenBack> written_back;   ///< where -o is URDF or MJCF
   TwoEncoders two_encoders;
+  JointRipples ripples;
+  /// Rows of the improved file: ripples that no finding has.
+  std::vector<EffectInstance> ripple_effects;
 
   [[nodiscard]] int joints() const { return static_cast<int>(revolute.size()); }
   /// Unit of a joint's torque: "N m" or "N".

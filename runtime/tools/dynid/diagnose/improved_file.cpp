@@ -24,7 +24,11 @@ std::vector<std::string> findings_comment(const DiagnosisReport& report,
                                     unit == "1" ? "" : " " + unit));
     }
   }
-  if (!diagnosis.findings.empty()) comment.emplace_back("(+-: intervals of 95 %)");
+  const std::vector<std::string> ripples = ripple_comment(report.ripples);
+  comment.insert(comment.end(), ripples.begin(), ripples.end());
+  if (!diagnosis.findings.empty() || !ripples.empty()) {
+    comment.emplace_back("(+-: intervals of 95 %)");
+  }
   comment.emplace_back("");
   return comment;
 }
@@ -34,6 +38,9 @@ std::string improved_text(const DiagnosisReport& report, const DescribedRobot& r
   std::vector<std::string> rows;
   for (const EffectInstance& effect : point.effects) {
     if (effect.recording >= 0) continue;  // an event of that recording is none of the robot
+    rows.push_back(effect_row(effect, robot.model));
+  }
+  for (const EffectInstance& effect : report.ripple_effects) {
     rows.push_back(effect_row(effect, robot.model));
   }
   std::vector<std::string> comment = findings_comment(report, robot);

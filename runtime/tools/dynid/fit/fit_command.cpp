@@ -408,6 +408,11 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
                                           options.diagnose.diagnosis.rules.wind_up, progress);
     compare_elasticity(report.two_encoders, elasticity_of(report));
   }
+  if (!with_effects && model.size() > 0) {
+    const std::vector<RippleRun> runs =
+        ripple_runs(model, report.main().estimate.beta, train.sources);
+    report.ripples = ripples_of(model, runs, gears_of_map(options), {}, progress);
+  }
   if (options.consistent) {
     progress.show("physical consistency", 0, 1);
     report.consistent = fit_consistently(report);

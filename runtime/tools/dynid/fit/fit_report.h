@@ -13,6 +13,7 @@
 #include "runtime/report/document.h"
 #include "runtime/tools/dynid/effects/effect_report.h"
 #include "runtime/tools/dynid/recordings/loading.h"
+#include "runtime/tools/dynid/ripple/joint_ripple.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 #include "runtime/tools/dynid/robot/identified_description.h"
 #include "runtime/tools/dynid/two_encoders/two_encoders.h"
@@ -54,6 +55,7 @@ struct FitReport {
   std::optional<WrittenBack> written_back;  ///< where -o is URDF or MJCF
   TwoEncoders two_encoders;
   std::vector<std::string> notes;
+  JointRipples ripples;
 
   [[nodiscard]] const MethodFit& main() const { return fits.front(); }
 };

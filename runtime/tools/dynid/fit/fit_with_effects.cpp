@@ -15,6 +15,7 @@
 #include "runtime/tools/dynid/effects/effect_laws.h"
 #include "runtime/tools/dynid/effects/robot_tangents.h"
 #include "runtime/tools/dynid/fit/held_uncertainty.h"
+#include "runtime/tools/dynid/two_encoders/two_encoders.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -128,6 +129,9 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
   summary.equations = factor_of(report.data.rows, model.columns, model.size());
   summary.noise = noise_at(effects.fit.base, summary.equations, report.data.rows);
   report.data.summary = std::move(summary);
+
+  report.ripples = ripples_of(model, ripple_runs(data, point), gears_of_map(options),
+                              ripples_in(point.effects), progress);
 
   MethodFit fit;
   fit.method = method;
