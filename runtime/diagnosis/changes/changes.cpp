@@ -160,6 +160,7 @@ class ChangeWriter {
     }
     finding.elsewhere = fmt::format("{}", fmt::join(elsewhere, ", "));
     finding.parameters = parameters(own, form, first, finding.effect);
+    if (own.kind == ChangeCandidate::Kind::kFriction) keep_changed(finding);
     ChangeSet without = posterior_.best;
     without.erase(without.begin() + static_cast<std::ptrdiff_t>(member));
     finding.evidence.lambda =
@@ -188,6 +189,23 @@ class ChangeWriter {
       effect.parameters[own.parameters[i]] = fit.value;
     }
     return fits;
+  }
+
+  /// Friction that did not change is no parameter of the change.
+  static void keep_changed(Finding& finding) {
+    for (std::size_t p = finding.parameters.size(); p-- > 0;) {
+      if (!finding.parameters[p].held) continue;
+      const auto at = static_cast<std::ptrdiff_t>(p);
+      std::vector<EffectParameter>& names = finding.effect.law.parameters;
+      finding.formula = names[p].name == "Fc" ? "Fv*qd" : "Fc*sign(qd)";
+      names.erase(names.begin() + at);
+      finding.parameters.erase(finding.parameters.begin() + at);
+    }
+    VectorXd& values = finding.effect.parameters;
+    values.resize(static_cast<Index>(finding.parameters.size()));
+    for (Index p = 0; p < values.size(); ++p) {
+      values[p] = finding.parameters[static_cast<std::size_t>(p)].value;
+    }
   }
 
   static std::string place_of(const ChangeCandidate& own) {

@@ -167,8 +167,6 @@ struct Diagnosis {
   std::vector<ConditionLine> condition;
   std::vector<UnjudgedJoint> not_judged;  ///< joints of which nothing is said
   NoiseFloor noise;
-  /// How far sessions differ without a change, in a sentence; empty: there is no reference.
-  std::string sessions;
   std::vector<StructureTest> before, after;  ///< of every joint: of the model alone, with findings
   std::vector<Finding> findings;
   std::vector<Undecidable> undecidable;
@@ -180,6 +178,8 @@ struct Diagnosis {
   NextExperiment next;
   EffortUsed effort;
   EffectFit fit;  ///< of the model with the findings, to the training recordings
+  /// How far sessions differ without a change, in a sentence; empty: there is no reference.
+  std::string sessions{};
 };
 
 }  // namespace dyngen::runtime

@@ -17,7 +17,7 @@ using namespace runtime;
 
 namespace {
 
-constexpr double kLength = 0.5;  // m, of link 1
+constexpr double kFirstLink = 0.5;  // m, its length
 
 /// Base parameters that one unit of a load's parameter adds.
 VectorXd unit_load(int link, const std::string& name) {
@@ -27,8 +27,8 @@ VectorXd unit_load(int link, const std::string& name) {
   if (name == "MX") beta[zz + 1] = 1;
   if (name == "MY") beta[zz + 2] = 1;
   if (name == "M" && link == 2) {
-    beta[0] = kLength * kLength;
-    beta[1] = kLength;
+    beta[0] = kFirstLink * kFirstLink;
+    beta[1] = kFirstLink;
   }
   return beta;
 }
