@@ -21,8 +21,8 @@ using Eigen::VectorXd;
 // another way than by a body takes a rebuilt link.
 constexpr double kInertiaOdds = 0.05;
 
-constexpr std::array<std::string_view, kBodyParameters> kBodyNames = {
-    "XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"};
+constexpr std::array<std::string_view, kBodyParameters> kBodyNames = {"XX", "XY", "XZ", "YY", "YZ",
+                                                                      "ZZ", "MX", "MY", "MZ", "M"};
 
 /// A law that names a change of parameters of the model: it is never evaluated.
 EffectLaw law_of(const std::string& family, const std::string& title,
@@ -193,15 +193,14 @@ class Candidates {
       places.push_back(coulomb);
     }
     if (viscous >= 0) {
-      parameters.push_back(parameter_of_law("Fv", turns ? "N m s/rad" : "N s/m",
-                                            "change of viscous friction"));
+      parameters.push_back(
+          parameter_of_law("Fv", turns ? "N m s/rad" : "N s/m", "change of viscous friction"));
       places.push_back(viscous);
     }
     if (!places.empty()) {
       for (const Index place : places) friction.base.push_back(static_cast<int>(place));
       friction.forms = forms_of(static_cast<int>(places.size()));
-      friction.effect =
-          on_joint(law_of("friction_change", "Friction that changed", parameters), j);
+      friction.effect = on_joint(law_of("friction_change", "Friction that changed", parameters), j);
       friction.formula = coulomb < 0   ? "Fv*qd"
                          : viscous < 0 ? "Fc*sign(qd)"
                                        : "Fc*sign(qd) + Fv*qd";

@@ -15,10 +15,10 @@ namespace dyngen::runtime {
 struct ChangeCandidate {
   enum class Kind { kFriction, kLoad, kInertia, kEffect };
   Kind kind = Kind::kEffect;
-  EffectInstance effect;         ///< parameters: those of a hypothesis; its linear ones are changes
-  std::vector<int> parameters;   ///< places in effect.parameters of what changes
-  std::vector<int> base;         ///< of each the parameter of the model that it is; -1: none
-  Eigen::MatrixXd columns;       ///< (K x parameters) of later sessions: combinations of columns
+  EffectInstance effect;        ///< parameters: those of a hypothesis; its linear ones are changes
+  std::vector<int> parameters;  ///< places in effect.parameters of what changes
+  std::vector<int> base;        ///< of each the parameter of the model that it is; -1: none
+  Eigen::MatrixXd columns;      ///< (K x parameters) of later sessions: combinations of columns
   std::vector<std::vector<int>> forms;  ///< sets of these parameters that change together
   std::vector<std::string> families;    ///< its own first, then those with the same columns
   std::string formula;                  ///< empty: that of the effect's file
@@ -27,8 +27,8 @@ struct ChangeCandidate {
 
 /// Columns beside the regressor that candidates need, and the candidates.
 struct ChangeCandidates {
-  JointColumns further;        ///< over the equations of all runs
-  Eigen::Index shared = 0;     ///< the first of them belong to both sides: effects of both
+  JointColumns further;     ///< over the equations of all runs
+  Eigen::Index shared = 0;  ///< the first of them belong to both sides: effects of both
   std::vector<ChangeCandidate> all;
 };
 

@@ -60,18 +60,15 @@ bool has_body(const ChangeCandidate& candidate) {
 ChangeSystem::ChangeSystem(const std::vector<SessionEquations>& sessions,
                            const SessionScatter& scatter, Index common,
                            std::vector<ChangeCandidate> candidates, double false_alarm)
-    : sessions_(sessions),
-      scatter_(scatter),
-      common_(common),
-      candidates_(std::move(candidates)) {
+    : sessions_(sessions), scatter_(scatter), common_(common), candidates_(std::move(candidates)) {
   drop_absent();
   std::vector<double> scatters = {1};
   if (scatter_.estimated) scatters.assign(kScatterLevels.begin(), kScatterLevels.end());
   for (std::size_t i = 0; i < scatters.size(); ++i) {
     Level level;
     level.scatter = scatters[i];
-    level.of = left_of_sessions(whitened_sessions(sessions_, scatter_, level.scatter), common_,
-                                columns_);
+    level.of =
+        left_of_sessions(whitened_sessions(sessions_, scatter_, level.scatter), common_, columns_);
     const double s = level.scatter * level.scatter;
     level.log_weight = level.of.restricted - 0.5 * kScatterWorth * (std::log(s) + 1 / s);
     if (level.scatter == 1) centre_ = i;
@@ -122,9 +119,8 @@ void ChangeSystem::join_equal() {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
         left.block(first_[i], first_[i], count, count));
     const Index rank = (eigen.eigenvalues().array() > kLeft).count();
-    return MatrixXd(
-        eigen.eigenvectors().rightCols(rank) *
-        eigen.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal());
+    return MatrixXd(eigen.eigenvectors().rightCols(rank) *
+                    eigen.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal());
   };
   std::vector<MatrixXd> bases;
   for (std::size_t i = 0; i < candidates_.size(); ++i) bases.push_back(basis(i));
@@ -133,9 +129,9 @@ void ChangeSystem::join_equal() {
     for (std::size_t k = i + 1; k < candidates_.size() && !dropped[i]; ++k) {
       if (dropped[k] || bases[i].cols() != bases[k].cols()) continue;
       if (has_body(candidates_[i]) || has_body(candidates_[k])) continue;
-      const MatrixXd inner =
-          bases[i].transpose() *
-          left.block(first_[i], first_[k], bases[i].rows(), bases[k].rows()) * bases[k];
+      const MatrixXd inner = bases[i].transpose() *
+                             left.block(first_[i], first_[k], bases[i].rows(), bases[k].rows()) *
+                             bases[k];
       constexpr double kEqual = 1e-5;  // of the squared cosines
       if (inner.squaredNorm() < (1 - kEqual) * static_cast<double>(inner.cols())) continue;
       dropped[k] = true;
@@ -143,7 +139,8 @@ void ChangeSystem::join_equal() {
         std::vector<std::string>& own = candidates_[i].families;
         if (std::find(own.begin(), own.end(), family) == own.end()) own.push_back(family);
       }
-      if (candidates_[i].base.front() < 0 && candidates_[i].base.size() == candidates_[k].base.size()) {
+      if (candidates_[i].base.front() < 0 &&
+          candidates_[i].base.size() == candidates_[k].base.size()) {
         candidates_[i].base = candidates_[k].base;
       }
     }
@@ -277,8 +274,8 @@ double ChangeSystem::prior(const ChangeSet& set) const {
     if (own.kind == ChangeCandidate::Kind::kFriction && frictions++ > 0) {
       cost = std::min(cost, -std::log(kFurtherFriction));
     }
-    const auto forms = static_cast<double>(own.forms.size()) +
-                       (own.kind == ChangeCandidate::Kind::kLoad ? 1 : 0);
+    const auto forms =
+        static_cast<double>(own.forms.size()) + (own.kind == ChangeCandidate::Kind::kLoad ? 1 : 0);
     sum -= cost + std::log(forms);
   }
   return sum;
@@ -378,8 +375,8 @@ ChangeEstimate ChangeSystem::estimate(const ChangeSet& set) const {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(levels_[i].of.left(fitted, fitted));
     const Index rank = (eigen.eigenvalues().array() > kLeft).count();
     const MatrixXd V = eigen.eigenvectors().rightCols(rank);
-    const MatrixXd C = V * eigen.eigenvalues().tail(rank).cwiseInverse().asDiagonal() *
-                       V.transpose();
+    const MatrixXd C =
+        V * eigen.eigenvalues().tail(rank).cwiseInverse().asDiagonal() * V.transpose();
     const VectorXd x = C * levels_[i].of.rest(fitted);
     mean += weight * x;
     square += weight * (C + x * x.transpose());
@@ -389,8 +386,7 @@ ChangeEstimate ChangeSystem::estimate(const ChangeSet& set) const {
     }
   }
   const VectorXd unit = length_(fitted).cwiseInverse();
-  const MatrixXd C =
-      unit.asDiagonal() * (square - mean * mean.transpose()) * unit.asDiagonal();
+  const MatrixXd C = unit.asDiagonal() * (square - mean * mean.transpose()) * unit.asDiagonal();
   ChangeEstimate result;
   const auto all = static_cast<Index>(raw.size());
   result.values = result.deviations = VectorXd::Zero(all);
@@ -406,8 +402,8 @@ ChangeEstimate ChangeSystem::estimate(const ChangeSet& set) const {
   const WhitenedSessions rows = whitened_sessions(sessions_, scatter_, 1);
   VectorXd y = rows.rows.rightCols(1);
   const Index later = rows.rows.rows() - rows.later_from;
-  y.tail(later) -= rows.rows.bottomLeftCorner(later, columns_.rows()) * columns_(Eigen::all, fitted) *
-                   mean;
+  y.tail(later) -=
+      rows.rows.bottomLeftCorner(later, columns_.rows()) * columns_(Eigen::all, fitted) * mean;
   const MatrixXd X = rows.rows.leftCols(common_);
   const VectorXd scale = X.colwise().norm().transpose().cwiseMax(1e-300).cwiseInverse();
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;

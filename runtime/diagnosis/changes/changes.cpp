@@ -20,8 +20,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTheorem = 1e-6;   // part of an effect's chi-square that the model leaves
-constexpr double kReported = 0.5;   // probability of a change, or of one in its place
+constexpr double kTheorem = 1e-6;  // part of an effect's chi-square that the model leaves
+constexpr double kReported = 0.5;  // probability of a change, or of one in its place
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 EffectRecordings together(const EffectRecordings& reference, const EffectRecordings& later) {
@@ -83,9 +83,12 @@ std::vector<Hypothesis> possible(const std::vector<Hypothesis>& hypotheses,
   return effects;
 }
 
-std::string sentence_of(const SessionScatter& scatter, const SessionPlan& plan) {
-  constexpr std::array<const char*, kScatterKinds> kNames = {"Coulomb friction",
-                                                             "viscous friction", "offsets"};
+std::string sentence_of(const SessionScatter& scatter, const SessionPlan& plan,
+                        const std::vector<bool>& revolute) {
+  constexpr std::array<const char*, kScatterKinds> kNames = {"Coulomb friction", "viscous friction",
+                                                             "offsets"};
+  const bool turns = std::find(revolute.begin(), revolute.end(), false) == revolute.end();
+  constexpr std::array<const char*, kScatterKinds> kTurning = {" N m", " N m s/rad", " N m"};
   std::vector<std::string> parts;
   for (std::size_t kind = 0; kind < kScatterKinds; ++kind) {
     double least = std::numeric_limits<double>::infinity(), most = 0;
@@ -95,7 +98,9 @@ std::string sentence_of(const SessionScatter& scatter, const SessionPlan& plan) 
       least = std::min(least, deviations[static_cast<Index>(i)]);
       most = std::max(most, deviations[static_cast<Index>(i)]);
     }
-    if (most > 0) parts.push_back(fmt::format("{} {:.2g} to {:.2g}", kNames[kind], least, most));
+    if (!(most > 0)) continue;
+    parts.push_back(fmt::format("{} {:.2g} to {:.2g}{}", kNames[kind], least, most,
+                                turns ? kTurning[kind] : ""));
   }
   std::string text = fmt::format("{} session{} of the reference, {} after it; ", plan.reference,
                                  plan.reference == 1 ? "" : "s", plan.later);
@@ -231,8 +236,8 @@ class ChangeWriter {
       numbers.push_back(fmt::format("{} {:.4g} -> {:.4g} {} ({:+.0f} %)", law.name, before,
                                     before + by, law.unit, 100 * by / std::abs(before)));
     }
-    std::string text = fmt::format("{} of {} since the reference", own.families.front(),
-                                   place_of(own));
+    std::string text =
+        fmt::format("{} of {} since the reference", own.families.front(), place_of(own));
     if (own.kind == ChangeCandidate::Kind::kLoad) {
       const Index mass = first + kBodyParameters - 1;
       const bool seen = estimate_.seen[static_cast<std::size_t>(mass)];
@@ -269,19 +274,19 @@ ChangesSince changes_since(const ComparedSessions& compared, const DiagnosisInpu
   const Index nb = all.model.size();
   // what effects leave of both sides, each session fitted by itself: noise, and misfit of the model
   const RunResiduals left = residuals_of_sessions(blocks, plan, result.noise.joints, nb);
-  const TorqueNoiseModel noise = torque_noise_model(
-      all, left, std::vector<double>(all.runs.size(), 0.0), true);
-  const ChangeCandidates candidates =
-      change_candidates(all, later, input, possible(hypotheses, result, !input.loads.empty()), point);
+  const TorqueNoiseModel noise =
+      torque_noise_model(all, left, std::vector<double>(all.runs.size(), 0.0), true);
+  const ChangeCandidates candidates = change_candidates(
+      all, later, input, possible(hypotheses, result, !input.loads.empty()), point);
   const std::vector<SessionEquations> sessions =
       session_equations(blocks, plan, noise.joints, candidates.further);
   const Index common = nb + candidates.shared;
   const MatrixXd estimates = estimates_of_sessions(sessions, nb);
   const VectorXd size = estimates.leftCols(plan.reference).rowwise().mean().cwiseAbs();
-  const SessionScatter scatter = session_scatter(
-      sessions, scatter_terms(all.model, size, torque_rms(blocks)), common);
+  const SessionScatter scatter =
+      session_scatter(sessions, scatter_terms(all.model, size, torque_rms(blocks)), common);
   ChangesSince answer;
-  answer.sessions = sentence_of(scatter, plan);
+  answer.sessions = sentence_of(scatter, plan, all.model.revolute);
   ChangeSystem system(sessions, scatter, common, candidates.all, false_alarm);
   ChangePosterior posterior = change_posterior(system);
   if (posterior.best.empty()) return answer;

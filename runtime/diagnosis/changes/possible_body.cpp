@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <initializer_list>
+#include <vector>
 
 namespace dyngen::runtime {
 namespace {
@@ -18,8 +19,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kSteps = 80;         // of a search
-constexpr double kSettled = 1e-7;  // relative fall of chi-square at which it ends
+constexpr int kSteps = 200;        // of a search
+constexpr double kSettled = 1e-4;  // fall of chi-square at which it ends: no name turns on it
 
 /// Tensor about the origin and first moments of a pseudo-inertia matrix [Sigma h; h' m].
 BodyVector body_of(const Matrix4d& J) {
@@ -32,8 +33,8 @@ BodyVector body_of(const Matrix4d& J) {
 Matrix4d pseudo_inertia_of(const BodyVector& x) {
   const double half = 0.5 * (x[0] + x[3] + x[5]);
   Matrix4d J;
-  J << half - x[0], -x[1], -x[2], x[6], -x[1], half - x[3], -x[4], x[7], -x[2], -x[4],
-      half - x[5], x[8], x[6], x[7], x[8], x[9];
+  J << half - x[0], -x[1], -x[2], x[6], -x[1], half - x[3], -x[4], x[7], -x[2], -x[4], half - x[5],
+      x[8], x[6], x[7], x[8], x[9];
   return J;
 }
 
@@ -76,7 +77,7 @@ VectorXd least_chi_square(const BodyEvidence& evidence, const BodyMap& map, Vect
     const MappedBody there = map(trial);
     const double now = evidence.chi_square(there.x);
     if (now < best) {
-      const bool settled = best - now < kSettled * (1 + std::abs(now));
+      const bool settled = best - now < kSettled;
       unknowns = trial;
       here = there;
       best = now;
@@ -130,6 +131,26 @@ Scaled scaled(const BodyEvidence& evidence) {
   return result;
 }
 
+/// Pseudo-inertia matrices inside the cone, near ten numbers: with negative eigenvalues cut off,
+/// and as a point of mass with some extent, whatever unseen parameters are.
+std::vector<Matrix4d> starts_of(const BodyVector& x) {
+  constexpr double kInside = 1e-3;  // of the largest eigenvalue
+  constexpr double kExtent = 0.1;   // of the point's distance, squared
+  const Eigen::SelfAdjointEigenSolver<Matrix4d> eigen(pseudo_inertia_of(x));
+  const double most = std::max(eigen.eigenvalues().cwiseAbs().maxCoeff(), 1e-12);
+  std::vector<Matrix4d> starts = {eigen.eigenvectors() *
+                                  eigen.eigenvalues().cwiseMax(kInside * most).asDiagonal() *
+                                  eigen.eigenvectors().transpose()};
+  const Vector3d h = x.segment<3>(6);
+  const double m = x[9];
+  if (!(m > 0)) return starts;
+  const double spread = kExtent * h.squaredNorm() / m + kInside * most;
+  Matrix4d point;
+  point << h * h.transpose() / m + spread * Eigen::Matrix3d::Identity(), h, h.transpose(), m;
+  starts.push_back(point);
+  return starts;
+}
+
 BodyVector any_numbers(const BodyEvidence& evidence) {
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
   solver.setThreshold(1e-10);
@@ -146,20 +167,16 @@ PossibleBody possible_body(const BodyEvidence& given) {
   PossibleBody best;
   best.worse = -least;
   for (const double sign : {1.0, -1.0}) {
-    const Eigen::SelfAdjointEigenSolver<Matrix4d> eigen(pseudo_inertia_of(sign * free));
-    const double most = std::max(eigen.eigenvalues().cwiseAbs().maxCoeff(), 1e-12);
-    constexpr double kInside = 1e-3;  // of the largest: a start within the cone
-    const Matrix4d J = eigen.eigenvectors() *
-                       eigen.eigenvalues().cwiseMax(kInside * most).asDiagonal() *
-                       eigen.eigenvectors().transpose();
-    const VectorXd entries = least_chi_square(
-        own.evidence, [sign](const VectorXd& at) { return of_lower(at, sign); },
-        entries_of(J.llt().matrixL()));
-    const BodyVector x = of_lower(entries, sign).x;
-    const double worse = own.evidence.chi_square(x) - least;
-    if (worse >= best.worse) continue;
-    best.worse = worse;
-    best.parameters = own.unit.asDiagonal() * x;
+    for (const Matrix4d& J : starts_of(sign * free)) {
+      const VectorXd entries = least_chi_square(
+          own.evidence, [sign](const VectorXd& at) { return of_lower(at, sign); },
+          entries_of(J.llt().matrixL()));
+      const BodyVector x = of_lower(entries, sign).x;
+      const double worse = own.evidence.chi_square(x) - least;
+      if (worse >= best.worse) continue;
+      best.worse = worse;
+      best.parameters = own.unit.asDiagonal() * x;
+    }
   }
   best.worse = std::max(0.0, best.worse);
   return best;

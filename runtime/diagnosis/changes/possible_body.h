@@ -30,7 +30,7 @@ PossibleBody possible_body(const BodyEvidence& evidence);
 
 /// The point of mass that fits best, m at c: tensor m (c'c 1 - cc'), first moment m c.
 struct PointMass {
-  double mass = 0;                              ///< kg; negative: one that is taken away
+  double mass = 0;                                  ///< kg; negative: one that is taken away
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< m, in the link's frame
 
   [[nodiscard]] BodyVector parameters() const;

@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 constexpr double kCoulombAllowance = 0.07;  // of Coulomb friction
 constexpr double kViscousAllowance = 0.1;   // of viscous friction
 constexpr double kOffsetAllowance = 0.05;   // of Coulomb friction
-constexpr double kLeastFriction = 0.02;     // of the rms torque: a joint with less is taken to have it
+constexpr double kLeastFriction = 0.02;  // of the rms torque: a joint with less is taken to have it
 // Sessions that the allowance counts as where the scatter is estimated beside it: it is a guess.
 constexpr double kAllowanceWorth = 4;
 constexpr double kRankTolerance = 1e-9;  // of a column's length

@@ -44,9 +44,9 @@ struct SessionScatter {
 
 /// Sessions whitened by their noise and the scatter between them.
 struct WhitenedSessions {
-  Eigen::MatrixXd rows;        ///< [regressor, further columns, torque], sessions one below another
-  Eigen::Index later_from = 0; ///< the first row of a session after the reference
-  double log_determinant = 0;  ///< of the covariance
+  Eigen::MatrixXd rows;  ///< [regressor, further columns, torque], sessions one below another
+  Eigen::Index later_from = 0;  ///< the first row of a session after the reference
+  double log_determinant = 0;   ///< of the covariance
 };
 WhitenedSessions whitened_sessions(const std::vector<SessionEquations>& sessions,
                                    const SessionScatter& scatter, double common);

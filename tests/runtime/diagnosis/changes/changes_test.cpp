@@ -80,7 +80,8 @@ TEST(Changes, NamesEveryKind) {
       const bool named = sorted(names) == sorted(kind.expected);
       right += named ? 1 : 0;
       const bool friction = kind.expected.front().starts_with("friction");
-      for (const std::string& name : names) loads += friction && name.starts_with("payload") ? 1 : 0;
+      for (const std::string& name : names)
+        loads += friction && name.starts_with("payload") ? 1 : 0;
       if (!named) {
         std::printf("%s, seed %u: %s (%s)\n", kind.name.c_str(), seed, joined(names).c_str(),
                     changes.sessions.c_str());

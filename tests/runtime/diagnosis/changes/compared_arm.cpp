@@ -82,9 +82,9 @@ VectorXd load_of(int link, double mass, double x, double y, double inertia) {
 }
 
 EffectLaw gain_law() {
-  EffectLaw law = algebraic_law("torque_gain", {"torque"},
-                                {{"gain", EffectRole::kLinear, -0.9, 10, 0, -0.05}},
-                                [](const VectorXd& v, const VectorXd& p) { return p[0] * v[0]; });
+  EffectLaw law =
+      algebraic_law("torque_gain", {"torque"}, {{"gain", EffectRole::kLinear, -0.9, 10, 0, -0.05}},
+                    [](const VectorXd& v, const VectorXd& p) { return p[0] * v[0]; });
   law.kind = EffectKind::kTangent;
   return law;
 }
@@ -136,8 +136,7 @@ std::vector<std::string> names_of(const ChangesSince& changes) {
   std::vector<std::string> names;
   for (const Finding& finding : changes.findings) {
     if (finding.probability < 0.5) continue;
-    names.push_back(
-        fmt::format("{} {}", finding.effect.law.family, finding.effect.joint + 1));
+    names.push_back(fmt::format("{} {}", finding.effect.law.family, finding.effect.joint + 1));
   }
   return names;
 }
