@@ -344,72 +344,73 @@ double ChangeSystem::chi_square(const ChangeSet& set) const {
   return b.dot(solver.solve(b));
 }
 
-ChangeEstimate ChangeSystem::estimate(const ChangeSet& set) const {
-  std::vector<Index> raw;
-  std::vector<bool> open;  // whether the form lets the parameter change
-  for (const std::size_t f : set) {
-    const ChangeForm& form = forms_[f];
-    for (Index p = 0; p < form.mix.rows(); ++p) {
-      raw.push_back(first_[form.candidate] + p);
-      open.push_back(form.point || !form.mix.row(p).isZero(0));
-    }
-  }
-  std::vector<Index> fitted, places;
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    if (!open[i]) continue;
-    fitted.push_back(raw[i]);
-    places.push_back(static_cast<Index>(i));
-  }
-  const auto count = static_cast<Index>(fitted.size());
+std::vector<double> ChangeSystem::level_weights(const ChangeSet& set) const {
   std::vector<double> weights;
   const std::vector<Index> columns = columns_of(set);
-  for (const Level& level : levels_) {
-    weights.push_back(log_likelihood(level, columns, slabs_of(set)));
-  }
+  const VectorXd slabs = slabs_of(set);
+  for (const Level& level : levels_) weights.push_back(log_likelihood(level, columns, slabs));
   const double sum = log_sum(weights);
-  VectorXd mean = VectorXd::Zero(count);
-  MatrixXd square = MatrixXd::Zero(count, count);
-  std::vector<bool> seen(fitted.size(), true);
+  for (double& weight : weights) weight = std::exp(weight - sum);
+  return weights;
+}
+
+ChangeSystem::Fitted ChangeSystem::fitted(const std::vector<Index>& raw,
+                                          const std::vector<double>& weights) const {
+  const auto count = static_cast<Index>(raw.size());
+  Fitted fit{VectorXd::Zero(count), MatrixXd::Zero(count, count), {}};
   for (std::size_t i = 0; i < levels_.size(); ++i) {
-    const double weight = std::exp(weights[i] - sum);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(levels_[i].of.left(fitted, fitted));
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(levels_[i].of.left(raw, raw));
     const Index rank = (eigen.eigenvalues().array() > kLeft).count();
     const MatrixXd V = eigen.eigenvectors().rightCols(rank);
     const MatrixXd C =
         V * eigen.eigenvalues().tail(rank).cwiseInverse().asDiagonal() * V.transpose();
-    const VectorXd x = C * levels_[i].of.rest(fitted);
-    mean += weight * x;
-    square += weight * (C + x * x.transpose());
+    const VectorXd x = C * levels_[i].of.rest(raw);
+    fit.mean += weights[i] * x;
+    fit.covariance += weights[i] * (C + x * x.transpose());
     if (i != centre_) continue;
-    for (Index p = 0; p < count; ++p) {
-      seen[static_cast<std::size_t>(p)] = 1 - V.row(p).squaredNorm() < kHidden;
-    }
+    for (Index p = 0; p < count; ++p) fit.seen.push_back(1 - V.row(p).squaredNorm() < kHidden);
   }
-  const VectorXd unit = length_(fitted).cwiseInverse();
-  const MatrixXd C = unit.asDiagonal() * (square - mean * mean.transpose()) * unit.asDiagonal();
-  ChangeEstimate result;
-  const auto all = static_cast<Index>(raw.size());
-  result.values = result.deviations = VectorXd::Zero(all);
-  result.covariance = MatrixXd::Zero(all, all);
-  result.seen.assign(raw.size(), true);
-  result.values(places) = unit.cwiseProduct(mean);
-  result.covariance(places, places) = C;
-  result.deviations = result.covariance.diagonal().cwiseMax(0).cwiseSqrt();
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    result.seen[static_cast<std::size_t>(places[i])] = seen[i];
-  }
-  // parameters of both sides, once the changes are taken out of the later sessions
-  const WhitenedSessions rows = whitened_sessions(sessions_, scatter_, 1);
-  VectorXd y = rows.rows.rightCols(1);
-  const Index later = rows.rows.rows() - rows.later_from;
+  fit.covariance -= fit.mean * fit.mean.transpose();
+  return fit;
+}
+
+VectorXd ChangeSystem::reference_beside(const std::vector<Index>& raw, const VectorXd& mean) const {
+  const WhitenedSessions all = whitened_sessions(sessions_, scatter_, 1);
+  const Index later = all.rows.rows() - all.later_from;
+  VectorXd y = all.rows.rightCols(1);
   y.tail(later) -=
-      rows.rows.bottomLeftCorner(later, columns_.rows()) * columns_(Eigen::all, fitted) * mean;
-  const MatrixXd X = rows.rows.leftCols(common_);
+      all.rows.bottomLeftCorner(later, columns_.rows()) * (columns_(Eigen::all, raw) * mean);
+  const MatrixXd X = all.rows.leftCols(common_);
   const VectorXd scale = X.colwise().norm().transpose().cwiseMax(1e-300).cwiseInverse();
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
   solver.setThreshold(kLeft);
   solver.compute(X * scale.asDiagonal());
-  result.reference = scale.asDiagonal() * solver.solve(y);
+  return scale.asDiagonal() * solver.solve(y);
+}
+
+ChangeEstimate ChangeSystem::estimate(const ChangeSet& set) const {
+  std::vector<Index> raw, places;  // what the forms let change, and where it stands in the answer
+  Index all = 0;
+  for (const std::size_t f : set) {
+    const ChangeForm& form = forms_[f];
+    for (Index p = 0; p < form.mix.rows(); ++p, ++all) {
+      if (!form.point && form.mix.row(p).isZero(0)) continue;
+      raw.push_back(first_[form.candidate] + p);
+      places.push_back(all);
+    }
+  }
+  const Fitted fit = fitted(raw, level_weights(set));
+  const VectorXd unit = length_(raw).cwiseInverse();
+  ChangeEstimate result;
+  result.values = result.deviations = VectorXd::Zero(all);
+  result.values(places) = unit.cwiseProduct(fit.mean);
+  result.deviations(places) = unit.cwiseProduct(fit.covariance.diagonal().cwiseMax(0).cwiseSqrt());
+  result.seen.assign(static_cast<std::size_t>(all), true);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    result.seen[static_cast<std::size_t>(places[i])] = fit.seen[i];
+  }
+  // parameters of both sides, once the changes are taken out of the later sessions
+  result.reference = reference_beside(raw, fit.mean);
   return result;
 }
 

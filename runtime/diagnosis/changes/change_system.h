@@ -29,7 +29,6 @@ using ChangeSet = std::vector<std::size_t>;
 struct ChangeEstimate {
   Eigen::VectorXd values, deviations;  ///< of all parameters of its candidates, one after another
   std::vector<bool> seen;              ///< false: no motion of the recordings shows the parameter
-  Eigen::MatrixXd covariance;
   Eigen::VectorXd reference;  ///< (common) parameters of both sides: those of the reference
 };
 
@@ -66,6 +65,13 @@ class ChangeSystem {
     Eigen::VectorXd rest;
   };
 
+  /// Parameters over their lengths, averaged over the scatter.
+  struct Fitted {
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd covariance;
+    std::vector<bool> seen;
+  };
+
   void drop_absent();
   void join_equal();
   void make_forms(const ChangeSet& beside);
@@ -76,6 +82,12 @@ class ChangeSystem {
   [[nodiscard]] std::vector<Eigen::Index> columns_of(const ChangeSet& set) const;
   [[nodiscard]] double log_likelihood(const Level& level, const std::vector<Eigen::Index>& columns,
                                       const Eigen::VectorXd& slabs) const;
+  [[nodiscard]] std::vector<double> level_weights(const ChangeSet& set) const;
+  /// @param raw  columns
+  [[nodiscard]] Fitted fitted(const std::vector<Eigen::Index>& raw,
+                              const std::vector<double>& weights) const;
+  [[nodiscard]] Eigen::VectorXd reference_beside(const std::vector<Eigen::Index>& raw,
+                                                 const Eigen::VectorXd& mean) const;
   [[nodiscard]] Eigen::VectorXd slabs_of(const ChangeSet& set) const;
 
   const std::vector<SessionEquations>& sessions_;
