@@ -16,13 +16,14 @@ namespace dyngen {
 namespace {
 
 /// Which links have parameters.
-enum class OpenLinks { kEvery, kLast, kNone };
+enum class OpenLinks { kEvery, kOne, kNone };
 
 /// All ten parameters of the links are unknown; there are no rotors and no friction.
-RobotModel opened(RobotModel model, OpenLinks open, bool gravity) {
+/// @param one  of kOne: from 1
+RobotModel opened(RobotModel model, OpenLinks open, bool gravity, int one = 0) {
   for (int j = 1; j <= model.size(); ++j) {
     const bool has_body =
-        open == OpenLinks::kEvery || (open == OpenLinks::kLast && j == model.size());
+        open == OpenLinks::kEvery || (open == OpenLinks::kOne && j == one);
     for (std::size_t k = 0; k < kChiCount; ++k) {
       Quantity& quantity = model.joints[static_cast<std::size_t>(j - 1)].chi[k];
       quantity = {.unknown = has_body && k < kInertialCount};
@@ -96,14 +97,14 @@ TangentProgram joint_wrenches(const RobotModel& model) {
   return program_of(robot, trace);
 }
 
-PayloadProgram payload_regressor(const RobotModel& model) {
+PayloadProgram payload_regressor(const RobotModel& model, int link) {
   const OpenRobot robot =
-      open_robot(make_symbolic(opened(model, OpenLinks::kLast, true)), model.size(), true);
+      open_robot(make_symbolic(opened(model, OpenLinks::kOne, true, link)), model.size(), true);
   PayloadProgram result;
   result.program =
       lower(write_plain_function(parse_function_name("base_regressor"), robot.code).trace);
   result.columns = robot.chi;
-  const int first = static_cast<int>(kChiCount) * (model.size() - 1);
+  const int first = static_cast<int>(kChiCount) * (link - 1);
   for (ParameterSum& column : result.columns) {
     for (ParameterSum::Term& term : column.terms) term.place -= first;
   }

@@ -34,14 +34,15 @@ TangentProgram gravity_torque(const RobotModel& model);
 /// w: force and moment of the links on each joint (write_joint_wrenches()), 6 x n.
 TangentProgram joint_wrenches(const RobotModel& model);
 
-/// Y: torque of a body on the last link, linear in its parameters in the file's frame. n x 10,
+/// Y: torque of a body on a link, linear in its parameters in the file's frame. n x 10,
 /// row-major; chi is not read.
 struct PayloadProgram {
   Program program;  ///< Y in columns of the link's own frame
   /// Of each of those columns: what it is of the ten parameters in the file's frame.
   std::vector<ParameterSum> columns;
 };
-PayloadProgram payload_regressor(const RobotModel& model);
+/// @param link  from 1
+PayloadProgram payload_regressor(const RobotModel& model, int link);
 
 /// J: velocity of the frame of a link, 6 x n, row-major, axes of frame 0.
 Program link_jacobian(const RobotModel& model, int link);

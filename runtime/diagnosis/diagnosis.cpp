@@ -16,13 +16,13 @@
 #include "runtime/diagnosis/answer/heldout_verdict.h"
 #include "runtime/diagnosis/answer/unnamed_text.h"
 #include "runtime/diagnosis/answer/verdict.h"
+#include "runtime/diagnosis/changes/changes.h"
 #include "runtime/diagnosis/competition/heldout.h"
 #include "runtime/diagnosis/competition/search.h"
 #include "runtime/diagnosis/equation_sets/raw_residual.h"
 #include "runtime/diagnosis/equation_sets/sufficiency.h"
 #include "runtime/diagnosis/names/next_experiment.h"
 #include "runtime/diagnosis/names/noise_sentence.h"
-#include "runtime/diagnosis/names/reference.h"
 #include "runtime/diagnosis/names/undecidable.h"
 #include "runtime/diagnosis/scans/in_parallel.h"
 #include "runtime/identification/standing_joints.h"
@@ -97,6 +97,7 @@ class Diagnostician {
     answer_.findings = found_effects(search_, settings, progress_);
     answer_.effort = effort_used();
     answer_.fit = result().fit;
+    before_ = from_rest(result().base.point);
     describe_changes();
     answer_.unexplained = described(result().nameless);
     answer_.undecidable = undecidable_effects(search_.hypotheses(), result().first, input_.model);
@@ -169,14 +170,21 @@ class Diagnostician {
     if (input_.reference.empty()) return;
     tell("changes since the reference", 0);
     const EffectRecordings reference = equations_of(input_, input_.reference, search_.seen());
-    for (Finding& change : changes_since(reference, search_.sets().train, search_.hypotheses(),
-                                         result(), options_.false_alarm)) {
-      answer_.findings.push_back(std::move(change));
+    // both sides alike: columns of a motion's own samples
+    const EffectRecordings later = equations_of(input_, search_.parts().train, search_.seen());
+    ComparedSessions compared{reference, later, {}};
+    for (std::size_t i = 0; i < search_.parts().train.size(); ++i) {
+      compared.later_files.push_back(static_cast<int>(search_.parts().origin_of(i)));
     }
+    ChangesSince changes =
+        changes_since(compared, input_, search_.hypotheses(), result(), options_.false_alarm);
+    answer_.sessions = std::move(changes.sessions);
+    for (Finding& change : changes.findings) answer_.findings.push_back(std::move(change));
+    before_.beta = fitted_to_reference(reference, before_.beta);
   }
 
   void describe_base() {
-    const VectorXd& before = result().base.point.beta;
+    const VectorXd& before = before_.beta;
     const VectorXd deviation = answer_.fit.base.covariance.diagonal().cwiseMax(0).cwiseSqrt();
     for (Index i = 0; i < before.size(); ++i) {
       const bool seen = !is_unseen(answer_.fit.base, static_cast<int>(i));
@@ -189,8 +197,8 @@ class Diagnostician {
   void describe_heldout() {
     tell("held-out recordings", 0);
     const EffectRecordings &train = search_.shown_train(), &heldout = search_.shown_heldout();
-    const EffectPoint before = from_rest(result().base.point), after = from_rest(answer_.fit.point);
-    const RunResiduals without = raw_residuals(heldout, before),
+    const EffectPoint after = from_rest(answer_.fit.point);
+    const RunResiduals without = raw_residuals(heldout, before_),
                        with = raw_residuals(heldout, after);
     answer_.heldout.before = raw_rms(heldout, without);
     answer_.heldout.after = raw_rms(heldout, with);
@@ -239,7 +247,9 @@ class Diagnostician {
     const EffectRecordings& heldout = search_.shown_heldout();
     const auto& effects = answer_.fit.point.effects;
     const std::size_t count = std::min(effects.size(), answer_.findings.size());
-    std::vector<VectorXd> without_one(count, answer_.heldout.before);
+    const VectorXd alone =
+        raw_rms(heldout, raw_residuals(heldout, from_rest(result().base.point)));
+    std::vector<VectorXd> without_one(count, alone);
     const auto fit_others = [&](std::size_t i, std::size_t) {
       std::vector<EffectInstance> others = effects;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
@@ -289,7 +299,7 @@ class Diagnostician {
     DiagnosedRecordings shown{answer_,
                               search_.shown_train(),
                               search_.shown_heldout(),
-                              from_rest(result().base.point),
+                              before_,
                               from_rest(answer_.fit.point),
                               {}};
     for (const MotionSource& source : search_.parts().heldout) {
@@ -304,6 +314,7 @@ class Diagnostician {
   const DiagnosisObserver& observer_;
   Search search_;
   Diagnosis answer_;
+  EffectPoint before_;      ///< the model alone; of the reference, where there is one
   HeldoutResidual judged_;  ///< away from reversals
   HeldoutKnowledge known_;  ///< the same
 };

@@ -37,7 +37,7 @@ struct DiagnosedRecordings {
   const Diagnosis& answer;
   const EffectRecordings& train;
   const EffectRecordings& heldout;
-  EffectPoint before;  ///< the model alone
+  EffectPoint before;  ///< the model alone; where there is a reference, fitted to that
   EffectPoint after;   ///< with the findings; states begin as their laws say
   std::vector<std::string> heldout_names;
 };

@@ -8,6 +8,12 @@
 
 namespace dyngen::runtime {
 
+/// A link that a load can be mounted on: EffectRobot::tangents knows payload_XX .. payload_M of it.
+struct LoadPlace {
+  int joint = -1;  ///< coordinate that moves the link, from 0; -1: the last link, of any joint
+  int link = 0;    ///< of the robot file, from 1; 0: the last one
+};
+
 /// What a diagnosis looks at.
 struct DiagnosisInput {
   LinearModel model;
@@ -18,6 +24,7 @@ struct DiagnosisInput {
   /// Effects that compete, each on one joint, pair or the whole robot, with `link` set. Parameters
   /// that have numbers are taken as given; others are NaN.
   std::vector<EffectInstance> hypotheses;
+  std::vector<LoadPlace> loads{};  ///< where a load is looked for that came after the reference
 };
 
 }  // namespace dyngen::runtime

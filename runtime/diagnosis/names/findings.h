@@ -97,7 +97,7 @@ struct CertificateLine {
   double smallest = 0;  ///< of the parameter; inf: never
 };
 
-/// What the findings changed about a parameter of the model.
+/// What the findings changed about a parameter of the model. `before`: as of HeldoutResidual.
 struct BaseShift {
   std::string name;
   double before = 0, after = 0;
@@ -105,6 +105,7 @@ struct BaseShift {
 };
 
 /// rms of the recorded torque less the model, of recordings that no parameter was fitted to.
+/// `before`: the model alone, fitted to the training recordings; where there is a reference, to that.
 struct HeldoutResidual {
   Eigen::VectorXd before, after, floor;  ///< (n) N m or N; NaN: of a joint that is not judged
   /// (n) 0 .. 1: part of each joint's equations where it is within the positions of the fitted
@@ -177,6 +178,8 @@ struct Diagnosis {
   NextExperiment next;
   EffortUsed effort;
   EffectFit fit;  ///< of the model with the findings, to the training recordings
+  /// How far sessions differ without a change, in a sentence; empty: there is no reference.
+  std::string sessions{};
 };
 
 }  // namespace dyngen::runtime

@@ -12,8 +12,10 @@ namespace dyngen::runtime {
 
 NextExperiment next_experiment(const std::vector<Finding>& findings) {
   NextExperiment next;
-  const auto open = std::find_if(findings.begin(), findings.end(),
-                                 [](const Finding& finding) { return finding.aliases.size() > 1; });
+  // motions are designed for effects of one state of the robot
+  const auto open = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.aliases.size() > 1 && !finding.since_reference;
+  });
   if (open == findings.end()) return next;
   next.joint = open->effect.joint;
   next.families = open->aliases;

@@ -17,6 +17,7 @@
 #include "tests/runtime/dynid/diagnosis_schema.h"
 #include "tests/runtime/dynid/multisine.h"
 #include "tests/runtime/dynid/run_dynid.h"
+#include "tests/support/shared_data.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -45,18 +46,24 @@ class Diagnose : public testing::Test {
     return (folder_ / name).string();
   }
 
-  /// The robot file with further rows.
-  std::string robot(const std::string& name, const std::string& rows) const {
+  /// The robot file with further rows, and with `friction` in place of its row Fs.
+  std::string robot(const std::string& name, const std::string& rows,
+                    const std::string& friction = {}) const {
     std::string text = content(kRobot);
+    if (!friction.empty()) {
+      const std::size_t row = text.find("\nFs ") + 1;
+      text.replace(row, text.find('\n', row) - row, friction);
+    }
     text.insert(text.rfind("stop"), rows);
     std::ofstream(path(name)) << text;
     return path(name);
   }
 
   /// A motion of all joints with the torque of a plant that has further rows, and noise.
-  Recording motion(const std::string& rows, std::uint64_t seed, double seconds) const {
+  Recording motion(const std::string& rows, std::uint64_t seed, double seconds,
+                   const std::string& friction = {}) const {
     const DescribedRobot plant =
-        describe_robot(robot("plant.robot", rows), OpenParameters::kAsWritten);
+        describe_robot(robot("plant.robot", rows, friction), OpenParameters::kAsWritten);
     Recording recording = test::multisine(
         plant.linear, plant.grouping * plant.standard,
         {.seconds = seconds, .sample_time = 0.005, .period = seconds, .size = 1.5, .seed = seed});
@@ -196,6 +203,85 @@ TEST_F(Diagnose, FindsWhatChangedSinceTheReference) {
     EXPECT_NE(page.find(path(name)), std::string::npos) << name;
   }
   EXPECT_NE(page.find("a sample every 5 ms (200 Hz)"), std::string::npos);
+}
+
+/// Friction of a day: each session has its own.
+TEST_F(Diagnose, NamesFrictionAndALoadThatChanged) {
+  std::string before, after, loaded;
+  for (int s = 0; s < 3; ++s) {
+    const double day = 0.05 * (s - 1);
+    const auto record_with = [&](const std::string& name, const std::string& rows, double second,
+                                 std::uint64_t seed) {
+      const std::string friction = "Fs " + std::to_string(5.9 * (1 + day)) + " " +
+                                   std::to_string(second * (1 - day)) + " 4.4";
+      write_recording(motion(rows, seed, 20, friction), path(name));
+      return path(name) + " ";
+    };
+    const std::string number = std::to_string(s) + ".csv";
+    before += record_with("before" + number, "", 8.1, 31 + static_cast<std::uint64_t>(s));
+    after += record_with("after" + number, "", 5.4, 41 + static_cast<std::uint64_t>(s));
+    loaded += record_with("loaded" + number,
+                          "effect payload XX=0 XY=0 XZ=0 YY=0.09 YZ=0 ZZ=0.09 MX=0.3 MY=0 MZ=0 "
+                          "M=1\n",
+                          8.1, 51 + static_cast<std::uint64_t>(s));
+  }
+  const Outcome run = diagnose(after + "--reference " + before);
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  EXPECT_EQ(test::schema_faults(json()), std::vector<std::string>{});
+  ASSERT_EQ(json()["findings"].size(), 1u) << run.out;
+  const Json friction = json()["findings"][0];
+  EXPECT_EQ(friction["family"], "friction_change");
+  EXPECT_EQ(friction["joint"], 2);
+  EXPECT_EQ(friction["since_reference"], true);
+  EXPECT_FALSE(friction["parameters"].contains("Fv"));
+  EXPECT_GT(friction["probability"].get<double>(), 0.9);
+  EXPECT_NEAR(friction["parameters"]["Fc"]["value"].get<double>(), -2.7,
+              4 * friction["parameters"]["Fc"]["std"].get<double>());
+  // before is the reference: its friction fits the later torque worse
+  const Json heldout = json()["heldout"];
+  EXPECT_GT(heldout["rms_before"][1].get<double>(), 1.5 * heldout["rms_after"][1].get<double>());
+  EXPECT_NE(run.out.find("sessions: 3 sessions of the reference, 3 after it"), std::string::npos)
+      << run.out;
+  EXPECT_EQ(test::page_fault(content(path("d.html"))), "");
+  // the improved file has the later friction
+  EXPECT_EQ(dynid("check " + path("d.robot") + " " + path("after1.csv")).exit_code, 0);
+
+  const Outcome load = diagnose(loaded + "--reference " + before);
+  ASSERT_EQ(load.exit_code, 0) << load.out;
+  ASSERT_EQ(json()["findings"].size(), 1u) << load.out;
+  const Json payload = json()["findings"][0];
+  EXPECT_EQ(payload["family"], "payload");
+  EXPECT_EQ(payload["joint"], 0);
+  EXPECT_NEAR(payload["parameters"]["M"]["value"].get<double>(), 1,
+              4 * payload["parameters"]["M"]["std"].get<double>());
+  EXPECT_LT(payload["parameters"]["M"]["std"].get<double>(), 0.2);
+}
+
+/// Drives that cancel a part of their own friction: nothing else is different.
+TEST_F(Diagnose, NamesFrictionThatWasCompensatedOnARealPendulum) {
+  std::string reference;
+  const auto compensated = test::shared_data("dfki_friction/compensated.csv.gz");
+  for (const char* name : {"off_1", "off_2", "off_3"}) {
+    const std::string file = std::string("dfki_friction/") + name + ".csv.gz";
+    const auto own = test::shared_data(file);
+    if (!own || !compensated) GTEST_SKIP() << test::skip_sentence(file);
+    reference += " " + *own;
+  }
+  const Outcome run = dynid("diagnose " DYNGEN_SOURCE_DIR "/tests/blind/real/dfki_a.robot " +
+                            *compensated + " --reference" + reference + " --json " +
+                            path("d.json"));
+  ASSERT_EQ(run.exit_code, 0) << run.out;
+  std::vector<std::string> changes;
+  const Json findings = json()["findings"];
+  for (const Json& finding : findings) {
+    if (finding["since_reference"] != true) continue;
+    changes.push_back(finding["family"].get<std::string>() + " " +
+                      std::to_string(finding["joint"].get<int>()));
+    EXPECT_LT(finding["parameters"]["Fc"]["value"].get<double>(), 0) << run.out;
+  }
+  std::sort(changes.begin(), changes.end());
+  EXPECT_EQ(changes, (std::vector<std::string>{"friction_change 1", "friction_change 2"}))
+      << run.out;
 }
 
 TEST_F(Diagnose, SaysWhatWasNotSearchedWhereItsEffortIsBounded) {

@@ -178,6 +178,7 @@ Check schema() {
        {"other_joint", kind("i0")},
        {"aliases", texts},
        {"probability", number},
+       {"since_reference", kind("b")},
        {"where", where},
        {"formula", text},
        {"parameters", table_of(parameter)},

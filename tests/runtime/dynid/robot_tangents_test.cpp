@@ -133,13 +133,17 @@ TEST_P(RobotTangents, ByGravityAndPayloadAreDifferencesOfTheTorque) {
         << gravity[k];
   }
   const std::string parameters[] = {"XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"};
-  for (std::size_t k = 0; k < 10; ++k) {
-    const MatrixXd found = tangent("payload_" + parameters[k], 0, own.motion, own.beta);
-    const double error = error_of(own, found, [&](NumericRobot& robot, double step) {
-      robot.joints.back().inertial[k] += step;
-    });
-    if (found.isZero(0)) continue;  // it never shows: the difference of nothing
-    EXPECT_LT(error, kTolerance) << parameters[k];
+  const std::size_t links = own.twin.joints.size();
+  for (std::size_t link = 0; link <= links; ++link) {  // 0: the last one
+    for (std::size_t k = 0; k < 10; ++k) {
+      const MatrixXd found =
+          tangent("payload_" + parameters[k], static_cast<int>(link), own.motion, own.beta);
+      const double error = error_of(own, found, [&](NumericRobot& robot, double step) {
+        robot.joints[link == 0 ? links - 1 : link - 1].inertial[k] += step;
+      });
+      if (found.isZero(0)) continue;  // it never shows: the difference of nothing
+      EXPECT_LT(error, kTolerance) << parameters[k] << " of link " << link;
+    }
   }
 }
 

@@ -285,6 +285,7 @@ int run_diagnose(const ToolOptions& options) {
     input.heldout = read(options.heldout, "held out");
     input.reference = read(options.diagnose.reference, "reference");
     input.hypotheses = competing_effects(robot, catalogue, joined_sources(input));
+    if (!input.reference.empty()) input.loads = load_places(robot);
     const auto tell = [&](const std::string& stage, double done) {
       progress.show(stage, static_cast<std::size_t>(100 * done), 100);
     };

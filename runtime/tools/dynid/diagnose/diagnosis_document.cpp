@@ -22,6 +22,11 @@ std::string change_words(double before, double after) {
   return fmt::format("{:+.1f} %", 100 * (after / before - 1));
 }
 
+/// What "before" is of.
+std::string model_before(const DiagnosisReport& report) {
+  return report.diagnosis.sessions.empty() ? "model alone" : "model of the reference";
+}
+
 ReportBars rms_bars(const DiagnosisReport& report) {
   const HeldoutResidual& rms = report.diagnosis.heldout;
   ReportBars bars;
@@ -39,7 +44,7 @@ ReportBars rms_bars(const DiagnosisReport& report) {
     bars.groups.push_back({joint_words(j),
                            report.unit(j),
                            found,
-                           {{"model alone", Role::kBefore, entry_of(rms.before, j)},
+                           {{model_before(report), Role::kBefore, entry_of(rms.before, j)},
                             {"with findings", Role::kAfter, entry_of(rms.after, j)},
                             {"noise", Role::kFloor, entry_of(rms.floor, j)}}});
   }
@@ -80,7 +85,7 @@ ReportSection first_section(const DiagnosisReport& report) {
 void add_heldout(const DiagnosisReport& report, std::vector<ReportSection>& sections) {
   const HeldoutResidual& rms = report.diagnosis.heldout;
   if (rms.before.size() == 0) return;
-  ReportTable table{{"", "model alone", "with the findings", "noise", "", "change"}, {}, 0};
+  ReportTable table{{"", model_before(report), "with the findings", "noise", "", "change"}, {}, 0};
   for (int j = 0; j < report.joints(); ++j) {
     if (!std::isfinite(entry_of(rms.after, j))) continue;  // not judged
     table.rows.push_back({joint_words(j), entry_of(rms.before, j), entry_of(rms.after, j),
@@ -185,15 +190,17 @@ void add_base(const Diagnosis& diagnosis, std::vector<ReportSection>& sections) 
   for (const BaseShift& own : shifts) {
     table.rows.push_back({own.name, own.before, own.after, own.stddev, shift(own)});
   }
-  sections.push_back(section_of(
-      "parameters",
-      diagnosis.findings.empty() ? "Parameters of the model"
-                                 : "What the findings changed in the model",
-      {ReportText{diagnosis.findings.empty()
-                      ? "Base parameters as fitted: nothing was found that they carried."
-                      : "Base parameters, those first that had been carrying most of what was left "
-                        "out."},
-       std::move(table)}));
+  std::string title = "Parameters of the model",
+              text = "Base parameters as fitted: nothing was found that they carried.";
+  if (!diagnosis.findings.empty()) {
+    title = "What the findings changed in the model";
+    text = "Base parameters, those first that had been carrying most of what was left out.";
+  }
+  if (!diagnosis.sessions.empty()) {
+    title = "Parameters of the reference and since then";
+    text = "Base parameters, largest differences first. Between sessions: " + diagnosis.sessions;
+  }
+  sections.push_back(section_of("parameters", title, {ReportText{text}, std::move(table)}));
 }
 
 /// A line an effect, a column a joint.

@@ -31,6 +31,7 @@ Json finding_json(const Finding& finding, const EffectWords& words) {
           {"other_joint", other < 0 ? Json(nullptr) : Json(other + 1)},
           {"aliases", finding.aliases},
           {"probability", number(finding.probability)},
+          {"since_reference", finding.since_reference},
           {"where",
            {{"variable", text_or_null(where.variable)},
             {"from", where.variable.empty() ? Json(nullptr) : number(where.from)},

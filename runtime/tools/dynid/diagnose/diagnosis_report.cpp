@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -20,8 +21,17 @@ namespace {
 
 EffectWords words_of(const EffectInstance& effect, const EffectCatalogue& catalogue,
                      const LinearModel& model) {
-  const EffectFile& file = *catalogue.find(effect.law.name);
   EffectWords words;
+  if (catalogue.find(effect.law.name) == nullptr) {  // a change of the model's own parameters
+    words.title = effect.law.title;
+    for (const EffectParameter& parameter : effect.law.parameters) {
+      words.units.push_back(parameter.unit);
+      words.meanings.push_back(parameter.meaning);
+    }
+    words.why_no_code = "it is a change of the model's own parameters, which the file has";
+    return words;
+  }
+  const EffectFile& file = *catalogue.find(effect.law.name);
   words.title = file.title;
   words.formula = effect_formula(file);
   words.equations = equation_lines(file);
@@ -134,6 +144,7 @@ std::string parameter_text(const Finding& finding, std::size_t place, double int
   const EffectParameterFit& parameter = finding.parameters[place];
   const std::string value = fmt::format("{:.4g}", parameter.value);
   const std::string why = why_no_interval(finding, place);
+  if (!std::isfinite(parameter.value)) return why;
   if (!why.empty()) return fmt::format("{} ({})", value, why);
   return fmt::format("{} +- {:.2g}", value, interval * parameter.stddev);
 }

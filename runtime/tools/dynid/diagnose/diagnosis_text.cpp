@@ -102,7 +102,8 @@ std::string heldout_table(const DiagnosisReport& report, const TextStyle& style)
   if (rms.before.size() == 0) return {};
   constexpr int kWidth = 20;
   std::string text = fmt::format("{:<13}{:<22}{:>12}{:>19}{:>9}\n", "held-out rms", "",
-                                 "model alone", "with the findings", "noise");
+                                 report.diagnosis.sessions.empty() ? "model alone" : "reference",
+                                 "with the findings", "noise");
   const auto number = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
   };
@@ -223,6 +224,7 @@ std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style
   text += heldout_table(report, style) + forward_table(report);
   text += two_encoders_text(report.two_encoders) + ripple_text(report.ripples);
   if (!diagnosis.noise.how.empty()) text += "noise: " + diagnosis.noise.how + "\n";
+  if (!diagnosis.sessions.empty()) text += "sessions: " + diagnosis.sessions + "\n";
   if (diagnosis.effort.most > 0) {
     text += fmt::format("effort: {:.3g} of {:.3g}\n", diagnosis.effort.done, diagnosis.effort.most);
   }

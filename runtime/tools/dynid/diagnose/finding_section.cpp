@@ -91,7 +91,7 @@ class FindingWriter {
                      {"cannot be told from", alike.empty() ? "nothing" : alike,
                       alike.empty() ? "these recordings tell it from every other family"
                                     : "by these recordings"}}});
-    part.blocks.emplace_back(ReportFormula{words_.equations});
+    if (!words_.equations.empty()) part.blocks.emplace_back(ReportFormula{words_.equations});
     part.blocks.emplace_back(ReportText{sentence(finding_.why)});
     if (!finding_.tests.empty()) {
       ReportTable tests{{"test of the name", "outcome", ""}, {}, 0};
@@ -191,9 +191,15 @@ class FindingWriter {
     const HeldoutResidual& rms = report_.diagnosis.heldout;
     const double before = entry_of(rms.before, joint_), after = entry_of(rms.after, joint_);
     if (finding_.since_reference) {
-      part.blocks.emplace_back(
-          ReportText{"A change since the reference: parameters that are fitted to these recordings "
-                     "have taken it up, so that nothing of it is left of those held out."});
+      part.blocks.emplace_back(ReportText{fmt::format(
+          "A change since the reference. With the parameters of the reference, {:.3g} {} rms of the "
+          "held-out torque of joint {} is left; with those fitted since then, {:.3g} {}.",
+          before, report_.unit(joint_), joint_ + 1, after, report_.unit(joint_))});
+      if (!report_.views.heldout.empty() && std::isfinite(after)) {
+        ReportChart chart = proof_chart({}, joint_, NAN, "", id("proof-chart"));
+        chart.same_as = fmt::format("heldout-joint-{}", joint_ + 1);
+        part.blocks.emplace_back(std::move(chart));
+      }
       return part;
     }
     if (std::isfinite(before) && std::isfinite(after)) {
@@ -239,7 +245,9 @@ class FindingWriter {
       return part;
     }
     part.blocks.emplace_back(
-        ReportText{"Parameters of its link that had been carrying what was left out:"});
+        ReportText{finding_.since_reference
+                       ? "Parameters of its link, of the reference and since then:"
+                       : "Parameters of its link that had been carrying what was left out:"});
     ReportTable table{{"parameter", "before", "after", "std", "change in std"}, {}, 0};
     for (const Change& own : changes) {
       table.rows.push_back({own.shift->name, own.shift->before, own.shift->after, own.shift->stddev,

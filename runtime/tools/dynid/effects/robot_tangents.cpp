@@ -103,7 +103,7 @@ class Tangents {
     const auto& [name, link] = wanted;
     TangentColumns result;
     if (name.starts_with("payload_")) {
-      result = payload(motion);
+      result = payload(link, motion);
     } else if (name.starts_with("contact_")) {
       result = contact(link, motion);
     } else {
@@ -200,14 +200,19 @@ class Tangents {
     return result;
   }
 
-  TangentColumns payload(const JointMotion& motion) {
-    const PayloadProgram& program = kept(payload_, [&] { return payload_regressor(model_); });
+  TangentColumns payload(int link, const JointMotion& motion) {
+    if (link < 0 || link > model_.size()) return {};
+    std::unique_lock lock(guard_);
+    std::unique_ptr<PayloadProgram>& place = payloads_[link];
+    lock.unlock();
+    const PayloadProgram& program = kept(
+        place, [&] { return payload_regressor(model_, link == 0 ? model_.size() : link); });
     const Index n = model_.coordinate_count;
     const auto width = static_cast<Index>(program.columns.size());
     const MatrixXd Y = run(program.program, motion, {}, gravity_).at("Y");
     TangentColumns result;
     for (std::size_t kind = 0; kind < kInertialCount; ++kind) {
-      MatrixXd& columns = result[TangentKey("payload_" + std::string(kChiNames[kind]), 0)];
+      MatrixXd& columns = result[TangentKey("payload_" + std::string(kChiNames[kind]), link)];
       columns = MatrixXd::Zero(motion.q.rows(), n);
       for (Index c = 0; c < width; ++c) {
         for (const auto& term : program.columns[static_cast<std::size_t>(c)].terms) {
@@ -275,7 +280,7 @@ class Tangents {
   VectorXd gravity_;
   std::mutex guard_;  // of the programs
   std::unique_ptr<TangentProgram> gravity_torque_, derivatives_, wrenches_;
-  std::unique_ptr<PayloadProgram> payload_;
+  std::map<int, std::unique_ptr<PayloadProgram>> payloads_;  // by link
   std::map<int, std::unique_ptr<TangentProgram>> derivatives_of_;  // by link
   std::map<int, std::unique_ptr<Program>> jacobians_;
   std::map<TangentKey, std::unique_ptr<TangentProgram>> geometry_;
@@ -298,6 +303,16 @@ EffectRobot effect_robot(const DescribedRobot& robot) {
     result.joined_rotors[robot.model.joint(link).coordinate] = robot.standard[place];
   }
   return result;
+}
+
+std::vector<LoadPlace> load_places(const DescribedRobot& robot) {
+  std::vector<LoadPlace> places;
+  for (int link = 1; link < robot.model.size(); ++link) {
+    const int coordinate = robot.model.joint(link).coordinate;
+    if (coordinate >= 0) places.push_back({coordinate, link});
+  }
+  places.push_back({-1, 0});
+  return places;
 }
 
 }  // namespace dyngen::runtime

@@ -117,7 +117,10 @@ OpenFinding read_open_finding(const std::string& path) {
   if (schema.text() != kSchema) schema.refuse(fmt::format("\"{}\"", kSchema));
   const std::vector<Node> findings = file.at("findings").items();
   const auto open = std::find_if(findings.begin(), findings.end(), [](const Node& node) {
-    return node.at("aliases").items().size() > 1;
+    // motions separate effects of one state of the robot, not states
+    const auto since = node.json.find("since_reference");
+    const bool change = since != node.json.end() && since->is_boolean() && since->get<bool>();
+    return node.at("aliases").items().size() > 1 && !change;
   });
   if (open == findings.end()) {
     throw std::invalid_argument(fmt::format(
