@@ -305,6 +305,9 @@ int run_diagnose(const ToolOptions& options) {
       add_two_encoders(how, settings.rules.wind_up, robot, input.train, progress, report);
     });
   }
+  if (!input.train.empty() && !settings.residual_only) {
+    late.during([&] { report.steady = steady_of(robot, {}, input.train, progress); });
+  }
   if (answered && !options.diagnose.loop.controller.empty()) {
     late.during([&] {
       report.forward = simulated(options, report, robot, catalogue, std::move(proof), progress);

@@ -14,6 +14,7 @@
 #include "runtime/tools/dynid/diagnose/text_plot.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 #include "runtime/tools/dynid/robot/identified_description.h"
+#include "runtime/tools/dynid/steady/steady_report.h"
 #include "runtime/tools/dynid/two_encoders/two_encoders.h"
 
 namespace dyngen::runtime {
@@ -60,6 +61,7 @@ struct DiagnosisReport {
   std::vector<std::string> written;          ///< files
   std::optional<WrittenBack> written_back;   ///< where -o is URDF or MJCF
   TwoEncoders two_encoders;
+  SteadyJoints steady;
 
   [[nodiscard]] int joints() const { return static_cast<int>(revolute.size()); }
   /// Unit of a joint's torque: "N m" or "N".

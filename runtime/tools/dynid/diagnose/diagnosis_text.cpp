@@ -222,6 +222,7 @@ std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style
   }
   text += heldout_table(report, style) + forward_table(report);
   text += two_encoders_text(report.two_encoders);
+  text += steady_text(report.steady);
   if (!diagnosis.noise.how.empty()) text += "noise: " + diagnosis.noise.how + "\n";
   if (diagnosis.effort.most > 0) {
     text += fmt::format("effort: {:.3g} of {:.3g}\n", diagnosis.effort.done, diagnosis.effort.most);
