@@ -27,6 +27,8 @@ constexpr double kShortestRun = 1;
 constexpr double kSlowest = 0.01;
 /// Of the range: what a programme stays away from its ends.
 constexpr double kMargin = 0.01;
+/// Of speeds and accelerations: rounding stays within the limits.
+constexpr double kWithin = 1 - 1e-9;
 /// s of a pause between strokes.
 constexpr double kPause = 0.2;
 
@@ -34,6 +36,8 @@ class ProgrammeMaker {
  public:
   ProgrammeMaker(const MotionLimits& limits, const ProgrammeOptions& options)
       : limits_(limits), options_(options) {
+    limits_.speed *= kWithin;
+    limits_.acceleration *= kWithin;
     const Index n = limits.lower.size();
     lower_ = limits.lower + kMargin * (limits.upper - limits.lower);
     upper_ = limits.upper - kMargin * (limits.upper - limits.lower);
@@ -219,7 +223,7 @@ class ProgrammeMaker {
     return value;
   }
 
-  const MotionLimits& limits_;
+  MotionLimits limits_;
   const ProgrammeOptions& options_;
   VectorXd lower_, upper_, posture_;
   std::vector<int> joints_;

@@ -79,10 +79,9 @@ std::vector<FrictionPoint> points_of(const SteadyLevels& levels, const FrictionF
 }
 
 void add_remarks(SteadyResult& result, const SteadyRules& rules) {
-  if (result.left_out > 0) {
-    result.remarks.push_back(fmt::format(
-        "{} runs are left out: other joints move in them, and no fitted model says their torque.",
-        result.left_out));
+  if (result.left_out > 0 && result.runs > 0) {
+    result.remarks.push_back(
+        fmt::format("{} runs are left out: other joints move in them.", result.left_out));
   }
   if (!result.forms.judged) return;
   const FrictionForm& form = result.forms.form();

@@ -138,10 +138,11 @@ TEST_F(SteadyTest, AMissingLimitIsNamedAtItsPlace) {
   EXPECT_EQ(none.exit_code, 1) << none.out;
   EXPECT_NE(none.out.find("none.robot:26:1: error: there is no row 'vmax'"), std::string::npos)
       << none.out;
-  const Outcome open = dynid("excite " + arm("open.robot", "qmin -1 -1\nqmax 1 *\nvmax 2 2\n") +
+  const Outcome open = dynid("excite " + arm("open.robot", "qmin -1 -1\nqmax 1 -\nvmax 2 2\n") +
                              " --archetype poses -o " + path("motion.csv"));
   EXPECT_EQ(open.exit_code, 1) << open.out;
-  EXPECT_NE(open.out.find("open.robot:25:8: error: found '*' in row 'qmax'"), std::string::npos)
+  EXPECT_NE(open.out.find("open.robot:25:8: error: found no limit in row 'qmax'"),
+            std::string::npos)
       << open.out;
 }
 

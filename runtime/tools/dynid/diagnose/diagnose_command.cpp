@@ -306,7 +306,7 @@ int run_diagnose(const ToolOptions& options) {
     });
   }
   if (!input.train.empty() && !settings.residual_only) {
-    late.during([&] { report.steady = steady_of(robot, {}, input.train, progress); });
+    late.during([&] { report.steady = steady_of(robot, input.train, progress); });
   }
   if (answered && !options.diagnose.loop.controller.empty()) {
     late.during([&] {

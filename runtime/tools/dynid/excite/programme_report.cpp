@@ -33,7 +33,7 @@ void refuse_without_limits(const DescribedRobot& robot) {
       if (!row.values[j].unknown || robot.model.joints[j].coordinate < 0) continue;
       diagnostics.error(
           row.values[j].position, row.values[j].length,
-          fmt::format("found '*' in row '{}', expected a number: --archetype goes through it",
+          fmt::format("found no limit in row '{}', expected a number: --archetype goes through it",
                       word));
     }
   }

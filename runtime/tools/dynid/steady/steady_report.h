@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -21,10 +20,10 @@ struct SteadyJoints {
   [[nodiscard]] bool any() const { return !joints.empty(); }
 };
 
-/// Looks at the raw torque and positions of all recordings.
-/// @param beta  parameters of a fit, for runs in which other joints move; empty: these are left out
-SteadyJoints steady_of(const DescribedRobot& robot, const Eigen::VectorXd& beta,
-                       const std::vector<MotionSource>& sources, ProgressLine& progress);
+/// Looks at the raw torque and positions of all recordings. Runs in which other joints move are left
+/// out: an error of a fitted model would be taken for friction there.
+SteadyJoints steady_of(const DescribedRobot& robot, const std::vector<MotionSource>& sources,
+                       ProgressLine& progress);
 
 /// The tables for a terminal; empty: no joint has runs or poses.
 std::string steady_text(const SteadyJoints& steady);
