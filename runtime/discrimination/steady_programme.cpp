@@ -138,7 +138,9 @@ class ProgrammeMaker {
     const double range = upper_[joint] - lower_[joint], a = limits_.acceleration[joint];
     const double fast = fastest(joint);
     const int count = options_.step_count();
-    for (int k = 0; k < count; ++k) {
+    for (int place = 0; place < count; ++place) {
+      // slow and fast in turn: what drifts with time is not taken for what depends on the speed
+      const int k = place % 2 == 0 ? place / 2 : count - 1 - place / 2;
       const double share = count > 1 ? static_cast<double>(k) / (count - 1) : 1;
       const double speed = fast * std::pow(kSlowest, 1 - share);
       constexpr double kRamp = 0.1;
