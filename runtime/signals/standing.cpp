@@ -19,7 +19,8 @@ double variance_of_difference(int order) {
   return binomial;
 }
 
-/// Standard deviation of white noise of positions: the least that differences of an even order say.
+}  // namespace
+
 double difference_noise(VectorXd x) {
   constexpr int kHighestOrder = 8;
   double least = std::numeric_limits<double>::infinity();
@@ -31,8 +32,6 @@ double difference_noise(VectorXd x) {
   }
   return least;
 }
-
-}  // namespace
 
 bool stands(const Eigen::Ref<const Eigen::MatrixXd>& q) {
   for (Index j = 0; j < q.cols(); ++j) {

@@ -11,6 +11,10 @@ namespace dyngen::runtime {
 /// @param q  (N x n) positions of one run, uniformly sampled, N >= 3
 bool stands(const Eigen::Ref<const Eigen::MatrixXd>& q);
 
+/// Standard deviation of white noise of positions: the least that differences of an even order, 2
+/// to 8, say.
+double difference_noise(Eigen::VectorXd x);
+
 /// Standard deviations of the noise: six steps of an encoder. White noise of a million samples
 /// stays within ten.
 inline constexpr double kMovesAbove = 20;

@@ -84,15 +84,9 @@ int cosines_for(double independent_rows, double factor) {
                                                         std::cbrt(independent_rows))));
 }
 
-RobustRegression robust_regression(const MatrixXd& D, const VectorXd& w, int cosines) {
-  RobustRegression fit;
-  fit.inverse = scaled_inverse(D.transpose() * D);
-  fit.beta = fit.inverse * (D.transpose() * w);
-  fit.residual = w - D * fit.beta;
-  fit.degrees = cosines;
-  const Index n = D.rows(), k = D.cols();
-  const MatrixXd scores = fit.residual.asDiagonal() * (D * fit.inverse);
-  MatrixXd sums = MatrixXd::Zero(k, cosines);
+MatrixXd cosine_sums(const MatrixXd& columns, int cosines) {
+  const Index n = columns.rows();
+  MatrixXd sums = MatrixXd::Zero(columns.cols(), cosines);
   const double step = std::numbers::pi / static_cast<double>(n);
   constexpr Index kRows = 4096;
   for (Index first = 0; first < n; first += kRows) {
@@ -104,8 +98,19 @@ RobustRegression robust_regression(const MatrixXd& D, const VectorXd& w, int cos
             std::cos(step * static_cast<double>(j + 1) * (static_cast<double>(first + i) + 0.5));
       }
     }
-    sums += scores.middleRows(first, count).transpose() * weights;
+    sums += columns.middleRows(first, count).transpose() * weights;
   }
+  return sums;
+}
+
+RobustRegression robust_regression(const MatrixXd& D, const VectorXd& w, int cosines) {
+  RobustRegression fit;
+  fit.inverse = scaled_inverse(D.transpose() * D);
+  fit.beta = fit.inverse * (D.transpose() * w);
+  fit.residual = w - D * fit.beta;
+  fit.degrees = cosines;
+  const MatrixXd scores = fit.residual.asDiagonal() * (D * fit.inverse);
+  MatrixXd sums = cosine_sums(scores, cosines);
   give_back_fitted(D, fit.inverse, sums);
   fit.covariance = 2.0 / cosines * sums * sums.transpose();
   return fit;

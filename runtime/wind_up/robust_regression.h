@@ -25,6 +25,11 @@ struct RobustRegression {
 /// Source: Lazarus, Lewis, Stock and Watson, "HAR inference: recommendations for practice", 2018.
 int cosines_for(double independent_rows, double factor);
 
+/// Sums of each column times cos(pi j (i + 1/2) / N), j = 1 .. cosines: the orthonormal series that
+/// tells slow noise from the mean, which none of them sees.
+/// @param columns  (N x k)       @return (k x cosines)
+Eigen::MatrixXd cosine_sums(const Eigen::MatrixXd& columns, int cosines);
+
 /// w = D beta + noise. The long-run covariance of the scores is the mean over `cosines` products
 /// with the first cosines of half-integer periods (equal-weighted cosine estimator); tests are
 /// Student's t and Fisher's F with as many degrees.

@@ -6,6 +6,7 @@
 #include "runtime/tools/dynid/diagnose/forward_simulation.h"
 #include "runtime/tools/dynid/excite/excite_report.h"
 #include "runtime/tools/dynid/excite/finding_file.h"
+#include "runtime/tools/dynid/excite/programme_report.h"
 #include "runtime/tools/dynid/excite/separation_report.h"
 #include "runtime/tools/dynid/fit/check_report.h"
 #include "runtime/tools/dynid/fit/consistent_fit.h"
@@ -44,6 +45,7 @@ std::string check_json(const CheckReport&) { call_absent(Part::kJson); }
 std::string diagnosis_json(const DiagnosisReport&) { call_absent(Part::kJson); }
 std::string fit_json(const FitReport&) { call_absent(Part::kJson); }
 std::string json_of(const ExciteReport&, const std::string&) { call_absent(Part::kJson); }
+std::string programme_json(const ProgrammeReport&, const std::string&) { call_absent(Part::kJson); }
 std::string separation_json(const SeparationReport&, const std::string&) {
   call_absent(Part::kJson);
 }

@@ -162,6 +162,52 @@ Check ripple() {
                  {"resolution", number}});
 }
 
+/// A joint with runs of constant speed or held poses.
+Check steady() {
+  const Check number = kind("n0"), text = kind("s"), count = kind("i"), texts = array_of(text);
+  const std::map<std::string, Check> interval = {
+      {"value", number}, {"low", number}, {"high", number}};
+  std::map<std::string, Check> parameter = interval;
+  parameter.insert({"unit", text});
+  const Check form = object({{"terms", texts},
+                             {"words", text},
+                             {"parameters", table_of(object(parameter))},
+                             {"tests", array_of(object({{"term", text},
+                                                        {"f", number},
+                                                        {"degrees", number},
+                                                        {"shapes", count},
+                                                        {"p", number},
+                                                        {"kept", kind("b")}}))},
+                             {"rivals", array_of(texts)},
+                             {"chi_square", number},
+                             {"fitted", count},
+                             {"scatter", number},
+                             {"degrees", count}});
+  const Check form_or_null = [form](const Json& value, const std::string& place, Faults& faults) {
+    if (!value.is_null()) form(value, place, faults);
+  };
+  const Check mean = object(interval);
+  return object({{"joint", count},
+                 {"unit", text},
+                 {"runs", count},
+                 {"left_out", count},
+                 {"seconds", number},
+                 {"points", array_of(object({{"speed", number},
+                                             {"torque", number},
+                                             {"low", number},
+                                             {"high", number},
+                                             {"runs", count},
+                                             {"seconds", number}}))},
+                 {"form", form_or_null},
+                 {"poses", array_of(object({{"q", array_of(number)},
+                                            {"from_below", mean},
+                                            {"from_above", mean},
+                                            {"gravity", mean},
+                                            {"held_back", mean}}))},
+                 {"one_sided_poses", count},
+                 {"remarks", texts}});
+}
+
 Check schema() {
   const Check text = kind("s"), number = kind("n0"), joint = kind("i"), texts = array_of(text);
   const Check where = object({{"variable", kind("s0")},
@@ -214,7 +260,7 @@ Check schema() {
        {"effort", object({{"done", number}, {"limit", number}, {"not_searched", array_of(text)}})},
        {"next_experiment", object({{"purpose", kind("s0")}, {"trajectory", kind("s0")}})},
        {"ripple", array_of(ripple())}},
-      {{"two_encoders", array_of(two_encoders())}});
+      {{"two_encoders", array_of(two_encoders())}, {"steady", array_of(steady())}});
 }
 
 void add_keys(const Json& json, const Json::json_pointer& place,

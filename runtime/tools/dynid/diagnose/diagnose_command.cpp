@@ -321,6 +321,9 @@ int run_diagnose(const ToolOptions& options) {
   if (answered && !runs.empty()) {
     late.during([&] { add_ripple(runs, how, robot, catalogue, progress, report); });
   }
+  if (!input.train.empty() && !settings.residual_only) {
+    late.during([&] { report.steady = steady_of(robot, input.train, progress); });
+  }
   if (answered && !options.diagnose.loop.controller.empty()) {
     late.during([&] {
       report.forward = simulated(options, report, robot, catalogue, std::move(proof), progress);

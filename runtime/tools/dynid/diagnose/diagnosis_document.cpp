@@ -359,6 +359,7 @@ ReportDocument diagnosis_document(const DiagnosisReport& report) {
     document.sections.push_back(two_encoders_section(report.two_encoders));
   }
   if (report.ripples.any()) document.sections.push_back(ripple_section(report.ripples));
+  if (report.steady.any()) document.sections.push_back(steady_section(report.steady));
   add_next(report, document.sections);
   add_certificate(report, document.sections);
   add_not_judged(diagnosis, document.sections);

@@ -3,6 +3,7 @@
 #include "runtime/tools/dynid/ripple/joint_ripple_json.h"
 #include "runtime/tools/dynid/robot/json_numbers.h"
 #include "runtime/tools/dynid/robot/left_out_json.h"
+#include "runtime/tools/dynid/steady/steady_json.h"
 #include "runtime/tools/dynid/two_encoders/two_encoders_json.h"
 
 namespace dyngen::runtime {
@@ -128,6 +129,7 @@ std::string diagnosis_json(const DiagnosisReport& report) {
   }
   if (report.two_encoders.any()) json["two_encoders"] = two_encoders_json(report.two_encoders);
   json["ripple"] = ripple_json(report.ripples);
+  if (report.steady.any()) json["steady"] = steady_json(report.steady);
   if (report.written_back) json["written_back"] = written_back_json(*report.written_back);
   // names come from files: what is not UTF-8 must not stop the answer
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -15,6 +15,7 @@
 #include "runtime/tools/dynid/ripple/joint_ripple.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 #include "runtime/tools/dynid/robot/identified_description.h"
+#include "runtime/tools/dynid/steady/steady_report.h"
 #include "runtime/tools/dynid/two_encoders/two_encoders.h"
 
 namespace dyngen::runtime {
@@ -64,6 +65,7 @@ struct DiagnosisReport {
   JointRipples ripples;
   /// Rows of the improved file: ripples that no finding has.
   std::vector<EffectInstance> ripple_effects;
+  SteadyJoints steady;
 
   [[nodiscard]] int joints() const { return static_cast<int>(revolute.size()); }
   /// Unit of a joint's torque: "N m" or "N".

@@ -223,6 +223,7 @@ std::string diagnosis_text(const DiagnosisReport& report, const TextStyle& style
   }
   text += heldout_table(report, style) + forward_table(report);
   text += two_encoders_text(report.two_encoders) + ripple_text(report.ripples);
+  text += steady_text(report.steady);
   if (!diagnosis.noise.how.empty()) text += "noise: " + diagnosis.noise.how + "\n";
   if (!diagnosis.sessions.empty()) text += "sessions: " + diagnosis.sessions + "\n";
   if (diagnosis.effort.most > 0) {

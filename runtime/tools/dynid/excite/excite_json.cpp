@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/tools/dynid/excite/excite_json.h"
 
-#include "runtime/tools/dynid/excite/excite_report.h"
-
 namespace dyngen::runtime {
 namespace {
 
@@ -25,8 +23,8 @@ Json parameters(const ExciteReport& report) {
 
 }  // namespace
 
-Json shares_json(const MotionLimits& limits, const LimitShares& shares) {
-  return {{"check_rate", kCheckRate},
+Json shares_json(const MotionLimits& limits, const LimitShares& shares, double check_rate) {
+  return {{"check_rate", check_rate},
           {"position", numbers(shares.position)},
           {"speed", numbers(shares.speed)},
           {"acceleration", numbers(shares.acceleration)},

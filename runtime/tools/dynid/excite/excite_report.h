@@ -52,9 +52,9 @@ inline constexpr double kCheckRate = 10000;
 /// @throws ModelError, RecordingError, SummaryFileError, TooLittleDataError, std::invalid_argument
 ExciteReport make_excite_report(const ToolOptions& options, ProgressLine& progress);
 
-/// A table of the largest share of every limit.
+/// A table of the largest share of every limit. @param check_rate  Hz, at which they were looked at
 std::string limits_table(const LinearModel& model, const MotionLimits& limits,
-                         const LimitShares& shares);
+                         const LimitShares& shares, double check_rate = kCheckRate);
 
 /// How the trajectory is to be recorded, a sentence.
 std::string recording_advice(const ExciteReport& report);

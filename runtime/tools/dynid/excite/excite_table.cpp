@@ -88,9 +88,9 @@ std::string recording_advice(const ExciteReport& report) {
 }
 
 std::string limits_table(const LinearModel& model, const MotionLimits& limits,
-                         const LimitShares& shares) {
+                         const LimitShares& shares, double check_rate) {
   std::string text =
-      fmt::format("\nlargest share of each limit, looked at {:.0f} times a second\n", kCheckRate);
+      fmt::format("\nlargest share of each limit, looked at {:.0f} times a second\n", check_rate);
   text += fmt::format("{:<14}{:>14}{:>14}{:>14}{:>14}\n", "joint", "position", "speed",
                       "acceleration", "torque");
   for (Index j = 0; j < model.joints(); ++j) {

@@ -413,6 +413,7 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
         ripple_runs(model, report.main().estimate.beta, train.sources);
     report.ripples = ripples_of(model, runs, gears_of_map(options), {}, progress);
   }
+  report.steady = steady_of(report.robot, train.sources, progress);
   if (options.consistent) {
     progress.show("physical consistency", 0, 1);
     report.consistent = fit_consistently(report);

@@ -361,6 +361,7 @@ ReportDocument fit_document(const FitReport& report, const std::string& command)
     document.sections.push_back(two_encoders_section(report.two_encoders));
   }
   if (report.ripples.any()) document.sections.push_back(ripple_section(report.ripples));
+  if (report.steady.any()) document.sections.push_back(steady_section(report.steady));
   add_unseen(report, document.sections);
   add_consistent(report, document.sections);
   add_hierarchy(report, document.sections);

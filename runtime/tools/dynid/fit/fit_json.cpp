@@ -4,6 +4,7 @@
 #include "runtime/tools/dynid/ripple/joint_ripple_json.h"
 #include "runtime/tools/dynid/robot/json_numbers.h"
 #include "runtime/tools/dynid/robot/left_out_json.h"
+#include "runtime/tools/dynid/steady/steady_json.h"
 #include "runtime/tools/dynid/two_encoders/two_encoders_json.h"
 
 namespace dyngen::runtime {
@@ -218,6 +219,7 @@ std::string fit_json(const FitReport& report) {
   if (report.effects) json["effects"] = effect_json(*report.effects, report.robot);
   if (report.two_encoders.any()) json["two_encoders"] = two_encoders_json(report.two_encoders);
   if (report.ripples.any()) json["ripple"] = ripple_json(report.ripples);
+  if (report.steady.any()) json["steady"] = steady_json(report.steady);
   if (report.hierarchy) json["hierarchy"] = hierarchy(report);
   if (report.written_back) json["written_back"] = written_back_json(*report.written_back);
   return json.dump(2) + "\n";

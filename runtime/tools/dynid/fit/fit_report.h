@@ -16,6 +16,7 @@
 #include "runtime/tools/dynid/ripple/joint_ripple.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 #include "runtime/tools/dynid/robot/identified_description.h"
+#include "runtime/tools/dynid/steady/steady_report.h"
 #include "runtime/tools/dynid/two_encoders/two_encoders.h"
 
 namespace dyngen::runtime {
@@ -54,6 +55,7 @@ struct FitReport {
   std::optional<HierarchyFit> hierarchy;    ///< robots that share inertia
   std::optional<WrittenBack> written_back;  ///< where -o is URDF or MJCF
   TwoEncoders two_encoders;
+  SteadyJoints steady;
   std::vector<std::string> notes;
   JointRipples ripples;
 

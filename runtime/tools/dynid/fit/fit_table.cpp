@@ -310,9 +310,10 @@ std::string fit_table(const FitReport& report) {
   std::string text = heading(report) + parameter_rows(report) +
                      (report.effects ? effect_rows(*report.effects, report.robot) : "") +
                      joint_rows(report) + two_encoders_text(report.two_encoders) +
-                     ripple_text(report.ripples) + (any ? conditioning_rows(report) : "") +
-                     (any ? trust_rows(report) : "") + consistent_rows(report) +
-                     unseen_rows(report) + hierarchy_rows(report) + method_columns(report);
+                     ripple_text(report.ripples) + steady_text(report.steady) +
+                     (any ? conditioning_rows(report) : "") + (any ? trust_rows(report) : "") +
+                     consistent_rows(report) + unseen_rows(report) + hierarchy_rows(report) +
+                     method_columns(report);
   std::string messages;
   for (const MethodFit& fit : report.fits) {
     for (const std::string& message : fit.messages) {

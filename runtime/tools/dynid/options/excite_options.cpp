@@ -9,6 +9,47 @@
 #include "runtime/tools/dynid/options/recording_options.h"
 
 namespace dyngen::runtime {
+namespace {
+
+/// Programmes of steady speeds and poses; what a search for a trajectory takes is not for them.
+void add_archetypes(CLI::App& excite, ExciteOptions& options) {
+  auto* archetype =
+      excite
+          .add_option("--archetype", options.archetype,
+                      "speeds: each joint in turn at constant speeds; poses: held poses, each from "
+                      "both sides; sweeps: each joint slowly over its range and back")
+          ->check(CLI::IsMember({"speeds", "poses", "sweeps"}));
+  for (const char* option : {"--for", "--criterion", "--unit-columns", "--form", "--harmonics",
+                             "--duration", "--base-frequency", "--starts", "--seconds",
+                             "--evaluations", "--noise", "--prior", "--parameters"}) {
+    archetype->excludes(excite.get_option(option));
+  }
+  excite
+      .add_option("--hold", options.hold,
+                  "with --archetype: s of a run (6), in a pose (2), of a sweep one way (30)")
+      ->check(CLI::PositiveNumber)
+      ->needs(archetype);
+  excite
+      .add_option("--count", options.count,
+                  "with --archetype: speeds (10), poses (20), sweeps there and back (2)")
+      ->check(CLI::Range(1, 1000))
+      ->needs(archetype);
+  excite
+      .add_option("--joints", options.joints,
+                  "with --archetype: joints that move, from 1; default: all")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->needs(archetype);
+  excite
+      .add_option(
+          "--posture", options.posture,
+          "with --archetype: rad or m, one for each joint: where the others stand; default: "
+          "the middle of their ranges")
+      ->delimiter(',')
+      ->needs(archetype);
+}
+
+}  // namespace
 
 std::string ExciteOptions::chosen_criterion() const {
   if (!criterion.empty()) return criterion;
@@ -132,6 +173,7 @@ CLI::App* add_excite(CLI::App& tool, RobotSource& robot, std::string& map, std::
   excite->add_option("--limits", options.limits, "share of the file's limits that may be used")
       ->check(CLI::Range(0.01, 1.0))
       ->capture_default_str();
+  add_archetypes(*excite, options);
   return excite;
 }
 

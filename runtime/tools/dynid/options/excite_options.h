@@ -37,8 +37,13 @@ struct ExciteOptions {
   std::vector<double> keep_out;         ///< xmin xmax ymin ymax zmin zmax
   std::vector<double> tool;             ///< x y z
   std::vector<double> acceleration;
-  double limits = 1;    ///< share of the file's limits
-  std::string picture;  ///< .svg or .png; empty: none
+  double limits = 1;            ///< share of the file's limits
+  std::string picture;          ///< .svg or .png; empty: none
+  std::string archetype;        ///< speeds, poses, sweeps; empty: none
+  double hold = 0;              ///< s of a run, a pose or a sweep; 0: the archetype's own
+  int count = 0;                ///< speeds, poses or sweeps; 0: the archetype's own
+  std::vector<int> joints;      ///< that move, from 1; empty: all
+  std::vector<double> posture;  ///< of joints that stand; empty: the middle of their ranges
 
   /// The criterion that was asked for; else sigma for multistage, condition for the others.
   [[nodiscard]] std::string chosen_criterion() const;
