@@ -338,7 +338,7 @@ class FormCompetition {
 /// Why nothing can be said; empty: it can.
 std::string reason_against(const SteadyLevels& levels) {
   constexpr std::size_t kFewest = 6;
-  constexpr double kApart = 1.5;  // of the fastest to the slowest speed
+  constexpr double kWidth = 1.5;  // of the fastest to the slowest speed
   if (levels.levels.size() < kFewest) {
     return fmt::format("It has {} runs of constant speed; {} are needed for a form of friction.",
                        levels.levels.size(), kFewest);
@@ -354,10 +354,10 @@ std::string reason_against(const SteadyLevels& levels) {
     return "No posture has runs in both directions, and a constant torque cannot be told from "
            "Coulomb friction. Record both directions.";
   }
-  if (fast < kApart * slow) {
+  if (fast < kWidth * slow) {
     return fmt::format(
         "Its speeds are all near {:.3g}; record some that are apart by a factor of {:.1f} or more.",
-        fast, kApart);
+        fast, kWidth);
   }
   return {};
 }

@@ -35,7 +35,7 @@ bool above(double square, double expected, double ratio, double fitted, double h
          variance_ratio_tail(excess, std::max(heldout, 1.0), std::max(fitted, 1.0)) < chance;
 }
 
-constexpr const char* kAway = " (without the samples near reversals)";
+constexpr const char* kWithoutReversals = " (without the samples near reversals)";
 
 /// How far what is left of a joint's held-out data is above the noise; empty: not far enough.
 std::string distance_from_noise(const HeldoutResidual& rms, const HeldoutKnowledge& known, Index j,
@@ -60,15 +60,15 @@ std::vector<std::string> objections(const HeldoutResidual& rms, const HeldoutKno
   std::vector<std::string> reasons;
   const std::string far = distance_from_noise(rms, known, j, rules);
   if (!far.empty()) {
-    reasons.push_back(
-        fmt::format("{:.4g} {} of joint {}, {}{}", rms.after[j], unit, j + 1, far, kAway));
+    reasons.push_back(fmt::format("{:.4g} {} of joint {}, {}{}", rms.after[j], unit, j + 1, far,
+                                  kWithoutReversals));
   }
   const double certainly = student_interval(1 - 2 * rules.heldout_chance, kHeldoutBlocks - 1);
   if (!found_nothing && known.with[j] > (1 + rules.printed_part) * known.without[j] &&
       known.worse[j] > certainly) {
     reasons.push_back(fmt::format("{:.4g} {} of joint {}, {:.4g} without the findings{}",
                                   known.with[j], unit, j + 1, known.without[j],
-                                  known.with_reversals ? "" : kAway));
+                                  known.with_reversals ? "" : kWithoutReversals));
   }
   return reasons;
 }

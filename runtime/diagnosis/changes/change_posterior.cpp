@@ -15,9 +15,9 @@ constexpr double kNegligible = 20;        // log evidence below the best: a set 
 constexpr double kReplaces = 0.05;        // weight over that of the best set: a name as good
 
 /// Sets with their log evidence, each looked at once.
-class Walk {
+class SetWalk {
  public:
-  explicit Walk(const ChangeSystem& system) : system_(system) {}
+  explicit SetWalk(const ChangeSystem& system) : system_(system) {}
 
   ChangePosterior run() {
     std::vector<ChangeSet> layer = {{}};
@@ -166,15 +166,16 @@ double ChangePosterior::probability_of_any(const ChangeSystem& system,
   const std::vector<std::size_t> others = replacements(system, candidate);
   double sum = 0;
   for (const auto& [set, weight] : weights) {
-    const bool any = has(system, set, system.candidates()[candidate]) ||
+    const ChangeSet& own = set;
+    const bool any = has(system, own, system.candidates()[candidate]) ||
                      std::any_of(others.begin(), others.end(), [&](std::size_t other) {
-                       return has(system, set, system.candidates()[other]);
+                       return has(system, own, system.candidates()[other]);
                      });
     if (any) sum += weight;
   }
   return std::min(1.0, sum);
 }
 
-ChangePosterior change_posterior(const ChangeSystem& system) { return Walk(system).run(); }
+ChangePosterior change_posterior(const ChangeSystem& system) { return SetWalk(system).run(); }
 
 }  // namespace dyngen::runtime

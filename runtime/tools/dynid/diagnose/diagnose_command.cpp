@@ -227,116 +227,167 @@ void write_outputs(const ToolOptions& options, const DescribedRobot& robot, Diag
   report.written.push_back(options.output);
 }
 
-}  // namespace
+/// What a command line asks for, and the robot that it is asked of.
+struct DiagnoseTask {
+  const ToolOptions& options;
+  DiagnosisOptions settings;
+  std::shared_ptr<const EffectCatalogue> catalogue;
+  DescribedRobot robot;
+  ToolOptions how;  ///< recordings are read
 
-int run_diagnose(const ToolOptions& options) {
-  ProgressLine progress("dynid");
+  static DiagnoseTask of(const ToolOptions& options);
+};
+
+DiagnoseTask DiagnoseTask::of(const ToolOptions& options) {
   DiagnosisOptions settings = options.diagnose.diagnosis;
   settings.decimation = options.rows.decimation;
   if (!options.diagnose.rules.empty()) settings.rules = read_rules(options.diagnose.rules);
   settings.validate();
   check_simulation(options);
   check_write_back(options);
-  const auto shared = std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects));
-  const EffectCatalogue& catalogue = *shared;
-  const DescribedRobot robot =
-      describe_robot(options.robot, OpenParameters::kAbsentRows, {.hold = options.hold});
-  refuse_without_parameters(robot);
-  refuse_with_hold(options, robot.held);
-  const KnownEffects known = known_effects(options.robot, catalogue);
-  const ToolOptions how = reading(options);
+  DiagnoseTask task{
+      options, std::move(settings),
+      std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects)),
+      describe_robot(options.robot, OpenParameters::kAbsentRows, {.hold = options.hold}),
+      reading(options)};
+  refuse_without_parameters(task.robot);
+  refuse_with_hold(options, task.robot.held);
+  return task;
+}
+
+/// A diagnosis, and what was seen on the way to it.
+struct DiagnosisRun {
+  DiagnosisInput input;
   std::vector<DiagnosedRecording> recordings;
-  std::vector<MotionSource> proof;  // with the torque of all effects
+  std::vector<MotionSource> proof;  ///< held-out ones with the torque of all effects
+  Diagnosis diagnosis;
+  DiagnosisViews views;
+  std::vector<RippleRun> runs;  ///< at full rate; empty: with --residual-only
+  Eigen::VectorXd posture;      ///< in the middle of a held-out recording
+};
+
+void read_input(const DiagnoseTask& task, ProgressLine& progress, DiagnosisRun& run) {
+  const ToolOptions& options = task.options;
+  const KnownEffects known = known_effects(options.robot, *task.catalogue);
   const auto read = [&](const std::vector<std::string>& paths, const std::string& use) {
-    DiagnosedMotions motions = read_motions(paths, use, how, known, progress);
-    recordings.insert(recordings.end(), motions.recordings.begin(), motions.recordings.end());
+    DiagnosedMotions motions = read_motions(paths, use, task.how, known, progress);
+    run.recordings.insert(run.recordings.end(), motions.recordings.begin(),
+                          motions.recordings.end());
     for (const MotionSource& source : motions.recorded) {
-      if (use == "held out") proof.push_back(source);
+      if (use == "held out") run.proof.push_back(source);
       if (use == "fitted" && options.heldout.empty()) {
-        proof.push_back(divided({source}, settings.rules.equations).heldout.front());
+        run.proof.push_back(divided({source}, task.settings.rules.equations).heldout.front());
       }
     }
     return std::move(motions.sources);
   };
-  DiagnosisInput input;
-  input.model = robot.linear;
-  input.robot = effect_robot(robot);
-  Diagnosis diagnosis;
-  DiagnosisViews views;
-  std::vector<RippleRun> runs;
-  Eigen::VectorXd posture = Eigen::VectorXd::Zero(robot.linear.joints());
+  DiagnosisInput& input = run.input;
+  input.train = read(options.recordings, "fitted");
+  hold_standing_joints(input.model.revolute, input.train, {});
+  if (!task.settings.residual_only) {
+    judge_recordings(task.robot, input.train, options, progress);
+    refuse_dead_torque(input.train);
+  }
+  input.heldout = read(options.heldout, "held out");
+  input.reference = read(options.diagnose.reference, "reference");
+  input.hypotheses = competing_effects(task.robot, *task.catalogue, joined_sources(input));
+  if (!input.reference.empty()) input.loads = load_places(task.robot);
+}
+
+/// Recordings that say too little leave a sentence in place of an answer.
+DiagnosisRun diagnosed(const DiagnoseTask& task, ProgressLine& progress) {
+  DiagnosisRun run;
+  run.input.model = task.robot.linear;
+  run.input.robot = effect_robot(task.robot);
+  run.posture = Eigen::VectorXd::Zero(task.robot.linear.joints());
   const auto observer = [&](const DiagnosedRecordings& shown) {
     std::vector<std::string> plots;
     for (const EffectInstance& effect : shown.after.effects) {
-      plots.push_back(catalogue.find(effect.law.name)->plot);
+      plots.push_back(task.catalogue->find(effect.law.name)->plot);
     }
-    views = views_for_report(shown, plots);
-    if (!settings.residual_only) runs = ripple_runs(shown.train, shown.after);
+    run.views = views_for_report(shown, plots);
+    if (!task.settings.residual_only) run.runs = ripple_runs(shown.train, shown.after);
     const Eigen::MatrixXd& q = shown.heldout.runs.front().motion.q;
-    posture = q.row(q.rows() / 2);
+    run.posture = q.row(q.rows() / 2);
+  };
+  const auto tell = [&](const std::string& stage, double done) {
+    progress.show(stage, static_cast<std::size_t>(100 * done), 100);
   };
   try {
-    input.train = read(options.recordings, "fitted");
-    hold_standing_joints(input.model.revolute, input.train, {});
-    if (!settings.residual_only) {
-      judge_recordings(robot, input.train, options, progress);
-      refuse_dead_torque(input.train);
-    }
-    input.heldout = read(options.heldout, "held out");
-    input.reference = read(options.diagnose.reference, "reference");
-    input.hypotheses = competing_effects(robot, catalogue, joined_sources(input));
-    if (!input.reference.empty()) input.loads = load_places(robot);
-    const auto tell = [&](const std::string& stage, double done) {
-      progress.show(stage, static_cast<std::size_t>(100 * done), 100);
-    };
-    diagnosis = diagnose(input, settings, tell, observer);
+    read_input(task, progress, run);
+    run.diagnosis = diagnose(run.input, task.settings, tell, observer);
   } catch (const TooLittleDataError& error) {
-    diagnosis.sentence = error.what();
+    run.diagnosis.sentence = error.what();
   } catch (const ImplausibleError& error) {
     progress.clear();
     std::cerr << error.what() << "\n";
-    diagnosis.sentence = error.sentence();
+    run.diagnosis.sentence = error.sentence();
   }
-  DiagnosisReport report = diagnosis_report(std::move(diagnosis), robot, catalogue);
-  report.views = std::move(views);
-  report.arm = arm_drawing(robot.model, posture, marked_joints(report.diagnosis));
-  report.recordings = std::move(recordings);
-  report.notes = notes_of_numbers(robot, false);
-  for (std::string& remark : repeated_recordings(options))
+  return run;
+}
+
+DiagnosisReport report_of(const DiagnoseTask& task, DiagnosisRun& run) {
+  const ToolOptions& options = task.options;
+  DiagnosisReport report = diagnosis_report(std::move(run.diagnosis), task.robot, *task.catalogue);
+  report.views = std::move(run.views);
+  report.arm = arm_drawing(task.robot.model, run.posture, marked_joints(report.diagnosis));
+  report.recordings = std::move(run.recordings);
+  report.notes = notes_of_numbers(task.robot, false);
+  for (std::string& remark : repeated_recordings(options)) {
     report.notes.push_back(std::move(remark));
-  report.residual_only = settings.residual_only;
-  report.false_alarm = settings.false_alarm;
-  report.seed = settings.seed;
+  }
+  report.residual_only = task.settings.residual_only;
+  report.false_alarm = task.settings.false_alarm;
+  report.seed = task.settings.seed;
   report.command = options.page.command;
   report.robot_path = options.robot.words();
   report.json_path = options.json;
   report.version = DYNGEN_VERSION;
+  return report;
+}
+
+/// What recordings say beside the equations, and what the answer says of a robot under control.
+void look_beside(const DiagnoseTask& task, DiagnosisRun& run, bool answered, ProgressLine& progress,
+                 LateError& late, DiagnosisReport& report) {
+  const std::vector<MotionSource>& train = run.input.train;
+  if (!train.empty()) {
+    late.during([&] {
+      add_two_encoders(task.how, task.settings.rules.wind_up, task.robot, train, progress, report);
+    });
+  }
+  if (answered && !run.runs.empty()) {
+    late.during(
+        [&] { add_ripple(run.runs, task.how, task.robot, *task.catalogue, progress, report); });
+  }
+  if (!train.empty() && !task.settings.residual_only) {
+    late.during([&] { report.steady = steady_of(task.robot, train, progress); });
+  }
+  if (answered && !task.options.diagnose.loop.controller.empty()) {
+    late.during([&] {
+      report.forward = simulated(task.options, report, task.robot, *task.catalogue,
+                                 std::move(run.proof), progress);
+    });
+  }
+}
+
+}  // namespace
+
+int run_diagnose(const ToolOptions& options) {
+  ProgressLine progress("dynid");
+  const DiagnoseTask task = DiagnoseTask::of(options);
+  const DescribedRobot& robot = task.robot;
+  DiagnosisRun run = diagnosed(task, progress);
+  DiagnosisReport report = report_of(task, run);
   const bool answered = report.diagnosis.verdict != Verdict::kInsufficientData;
   LateError late;
-  if (!input.train.empty()) {
-    late.during([&] {
-      add_two_encoders(how, settings.rules.wind_up, robot, input.train, progress, report);
-    });
-  }
-  if (answered && !runs.empty()) {
-    late.during([&] { add_ripple(runs, how, robot, catalogue, progress, report); });
-  }
-  if (!input.train.empty() && !settings.residual_only) {
-    late.during([&] { report.steady = steady_of(robot, input.train, progress); });
-  }
-  if (answered && !options.diagnose.loop.controller.empty()) {
-    late.during([&] {
-      report.forward = simulated(options, report, robot, catalogue, std::move(proof), progress);
-    });
-  }
-  if (answered) add_code(report, robot, shared);
+  look_beside(task, run, answered, progress, late, report);
+  if (answered) add_code(report, robot, task.catalogue);
   progress.clear();
-  const bool writes_back = answered && is_description_name(options.output);
-  if (writes_back) {
+  if (answered && is_description_name(options.output)) {
     progress.show("bodies of " + options.output, 0, 1);
     late.during([&] {
       report.written_back = made_description(options, improved_text(report, robot),
-                                             findings_comment(report, robot), input.train);
+                                             findings_comment(report, robot), run.input.train);
     });
     progress.clear();
   }

@@ -66,12 +66,12 @@ void take_larger(LimitShares& all, const LimitShares& own) {
 
 /// Shares of the whole programme, some rows at a time.
 LimitShares shares_of(const ProgrammeReport& report) {
-  constexpr double kBlock = 4096;
+  constexpr double kRowsAtOnce = 4096;
   LimitShares all;
   all.distance = std::numeric_limits<double>::infinity();
   const double rows = std::ceil(report.duration * kProgrammeCheckRate);
-  for (double first = 0; first < rows; first += kBlock) {
-    const auto count = static_cast<Index>(std::min(kBlock, rows - first));
+  for (double first = 0; first < rows; first += kRowsAtOnce) {
+    const auto count = static_cast<Index>(std::min(kRowsAtOnce, rows - first));
     const VectorXd time =
         (VectorXd::LinSpaced(count, 0, static_cast<double>(count - 1)).array() + first) /
         kProgrammeCheckRate;

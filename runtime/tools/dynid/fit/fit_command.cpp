@@ -314,116 +314,108 @@ std::vector<std::string> write_outputs(const ToolOptions& options, FitReport& re
   return made;
 }
 
-}  // namespace
-
-int run_fit(const ToolOptions& options, ProcessGroup& group) {
-  ProgressLine progress("dynid");
-  check_write_back(options);
-  FitReport report;
-  report.robot = describe_robot(options.robot, opened_by(options), {.hold = options.hold});
-  const LinearModel& model = report.robot.linear;
+/// Motions of a fit, and whether held-out ones were asked for and have no equations.
+struct FitMotions {
   LoadedRecordings train, heldout;
-  const bool file_by_file = !options.list.empty() || group.size() > 1;
-  const bool summaries = !file_by_file && are_summaries(options.recordings);
-  check_what_is_summed_up(options, file_by_file, summaries);
-  const EffectTask task = EffectTask::of(report.robot, options);
+  bool nothing_heldout = false;
+};
+
+/// Recordings in memory, their equations, and the fit of effects.
+void load_motions(const EffectTask& task, const ToolOptions& options, ProgressLine& progress,
+                  FitReport& report, FitMotions& motions) {
+  const LinearModel& model = report.robot.linear;
+  auto& [train, heldout, nothing] = motions;
   const bool with_effects = !task.effects.empty();
-  if (with_effects) {
-    refuse_with_effects(options, file_by_file, summaries);
-  } else {
-    refuse_without_parameters(report.robot);
-  }
-  refuse_with_hold(options, report.robot.held, file_by_file, summaries);
-  report.notes = notes_of_numbers(report.robot, has_open_payload(task.effects));
-  for (std::string& remark : repeated_recordings(options))
+  const ToolOptions reading = task.reading(options);
+  train = load_recordings(options.recordings, reading, false, progress);
+  heldout = load_recordings(options.heldout, reading, true, progress);
+  hold_standing(model, train, heldout, options);
+  hold_out_parts(options.heldout_part, train, heldout, options);
+  settle_cutoff(with_effects || model.held ? nullptr : &model, train, heldout, reading, progress);
+  for (std::string& remark : judge_recordings(report.robot, train.sources, options, progress)) {
     report.notes.push_back(std::move(remark));
-  if (file_by_file) {
-    load_by_file(options, group, progress, report);
-  } else if (summaries) {
-    load_summaries(options, report);
-  } else {
-    const ToolOptions reading = task.reading(options);
-    train = load_recordings(options.recordings, reading, false, progress);
-    heldout = load_recordings(options.heldout, reading, true, progress);
-    hold_standing(model, train, heldout, options);
-    hold_out_parts(options.heldout_part, train, heldout, options);
-    settle_cutoff(with_effects || model.held ? nullptr : &model, train, heldout, reading, progress);
-    for (std::string& remark : judge_recordings(report.robot, train.sources, options, progress)) {
-      report.notes.push_back(std::move(remark));
-    }
-    if (with_effects) {
-      fit_with_effects(task, options, train.sources, heldout.sources, progress, report);
-    } else {
-      report.data.summary = summarise_together(model, train, options, progress);
-      report.data.rows = joined(rows_of_all(model, train.sources, options));
-      make_instruments(options, train, report);
-    }
-    report.recordings = train.lines;
-    report.notes.insert(report.notes.end(), train.left_out.begin(), train.left_out.end());
   }
+  if (with_effects) {
+    fit_with_effects(task, options, train.sources, heldout.sources, progress, report);
+  } else {
+    report.data.summary = summarise_together(model, train, options, progress);
+    report.data.rows = joined(rows_of_all(model, train.sources, options));
+    make_instruments(options, train, report);
+  }
+  report.recordings = train.lines;
+  report.notes.insert(report.notes.end(), train.left_out.begin(), train.left_out.end());
+}
+
+/// Equations of held-out recordings, of files or summaries too.
+void hold_out(bool with_effects, const ToolOptions& options, ProgressLine& progress,
+              FitReport& report, FitMotions& motions) {
+  LoadedRecordings& heldout = motions.heldout;
   if (!options.heldout.empty() && heldout.sources.empty()) {
     heldout = load_recordings(options.heldout, options, true, progress);
   }
   if (!heldout.sources.empty()) {
     if (!with_effects) {
+      const LinearModel& model = report.robot.linear;
       report.heldout_rows = joined(rows_of_all(model, heldout.sources, options));
       report.data.heldout = heldout_equations(model, heldout, options);
     }
     report.recordings.insert(report.recordings.end(), heldout.lines.begin(), heldout.lines.end());
   }
   report.notes.insert(report.notes.end(), heldout.left_out.begin(), heldout.left_out.end());
-  const bool heldout_wanted = !options.heldout.empty() || options.heldout_part > 0;
-  const bool nothing_heldout =
-      heldout_wanted && !(report.data.heldout && report.data.heldout->samples() > 0);
-  if (nothing_heldout) {
-    report.data.heldout.reset();
-    report.heldout_rows = {};
+  const bool wanted = !options.heldout.empty() || options.heldout_part > 0;
+  motions.nothing_heldout = wanted && !(report.data.heldout && report.data.heldout->samples() > 0);
+  if (!motions.nothing_heldout) return;
+  report.data.heldout.reset();
+  report.heldout_rows = {};
+}
+
+void fit_parameters(const ToolOptions& options, const std::vector<MotionSource>& train,
+                    ProgressLine& progress, FitReport& report) {
+  FitOptions fit_options = options.fit;
+  fit_options.prior = prior_of(report.robot.linear);
+  fit_options.methods = methods_of(options, report.data);
+  report.fits = fit_methods(report.robot.linear, report.data, fit_options,
+                            [&](const std::string& what, double done) {
+                              progress.show(what, static_cast<std::size_t>(100 * done), 100);
+                            });
+  add_held_uncertainty(train, options, report);
+}
+
+/// Trust in the numbers, and numbers that no body has.
+void judge_parameters(FitReport& report, ProgressLine& progress) {
+  const LinearModel& model = report.robot.linear;
+  if (model.size() == 0) return;
+  examine(report, progress);
+  const MethodFit& fit = report.main();
+  const VectorXd deviations = fit.estimate.covariance.size() > 0 ? fit.stddev() : VectorXd();
+  for (std::string& note : notes_of_negatives(model, fit.estimate.beta, deviations, fit.interval)) {
+    report.notes.push_back(std::move(note));
   }
-  if (!with_effects) {
-    FitOptions fit_options = options.fit;
-    fit_options.prior = prior_of(model);
-    fit_options.methods = methods_of(options, report.data);
-    report.fits =
-        fit_methods(model, report.data, fit_options, [&](const std::string& what, double done) {
-          progress.show(what, static_cast<std::size_t>(100 * done), 100);
-        });
-    add_held_uncertainty(train.sources, options, report);
-  }
-  take_percentages_of_recorded_torque(train.sources, heldout.sources, options, report);
-  if (model.size() > 0) {
-    examine(report, progress);
-    const MethodFit& fit = report.main();
-    const VectorXd deviations = fit.estimate.covariance.size() > 0 ? fit.stddev() : VectorXd();
-    for (std::string& note :
-         notes_of_negatives(model, fit.estimate.beta, deviations, fit.interval)) {
-      report.notes.push_back(std::move(note));
-    }
-  }
-  if (!joints_with_two_encoders(train.sources).empty()) {
+}
+
+/// What recordings say beside the equations: two encoders, ripple, steady speeds.
+void look_beside(bool with_effects, const ToolOptions& options,
+                 const std::vector<MotionSource>& train, ProgressLine& progress,
+                 FitReport& report) {
+  const LinearModel& model = report.robot.linear;
+  if (!joints_with_two_encoders(train).empty()) {
     std::optional<LoadModel> load;  // beside effects the fit's own
     if (with_effects) {
       load = LoadModel{report.main().estimate.beta, report.main().estimate.covariance};
     }
-    report.two_encoders = two_encoders_of(report.robot, load, train.sources, options,
+    report.two_encoders = two_encoders_of(report.robot, load, train, options,
                                           options.diagnose.diagnosis.rules.wind_up, progress);
     compare_elasticity(report.two_encoders, elasticity_of(report));
   }
   if (!with_effects && model.size() > 0) {
-    const std::vector<RippleRun> runs =
-        ripple_runs(model, report.main().estimate.beta, train.sources);
+    const std::vector<RippleRun> runs = ripple_runs(model, report.main().estimate.beta, train);
     report.ripples = ripples_of(model, runs, gears_of_map(options), {}, progress);
   }
-  report.steady = steady_of(report.robot, train.sources, progress);
-  if (options.consistent) {
-    progress.show("physical consistency", 0, 1);
-    report.consistent = fit_consistently(report);
-  }
-  warn_of_held_out(report);
-  progress.clear();
-  std::cout << fit_table(report) << std::flush;
-  const std::vector<std::string> made = write_outputs(options, report, train.sources, progress);
-  progress.clear();
-  tell_written(made);
+  report.steady = steady_of(report.robot, train, progress);
+}
+
+/// @return the exit code, after a sentence where the answer has a gap
+int told_gaps(const FitReport& report, bool nothing_heldout) {
   if (nothing_heldout) {
     std::cerr
         << "dynid: what was held out has no equations: nothing is known of the fit beyond the "
@@ -441,6 +433,55 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
     return kCannotAnswer;
   }
   return nothing_heldout ? kCannotAnswer : kDone;
+}
+
+}  // namespace
+
+int run_fit(const ToolOptions& options, ProcessGroup& group) {
+  ProgressLine progress("dynid");
+  check_write_back(options);
+  FitReport report;
+  report.robot = describe_robot(options.robot, opened_by(options), {.hold = options.hold});
+  const bool file_by_file = !options.list.empty() || group.size() > 1;
+  const bool summaries = !file_by_file && are_summaries(options.recordings);
+  check_what_is_summed_up(options, file_by_file, summaries);
+  const EffectTask task = EffectTask::of(report.robot, options);
+  const bool with_effects = !task.effects.empty();
+  if (with_effects) {
+    refuse_with_effects(options, file_by_file, summaries);
+  } else {
+    refuse_without_parameters(report.robot);
+  }
+  refuse_with_hold(options, report.robot.held, file_by_file, summaries);
+  report.notes = notes_of_numbers(report.robot, has_open_payload(task.effects));
+  for (std::string& remark : repeated_recordings(options)) {
+    report.notes.push_back(std::move(remark));
+  }
+  FitMotions motions;
+  if (file_by_file) {
+    load_by_file(options, group, progress, report);
+  } else if (summaries) {
+    load_summaries(options, report);
+  } else {
+    load_motions(task, options, progress, report, motions);
+  }
+  hold_out(with_effects, options, progress, report, motions);
+  const std::vector<MotionSource>& train = motions.train.sources;
+  if (!with_effects) fit_parameters(options, train, progress, report);
+  take_percentages_of_recorded_torque(train, motions.heldout.sources, options, report);
+  judge_parameters(report, progress);
+  look_beside(with_effects, options, train, progress, report);
+  if (options.consistent) {
+    progress.show("physical consistency", 0, 1);
+    report.consistent = fit_consistently(report);
+  }
+  warn_of_held_out(report);
+  progress.clear();
+  std::cout << fit_table(report) << std::flush;
+  const std::vector<std::string> made = write_outputs(options, report, train, progress);
+  progress.clear();
+  tell_written(made);
+  return told_gaps(report, motions.nothing_heldout);
 }
 
 }  // namespace dyngen::runtime
