@@ -74,8 +74,11 @@ std::vector<Hypothesis> possible(const std::vector<Hypothesis>& hypotheses,
     const bool absorbed = named.part_left < kTheorem && named.typical.size() > 0;
     const bool linear = own.shapes.empty() && !own.windowed && law.states.empty() &&
                         law.alignment == AlignmentOperator::kNone && own.effect.recording < 0;
-    const bool timed = law.reads("t") || law.reads("temp");
-    if (!linear || timed || (law.family == "payload" && loads)) continue;
+    const bool shapes = std::any_of(own.linear.begin(), own.linear.end(), [&](int p) {
+      return law.parameters[static_cast<std::size_t>(p)].role != EffectRole::kLinear;
+    });
+    const bool excluded = shapes || law.reads("t") || law.reads("temp");
+    if (!linear || excluded || (law.family == "payload" && loads)) continue;
     if (!absorbed && (law.dissipates || law.scope == EffectScope::kPair)) continue;
     if (is_winner(result, named.hypothesis)) continue;  // of both sides, or of one
     effects.push_back(own);
@@ -109,8 +112,9 @@ std::string sentence_of(const SessionScatter& scatter, const SessionPlan& plan,
               : "one session on each side: the standard deviation that is allowed between them: ";
   text += fmt::format("{}", fmt::join(parts, ", "));
   if (scatter.inflation > 1.2) {
-    text += fmt::format("; halves of a session differ {:.1f} times as much as noise",
-                        std::sqrt(scatter.inflation));
+    text += fmt::format(
+        "; sessions of one side, or halves of one, differ {:.1f} times as much as noise",
+        std::sqrt(scatter.inflation));
   }
   return text + ".";
 }

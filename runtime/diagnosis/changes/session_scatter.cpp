@@ -86,6 +86,34 @@ double inflation_of(const std::vector<SessionEquations>& sessions, Index common)
   return degrees > 0 ? std::max(1.0, squares / degrees) : 1;
 }
 
+/// How much more sessions of one side differ in all parameters than noise and scatter say: what the
+/// model lacks shows in parameters that the motion of a session chooses.
+double misfit_between(const std::vector<SessionEquations>& sessions, const SessionScatter& scatter,
+                      Index common) {
+  const WhitenedSessions all = whitened_sessions(sessions, scatter, 1);
+  const Index K = all.rows.rows() / static_cast<Index>(sessions.size());
+  double squares = 0, degrees = 0;
+  for (const bool later : {false, true}) {
+    std::vector<MatrixXd> own;
+    for (std::size_t s = 0; s < sessions.size(); ++s) {
+      if (sessions[s].later == later) {
+        own.emplace_back(all.rows.middleRows(static_cast<Index>(s) * K, K));
+      }
+    }
+    MatrixXd side(K * static_cast<Index>(own.size()), all.rows.cols());
+    for (std::size_t s = 0; s < own.size(); ++s) {
+      side.middleRows(static_cast<Index>(s) * K, K) = own[s];
+      const MatrixXd Q = span_of(own[s].leftCols(common), nullptr);
+      squares += (Q.transpose() * own[s].rightCols(1)).squaredNorm();
+      degrees += static_cast<double>(Q.cols());
+    }
+    const MatrixXd Q = span_of(side.leftCols(common), nullptr);
+    squares -= (Q.transpose() * side.rightCols(1)).squaredNorm();
+    degrees -= static_cast<double>(Q.cols());
+  }
+  return degrees > 0 ? std::max(1.0, squares / degrees) : 1;
+}
+
 bool has_replicates(const std::vector<SessionEquations>& sessions) {
   const auto later = std::count_if(sessions.begin(), sessions.end(),
                                    [](const SessionEquations& own) { return own.later; });
@@ -180,6 +208,9 @@ SessionScatter session_scatter(const std::vector<SessionEquations>& sessions,
       }
     }
   }
+  SessionScatter alone = scatter;
+  alone.inflation = 1;
+  scatter.inflation = std::max(scatter.inflation, misfit_between(sessions, alone, common));
   return scatter;
 }
 

@@ -34,7 +34,7 @@ struct SessionScatter {
   /// Standard deviation of each kind over the allowance.
   std::array<double, kScatterKinds> factor{1, 1, 1};
   /// By which the variance of estimates is larger than the noise says, at least 1: halves of one
-  /// session that differ by more.
+  /// session, or sessions of one side, that differ by more in all parameters.
   double inflation = 1;
   bool estimated = false;  ///< from several sessions of a side; else the allowance stands
 
