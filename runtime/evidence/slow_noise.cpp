@@ -29,8 +29,6 @@ constexpr double kLittle = 0.03;    // of a deviation
 constexpr int kPoleSteps = 200;     // of variances, one by one
 constexpr Index kGrain = 32;        // samples: lengths are multiples, for the transform's sake
 
-double memory_of(const SlowNoise& part) { return part.pole > 0 ? -1 / std::log(part.pole) : 0; }
-
 /// Slow parts whose variances grow by a ratio from one memory to the next; they sum to 1.
 std::vector<SlowNoise> slow_parts(double longest, double ratio) {
   std::vector<SlowNoise> parts;
