@@ -26,7 +26,7 @@ using test::content;
 using test::dynid;
 using test::Outcome;
 
-constexpr double kOrder = 121, kAmplitude = 0.6, kPhase = 0.8;
+constexpr double kOrder = 381, kAmplitude = 0.6, kPhase = 0.8;
 
 class RippleTest : public testing::Test {
  protected:
@@ -136,7 +136,7 @@ TEST_F(RippleTest, AFitOfNoRippleFindsNone) {
 
 TEST_F(RippleTest, ADiagnosisWritesItIntoTheRobotFile) {
   record(kAmplitude);
-  const Outcome run = dynid("diagnose " + arm() + " " + path("run.csv") + " --effort 1 --json " +
+  const Outcome run = dynid("diagnose " + arm() + " " + path("run.csv") + " --json " +
                             path("findings.json") + " -o " + path("improved.robot"));
   ASSERT_TRUE(run.exit_code == 0 || run.exit_code == 3) << run.out;
   const Json json = Json::parse(content(path("findings.json")));
@@ -147,7 +147,8 @@ TEST_F(RippleTest, ADiagnosisWritesItIntoTheRobotFile) {
   ASSERT_NE(row, std::string::npos) << improved;
   EXPECT_EQ(improved.find("effect cogging", row + 1), std::string::npos) << improved;
   // the emitted torque has it
-  const Outcome emitted = test::run_shell(DYNGEN " " + path("improved.robot") + " -o " + path("c"));
+  const Outcome emitted =
+      test::run_shell(DYNGEN " " + path("improved.robot") + " -o " + path("arm.c"));
   ASSERT_EQ(emitted.exit_code, 0) << emitted.out;
   // a fit of that file finds the same order, and names the effect
   const Outcome fit = dynid("fit " + path("improved.robot") + " " + path("run.csv") + " --json " +
