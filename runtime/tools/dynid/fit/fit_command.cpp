@@ -408,9 +408,7 @@ int run_fit(const ToolOptions& options, ProcessGroup& group) {
                                           options.diagnose.diagnosis.rules.wind_up, progress);
     compare_elasticity(report.two_encoders, elasticity_of(report));
   }
-  report.steady =
-      steady_of(report.robot, report.fits.empty() ? VectorXd() : report.main().estimate.beta,
-                train.sources, progress);
+  report.steady = steady_of(report.robot, train.sources, progress);
   if (options.consistent) {
     progress.show("physical consistency", 0, 1);
     report.consistent = fit_consistently(report);
