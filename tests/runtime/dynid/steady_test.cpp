@@ -79,7 +79,7 @@ Json joint_of(const Json& steady, int joint) {
 TEST_F(SteadyTest, ProgrammesKeepTheLimitsOfSeveralRobots) {
   int robots = 0;
   for (const char* robot :
-       {"/tests/studies/robots/puma3.robot", "/robots/panda.robot", "/robots/ur10e.robot"}) {
+       {"/robots/kuka_iiwa14.robot", "/robots/panda.robot", "/robots/ur10e.robot"}) {
     const std::string file = DYNGEN_SOURCE_DIR + std::string(robot);
     const DescribedRobot described = describe_robot(file, OpenParameters::kAbsentRows);
     const MotionLimits limits = limits_of(described, {}).limits;
