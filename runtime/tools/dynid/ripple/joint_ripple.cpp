@@ -223,6 +223,12 @@ JointRipples ripples_of(const LinearModel& model, const std::vector<RippleRun>& 
     runs.push_back(run);
   }
   if (runs.empty()) return answer;
+  Index samples = 0;
+  for (const RippleRun& run : all_runs) samples += run.q.rows();
+  if (samples >= kMostRippleSamples) {
+    answer.remarks.push_back(fmt::format(
+        "Ripple is sought in the first {} samples; the others are left out for time.", samples));
+  }
   for (int j = 0; j < model.joints(); ++j) {
     const auto place = static_cast<std::size_t>(j);
     progress.show(fmt::format("ripple of joint {}", j + 1), place,

@@ -146,7 +146,7 @@ std::string ripple_text(const JointRipples& ripples) {
   std::string text = "\nripple, periods per turn of the joint, 95 % intervals\n";
   int joint = -1;
   for (const RippleTextLine& line : ripple_lines(ripples)) {
-    text += fmt::format("{:<8}{:<21}{:<12}{:<18}{}",
+    text += fmt::format("{:<8}{:<21}{:<12}{:<20}{}",
                         line.joint != joint ? fmt::format("joint {}", line.joint + 1) : "",
                         line.quantity, line.value, line.interval, line.note);
     while (text.back() == ' ') text.pop_back();
