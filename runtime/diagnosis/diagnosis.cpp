@@ -247,8 +247,7 @@ class Diagnostician {
     const EffectRecordings& heldout = search_.shown_heldout();
     const auto& effects = answer_.fit.point.effects;
     const std::size_t count = std::min(effects.size(), answer_.findings.size());
-    const VectorXd alone =
-        raw_rms(heldout, raw_residuals(heldout, from_rest(result().base.point)));
+    const VectorXd alone = raw_rms(heldout, raw_residuals(heldout, from_rest(result().base.point)));
     std::vector<VectorXd> without_one(count, alone);
     const auto fit_others = [&](std::size_t i, std::size_t) {
       std::vector<EffectInstance> others = effects;
@@ -296,12 +295,8 @@ class Diagnostician {
   void show() const {
     if (!observer_) return;
     tell("the report", 0);
-    DiagnosedRecordings shown{answer_,
-                              search_.shown_train(),
-                              search_.shown_heldout(),
-                              before_,
-                              from_rest(answer_.fit.point),
-                              {}};
+    DiagnosedRecordings shown{answer_, search_.shown_train(),        search_.shown_heldout(),
+                              before_, from_rest(answer_.fit.point), {}};
     for (const MotionSource& source : search_.parts().heldout) {
       shown.heldout_names.push_back(source.name);
     }
