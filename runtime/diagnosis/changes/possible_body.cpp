@@ -3,11 +3,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <vector>
 
 namespace dyngen::runtime {
@@ -19,8 +21,11 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kSteps = 200;        // of a search
-constexpr double kSettled = 1e-4;  // fall of chi-square at which it ends: no name turns on it
+constexpr int kSteps = 200;              // of a search
+constexpr double kSettled = 1e-4;        // fall of chi-square at which it ends: no name turns on it
+constexpr double kFree = 1e-3;           // damping of steps that are hardly shortened
+constexpr double kGap = 1e-6;            // of chi-square, above the least of bodies that can exist
+constexpr double kNewtonSettled = 1e-6;  // of what holds bodies inside: 4 is its scale
 
 /// Tensor about the origin and first moments of a pseudo-inertia matrix [Sigma h; h' m].
 BodyVector body_of(const Matrix4d& J) {
@@ -36,24 +41,6 @@ Matrix4d pseudo_inertia_of(const BodyVector& x) {
   J << half - x[0], -x[1], -x[2], x[6], -x[1], half - x[3], -x[4], x[7], -x[2], -x[4], half - x[5],
       x[8], x[6], x[7], x[8], x[9];
   return J;
-}
-
-Matrix4d lower_of(const VectorXd& entries) {
-  Matrix4d L = Matrix4d::Zero();
-  Index next = 0;
-  for (Index i = 0; i < 4; ++i) {
-    for (Index k = 0; k <= i; ++k) L(i, k) = entries[next++];
-  }
-  return L;
-}
-
-VectorXd entries_of(const Matrix4d& L) {
-  VectorXd entries(kBodyParameters);
-  Index next = 0;
-  for (Index i = 0; i < 4; ++i) {
-    for (Index k = 0; k <= i; ++k) entries[next++] = L(i, k);
-  }
-  return entries;
 }
 
 struct MappedBody {
@@ -77,7 +64,8 @@ VectorXd least_chi_square(const BodyEvidence& evidence, const BodyMap& map, Vect
     const MappedBody there = map(trial);
     const double now = evidence.chi_square(there.x);
     if (now < best) {
-      const bool settled = best - now < kSettled;
+      // a step that damping shortened says nothing of what is left
+      const bool settled = best - now < kSettled && damping <= kFree;
       unknowns = trial;
       here = there;
       best = now;
@@ -91,14 +79,79 @@ VectorXd least_chi_square(const BodyEvidence& evidence, const BodyMap& map, Vect
   return unknowns;
 }
 
-MappedBody of_lower(const VectorXd& entries, double sign) {
-  const Matrix4d L = lower_of(entries);
-  MappedBody mapped{sign * body_of(L * L.transpose()), MatrixXd(kBodyParameters, kBodyParameters)};
-  for (Index i = 0; i < kBodyParameters; ++i) {
-    const Matrix4d E = lower_of(VectorXd::Unit(kBodyParameters, i));
-    mapped.slope.col(i) = sign * body_of(E * L.transpose() + L * E.transpose());
+/// Chi-square of bodies inside the cone, over a weight, less what holds them inside: the logarithm
+/// of the determinant, and a trace that holds what is not seen.
+class BarrierFunction {
+ public:
+  BarrierFunction(const BodyEvidence& evidence, double sign, double size)
+      : evidence_(evidence), sign_(sign), size_(size) {
+    for (Index i = 0; i < kBodyParameters; ++i) {
+      units_.push_back(pseudo_inertia_of(BodyVector::Unit(i)));
+    }
   }
-  return mapped;
+
+  /// @return infinity outside of the cone
+  [[nodiscard]] double at(const BodyVector& x, double weight) const {
+    const Matrix4d J = pseudo_inertia_of(x);
+    const Eigen::LLT<Matrix4d> factor(J);
+    if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+    const Matrix4d L = factor.matrixL();
+    return evidence_.chi_square(sign_ * x) / weight - 2 * L.diagonal().array().log().sum() +
+           J.trace() / size_;
+  }
+
+  /// Newton's method with a shortened step. @return x, inside the cone as at the beginning
+  [[nodiscard]] BodyVector least(BodyVector x, double weight) const {
+    double here = at(x, weight);
+    for (int step = 0; step < kSteps; ++step) {
+      const Matrix4d inverse = pseudo_inertia_of(x).inverse();
+      BodyVector slope = (2 / weight) * (evidence_.G * x - sign_ * evidence_.b);
+      BodyMatrix curvature = (2 / weight) * evidence_.G;
+      for (Index i = 0; i < kBodyParameters; ++i) {
+        const Matrix4d own = inverse * units_[static_cast<std::size_t>(i)];
+        slope[i] += units_[static_cast<std::size_t>(i)].trace() / size_ - own.trace();
+        for (Index k = 0; k <= i; ++k) {
+          const double part = (own * inverse * units_[static_cast<std::size_t>(k)]).trace();
+          curvature(i, k) += part;
+          if (k < i) curvature(k, i) += part;
+        }
+      }
+      const BodyVector direction = -MatrixXd(curvature).ldlt().solve(slope);
+      const double fall = -slope.dot(direction);  // twice what the whole step takes away
+      if (!(fall > kNewtonSettled)) break;
+      constexpr double kPart = 0.25;  // of the expected fall, that a step must have
+      double length = 1;
+      double there = at(x + direction, weight);
+      while (!(there <= here - kPart * length * fall) && length > 1e-10) {
+        length /= 2;
+        there = at(x + length * direction, weight);
+      }
+      if (!(there < here)) break;
+      x += length * direction;
+      here = there;
+    }
+    return x;
+  }
+
+ private:
+  const BodyEvidence& evidence_;
+  double sign_, size_;
+  std::vector<Matrix4d> units_;
+};
+
+/// Chi-square is convex over the cone: a path inside it ends within kGap of the least.
+/// Source: Boyd and Vandenberghe, "Convex optimization", 2004, sections 11.2 and 11.3.
+BodyVector best_inside(const BodyEvidence& evidence, double sign, const Matrix4d& start) {
+  const BarrierFunction barrier(evidence, sign, start.trace());
+  BodyVector x = body_of(start);
+  constexpr double kSmaller = 0.1;  // from one weight to the next
+  const double last = kGap / 5;     // 4 of the determinant, 1 of the trace
+  double weight = std::max(last, std::abs(evidence.chi_square(sign * x)));
+  while (true) {
+    x = barrier.least(x, weight);
+    if (weight <= last) return x;
+    weight = std::max(last, kSmaller * weight);
+  }
 }
 
 /// Evidence of parameters in units in which each has a chi-square of its own.
@@ -131,24 +184,14 @@ Scaled scaled(const BodyEvidence& evidence) {
   return result;
 }
 
-/// Pseudo-inertia matrices inside the cone, near ten numbers: with negative eigenvalues cut off,
-/// and as a point of mass with some extent, whatever unseen parameters are.
-std::vector<Matrix4d> starts_of(const BodyVector& x) {
+/// A pseudo-inertia matrix inside the cone, near ten numbers: small and negative eigenvalues cut
+/// off.
+Matrix4d start_of(const BodyVector& x) {
   constexpr double kInside = 1e-3;  // of the largest eigenvalue
-  constexpr double kExtent = 0.1;   // of the point's distance, squared
   const Eigen::SelfAdjointEigenSolver<Matrix4d> eigen(pseudo_inertia_of(x));
   const double most = std::max(eigen.eigenvalues().cwiseAbs().maxCoeff(), 1e-12);
-  std::vector<Matrix4d> starts = {eigen.eigenvectors() *
-                                  eigen.eigenvalues().cwiseMax(kInside * most).asDiagonal() *
-                                  eigen.eigenvectors().transpose()};
-  const Vector3d h = x.segment<3>(6);
-  const double m = x[9];
-  if (!(m > 0)) return starts;
-  const double spread = kExtent * h.squaredNorm() / m + kInside * most;
-  Matrix4d point;
-  point << h * h.transpose() / m + spread * Eigen::Matrix3d::Identity(), h, h.transpose(), m;
-  starts.push_back(point);
-  return starts;
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(kInside * most).asDiagonal() *
+         eigen.eigenvectors().transpose();
 }
 
 BodyVector any_numbers(const BodyEvidence& evidence) {
@@ -167,16 +210,11 @@ PossibleBody possible_body(const BodyEvidence& given) {
   PossibleBody best;
   best.worse = -least;
   for (const double sign : {1.0, -1.0}) {
-    for (const Matrix4d& J : starts_of(sign * free)) {
-      const VectorXd entries = least_chi_square(
-          own.evidence, [sign](const VectorXd& at) { return of_lower(at, sign); },
-          entries_of(J.llt().matrixL()));
-      const BodyVector x = of_lower(entries, sign).x;
-      const double worse = own.evidence.chi_square(x) - least;
-      if (worse >= best.worse) continue;
-      best.worse = worse;
-      best.parameters = own.unit.asDiagonal() * x;
-    }
+    const BodyVector x = sign * best_inside(own.evidence, sign, start_of(sign * free));
+    const double worse = own.evidence.chi_square(x) - least;
+    if (worse >= best.worse) continue;
+    best.worse = worse;
+    best.parameters = own.unit.asDiagonal() * x;
   }
   best.worse = std::max(0.0, best.worse);
   return best;

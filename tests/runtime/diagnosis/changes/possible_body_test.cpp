@@ -44,6 +44,40 @@ TEST(PossibleBody, IsWorseThanNumbersThatAreNoBody) {
   EXPECT_NEAR(found.worse, evidence.chi_square(found.parameters) - evidence.chi_square(none), 1e-6);
 }
 
+/// An arm in a plane shows four of the ten: a body with these and its mass all to one side exists.
+TEST(PossibleBody, IsFoundWhereMostOfItIsNotSeenWhateverChiSquare) {
+  const PointMass point{0.5, {0.3, 0.05, 0}};
+  BodyVector truth = point.parameters();
+  truth[5] += 0.002;
+  for (const double strength : {1.0, 1e3, 1e5, 1e7}) {
+    BodyEvidence evidence = evidence_of(truth, 6);
+    for (const int hidden : {0, 1, 2, 3, 4, 8}) {
+      evidence.G.row(hidden).setZero();
+      evidence.G.col(hidden).setZero();
+    }
+    evidence.G *= strength;
+    evidence.b = evidence.G * truth;
+    EXPECT_LT(possible_body(evidence).worse, 1e-3) << strength;
+  }
+}
+
+/// Chi-square is convex over bodies: from the body found every way to another body leads up.
+TEST(PossibleBody, IsTheBestOfThoseNearIt) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  BodyVector none = PointMass{0.5, {0.3, 0.05, 0}}.parameters();
+  none[5] += 0.02;  // more about one axis than about the two others: no body
+  const BodyEvidence evidence = evidence_of(none, 4);
+  const PossibleBody found = possible_body(evidence);
+  const double least = evidence.chi_square(found.parameters);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const PointMass other{std::abs(normal(random)),
+                          {normal(random), normal(random), normal(random)}};
+    const BodyVector way = other.parameters() - found.parameters;
+    EXPECT_GT(evidence.chi_square(found.parameters + 1e-2 * way), least - 1e-3);
+  }
+}
+
 TEST(PossibleBody, FindsAPointOfMass) {
   const PointMass truth{0.7, {0.2, 0.05, -0.1}};
   const PointMass found = point_mass(evidence_of(truth.parameters(), 5),
