@@ -127,7 +127,7 @@ class Interpolation {
     const std::size_t unknowns = relevant_[component].size();
     for (int degree = 0; degree <= kMostDegree; ++degree) {
       if (monomial_count(unknowns, degree) > kMostInterpolatedTerms) break;
-      if (const auto found = fit(component, degree)) return found;
+      if (auto found = fit(component, degree)) return found;
       if (unknowns == 0) return std::nullopt;
     }
     return std::nullopt;

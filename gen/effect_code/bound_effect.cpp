@@ -44,11 +44,12 @@ class Binding {
   }
 
  private:
-  void error(SourcePosition at, int length, std::string message, std::string hint = {}) {
-    diagnostics_.error(at, length, std::move(message), std::move(hint));
+  void error(SourcePosition at, int length, const std::string& message,
+             const std::string& hint = {}) {
+    diagnostics_.error(at, length, message, hint);
   }
-  void error_at_name(std::string message, std::string hint = {}) {
-    error(row_.position, static_cast<int>(row_.name.size()), std::move(message), std::move(hint));
+  void error_at_name(const std::string& message, const std::string& hint = {}) {
+    error(row_.position, static_cast<int>(row_.name.size()), message, hint);
   }
 
   [[nodiscard]] const EffectRow::Setting* setting(std::string_view key) const {

@@ -44,8 +44,9 @@ class Checks {
   }
 
  private:
-  void error(SourcePosition at, std::string message, std::string hint = {}, int length = 1) {
-    diagnostics_.error(at, length, std::move(message), std::move(hint));
+  void error(SourcePosition at, const std::string& message, const std::string& hint = {},
+             int length = 1) {
+    diagnostics_.error(at, length, message, hint);
   }
 
   [[nodiscard]] const EffectParameter* parameter(const std::string& name) const {

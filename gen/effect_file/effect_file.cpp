@@ -95,7 +95,7 @@ const std::vector<std::pair<std::string_view, std::string_view>>& effect_tests()
   return kTests;
 }
 
-EffectFile parse_effect_file(std::string text, std::string file_name) {
+EffectFile parse_effect_file(const std::string& text, std::string file_name) {
   Diagnostics diagnostics(file_name, text);
   EffectFile effect = read_effect_rows(text, diagnostics);
   effect.file_name = std::move(file_name);
@@ -111,7 +111,7 @@ EffectFile read_effect_file(const std::string& path) {
   }
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (stream.bad()) throw ModelError(path + ": error: it cannot be read\n");
-  return parse_effect_file(std::move(text), path);
+  return parse_effect_file(text, path);
 }
 
 }  // namespace dyngen

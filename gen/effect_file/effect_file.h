@@ -146,7 +146,7 @@ const std::vector<std::pair<std::string_view, std::string_view>>& effect_tests()
 /// Reads an effect file and checks it: names, units, which parameters torque is linear in, what its
 /// kind may read.
 /// @throws ModelError  with up to 20 positioned messages
-EffectFile parse_effect_file(std::string text, std::string file_name);
+EffectFile parse_effect_file(const std::string& text, std::string file_name);
 EffectFile read_effect_file(const std::string& path);
 
 }  // namespace dyngen

@@ -66,12 +66,11 @@ class Reader {
     return kKeywords;
   }
 
-  void error(const EffectText& at, std::string message, std::string hint = {}) {
-    diagnostics_.error(at.position, std::max(1, character_count(at.text)), std::move(message),
-                       std::move(hint));
+  void error(const EffectText& at, const std::string& message, const std::string& hint = {}) {
+    diagnostics_.error(at.position, std::max(1, character_count(at.text)), message, hint);
   }
-  void error(SourcePosition at, std::string message, std::string hint = {}) {
-    diagnostics_.error(at, 1, std::move(message), std::move(hint));
+  void error(SourcePosition at, const std::string& message, const std::string& hint = {}) {
+    diagnostics_.error(at, 1, message, hint);
   }
 
   void read(const EffectRowText& row) {

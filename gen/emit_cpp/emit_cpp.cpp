@@ -192,7 +192,7 @@ std::string function_text(const RobotFunction& function, const CodeModel& code,
 
 /// The columns of an array with one row for each sample: "NQ", "NQ * NQ".
 std::string batch_columns(const OutputSpec& output) {
-  const std::string rows = extent_text(output.rows);
+  std::string rows = extent_text(output.rows);
   if (output.columns == Extent::kOne) return rows;
   return fmt::format("{} * {}", rows, extent_text(output.columns));
 }

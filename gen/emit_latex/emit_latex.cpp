@@ -37,7 +37,7 @@ std::string latex_length(const Quantity& length, const std::string& name) {
 
 /// "q_2 + pi/2", of a joint's own coordinate and what the file adds to it.
 std::string with_coordinate(int coordinate, const std::string& offset) {
-  const std::string q = fmt::format("q_{{{}}}", coordinate + 1);
+  std::string q = fmt::format("q_{{{}}}", coordinate + 1);
   if (offset == "0") return q;
   return q + (offset.starts_with('-') ? " - " + offset.substr(1) : " + " + offset);
 }

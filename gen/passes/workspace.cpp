@@ -249,6 +249,7 @@ void Workspace::tidy(int id) {
     return;
   }
   if (!sum) return;
+  // NOLINTNEXTLINE(bugprone-branch-clone): the order of the tests decides
   if (is_constant(node.terms)) {
     write_out_everywhere(id);
   } else if (is_copy(node.terms)) {

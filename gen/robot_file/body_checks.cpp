@@ -75,9 +75,9 @@ class LinkNumbers {
   std::size_t link_;
 };
 
-void warn_at(const FieldValue& value, std::string message, std::string hint,
+void warn_at(const FieldValue& value, const std::string& message, const std::string& hint,
              Diagnostics& diagnostics) {
-  diagnostics.warning(value.position, value.length, std::move(message), std::move(hint));
+  diagnostics.warning(value.position, value.length, message, hint);
 }
 
 std::string shown(const FieldValue& value) { return printable(value.text); }

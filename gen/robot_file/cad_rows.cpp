@@ -129,8 +129,8 @@ class CadResolver {
     }
     return nullptr;
   }
-  void error(const FieldValue& value, std::string message, std::string hint) {
-    diagnostics_.error(value.position, value.length, std::move(message), std::move(hint));
+  void error(const FieldValue& value, const std::string& message, const std::string& hint) {
+    diagnostics_.error(value.position, value.length, message, hint);
   }
 
   /// Whether a link has the CAD form of a group of rows; none if what it has is wrong.

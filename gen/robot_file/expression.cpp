@@ -276,7 +276,7 @@ class ValueParser {
   std::string declared_names(std::string_view wanted) const {
     std::vector<std::string_view> names;
     for (const LetNames::Entry& entry : names_.all()) names.push_back(entry.name);
-    const std::string declared =
+    std::string declared =
         names.empty() ? "no let names are declared above" : "declared: " + comma_list(names);
     names.insert(names.end(), kConstants.begin(), kConstants.end());
     const std::string_view nearest = nearest_word(wanted, names);

@@ -37,8 +37,8 @@ void RowWords::skip_line() {
   while (!at_line_end()) take();
 }
 
-void RowWords::error(const Word& word, std::string message, std::string hint) {
-  diagnostics_.error(word.position, word.length, std::move(message), std::move(hint));
+void RowWords::error(const Word& word, const std::string& message, const std::string& hint) {
+  diagnostics_.error(word.position, word.length, message, hint);
 }
 
 bool starts_like_value(std::string_view word) {

@@ -34,7 +34,7 @@ class RowWords {
   const Word& take();
   void skip_line();
 
-  void error(const Word& word, std::string message, std::string hint = {});
+  void error(const Word& word, const std::string& message, const std::string& hint = {});
   [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
   [[nodiscard]] LetNames& names() { return names_; }
   [[nodiscard]] const LetNames& names() const { return names_; }

@@ -60,8 +60,8 @@ void check_positive(const RobotFile& file, RowKey key, Diagnostics& diagnostics)
   }
 }
 
-void check_not_negative(const RobotFile& file, RowKey key, Severity severity, std::string hint,
-                        Diagnostics& diagnostics) {
+void check_not_negative(const RobotFile& file, RowKey key, Severity severity,
+                        const std::string& hint, Diagnostics& diagnostics) {
   for (const FieldValue& value : file.row(key).values) {
     if (value.unknown || rounded(value.value) >= 0) continue;
     const std::string message =

@@ -33,9 +33,8 @@ class UrdfWriter {
   }
 
  private:
-  void warn(const TextPlace& place, std::string message, std::string hint) {
-    written_.warnings.push_back(
-        {Severity::kWarning, place.position, place.length, std::move(message), std::move(hint)});
+  void warn(const TextPlace& place, const std::string& message, const std::string& hint) {
+    written_.warnings.push_back({Severity::kWarning, place.position, place.length, message, hint});
   }
 
   /// URDF's gravity is along -z of the root: where it is not, a link "world" is the root.

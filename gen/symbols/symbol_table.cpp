@@ -53,7 +53,7 @@ int SymbolTable::place(const GiNaC::ex& symbol) const {
 GiNaC::ex add_constant(SymbolTable& table, const std::string& name, const GiNaC::ex& value,
                        const std::string& unit, const std::string& comment) {
   DYNGEN_ASSERT(is_number(value), name);
-  const GiNaC::ex settled = rational_or_float(value);
+  GiNaC::ex settled = rational_or_float(value);
   if (settled.is_zero() || settled.is_equal(1) || settled.is_equal(-1)) return settled;
   if (const SymbolInfo* found = table.find_name(name); found != nullptr &&
                                                        found->kind == SymbolKind::kConstant &&

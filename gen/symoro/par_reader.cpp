@@ -87,7 +87,7 @@ class ParReader {
   MadeText read() {
     for (ParAssignment& own : read_assignments(text_, diagnostics_, robot_name_)) {
       const std::string name = lower_case(own.name);
-      const auto [first, is_first] = assignments_.emplace(name, std::move(own));
+      const auto [first, is_first] = assignments_.try_emplace(name, std::move(own));
       if (!is_first) {
         diagnostics_.error(own.position, static_cast<int>(name.size()),
                            fmt::format("'{}' is assigned twice", name),
@@ -121,8 +121,8 @@ class ParReader {
     const auto found = assignments_.find(name);
     return found == assignments_.end() ? nullptr : &found->second;
   }
-  void error(const ParValue& value, std::string message, std::string hint) {
-    diagnostics_.error(value.position, value.length, std::move(message), std::move(hint));
+  void error(const ParValue& value, const std::string& message, const std::string& hint) {
+    diagnostics_.error(value.position, value.length, message, hint);
   }
 
   /// An integer that stands alone.

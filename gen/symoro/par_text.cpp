@@ -31,10 +31,10 @@ class ParScanner {
   }
 
  private:
-  void error(std::size_t byte, std::size_t size, std::string message, std::string hint) {
+  void error(std::size_t byte, std::size_t size, const std::string& message,
+             const std::string& hint) {
     const int length = character_count(std::string_view(original_).substr(byte, size));
-    diagnostics_.error(lines_.position_of(original_, byte), std::max(1, length), std::move(message),
-                       std::move(hint));
+    diagnostics_.error(lines_.position_of(original_, byte), std::max(1, length), message, hint);
   }
 
   /// Comments become blanks, so that bytes keep their places.

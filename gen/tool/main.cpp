@@ -137,8 +137,8 @@ std::string counted(const RobotModel& model, const GeneratorOptions& options, Mi
 /// The text; what was left out of it is printed.
 std::string told(WrittenRobot written, const RobotFile& file) {
   Diagnostics diagnostics(file.file_name, file.source_text);
-  for (Diagnostic& own : written.warnings) {
-    diagnostics.warning(own.position, own.length, std::move(own.message), std::move(own.hint));
+  for (const Diagnostic& own : written.warnings) {
+    diagnostics.warning(own.position, own.length, own.message, own.hint);
   }
   std::cerr << diagnostics.render();
   return std::move(written.text);

@@ -80,7 +80,7 @@ std::string usage_message(const CLI::App& tool, int argc, const char* const* arg
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (is_option(word)) {
-      const std::string message = option_message(*command, word);
+      std::string message = option_message(*command, word);
       if (!message.empty()) return message;
     } else if (has_commands && command == &tool) {
       if (!contains(command_names(tool), word)) return command_message(tool, word);

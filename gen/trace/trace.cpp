@@ -121,7 +121,7 @@ ex Trace::assign(const std::string& name, const ex& value) {
   }
   if (is_signed_symbol(value)) return value;
   if (is_constant(value)) return constant(name, constant_value(value));
-  const ex folded = fold_constants(value);
+  ex folded = fold_constants(value);
   if (is_signed_symbol(folded)) return folded;
 
   // a - b and b - a are one statement: the one whose form begins with the smaller first term
@@ -167,7 +167,7 @@ Trace::SinCos Trace::sin_cos(const std::string& suffix, const ex& angle) {
   // whole right angles exchange sin and cos and cost nothing
   const ex quarters = offset * 2 / GiNaC::Pi;
   if (quarters.info(GiNaC::info_flags::integer) && !offset.is_zero()) {
-    const SinCos plain = sin_cos(suffix, moving);
+    SinCos plain = sin_cos(suffix, moving);
     switch (GiNaC::mod(GiNaC::ex_to<GiNaC::numeric>(quarters), 4).to_int()) {
       case 1:
         return {plain.cos, -plain.sin};
@@ -220,7 +220,7 @@ Trace Trace::without_statements() const {
 GiNaC::symbol Trace::append(const std::string& name, const ex& value, int section) {
   SymbolInfo info;
   info.name = name;
-  const GiNaC::symbol target = symbols_.add(std::move(info));
+  GiNaC::symbol target = symbols_.add(std::move(info));
   assignments_.push_back({target, value, section});
   return target;
 }

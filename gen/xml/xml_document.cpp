@@ -102,7 +102,7 @@ class XmlTreeReader {
   }
 
   /// Reading goes on to the end of the piece that expat is at, and is over then.
-  void refuse(std::string message, std::string hint) {
+  void refuse(const std::string& message, const std::string& hint) {
     if (!refusal_.empty()) return;
     refusal_ = std::move(message);
     refusal_hint_ = std::move(hint);

@@ -10,17 +10,21 @@
 
 namespace dyngen {
 
-void XmlValues::error(const XmlElement& element, std::string message, std::string hint) {
-  diagnostics_.error(element.position, element.length, std::move(message), std::move(hint));
+void XmlValues::error(const XmlElement& element, const std::string& message,
+                      const std::string& hint) {
+  diagnostics_.error(element.position, element.length, message, hint);
 }
-void XmlValues::error(const XmlAttribute& attribute, std::string message, std::string hint) {
-  diagnostics_.error(attribute.position, attribute.length, std::move(message), std::move(hint));
+void XmlValues::error(const XmlAttribute& attribute, const std::string& message,
+                      const std::string& hint) {
+  diagnostics_.error(attribute.position, attribute.length, message, hint);
 }
-void XmlValues::warning(const XmlElement& element, std::string message, std::string hint) {
-  diagnostics_.warning(element.position, element.length, std::move(message), std::move(hint));
+void XmlValues::warning(const XmlElement& element, const std::string& message,
+                        const std::string& hint) {
+  diagnostics_.warning(element.position, element.length, message, hint);
 }
-void XmlValues::warning(const XmlAttribute& attribute, std::string message, std::string hint) {
-  diagnostics_.warning(attribute.position, attribute.length, std::move(message), std::move(hint));
+void XmlValues::warning(const XmlAttribute& attribute, const std::string& message,
+                        const std::string& hint) {
+  diagnostics_.warning(attribute.position, attribute.length, message, hint);
 }
 
 const XmlAttribute* XmlValues::required(const XmlElement& element, std::string_view name,

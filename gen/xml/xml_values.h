@@ -18,10 +18,12 @@ class XmlValues {
   XmlValues(const XmlDocument& document, Diagnostics& diagnostics)
       : document_(document), diagnostics_(diagnostics) {}
 
-  void error(const XmlElement& element, std::string message, std::string hint = {});
-  void error(const XmlAttribute& attribute, std::string message, std::string hint = {});
-  void warning(const XmlElement& element, std::string message, std::string hint = {});
-  void warning(const XmlAttribute& attribute, std::string message, std::string hint = {});
+  void error(const XmlElement& element, const std::string& message, const std::string& hint = {});
+  void error(const XmlAttribute& attribute, const std::string& message,
+             const std::string& hint = {});
+  void warning(const XmlElement& element, const std::string& message, const std::string& hint = {});
+  void warning(const XmlAttribute& attribute, const std::string& message,
+               const std::string& hint = {});
 
   /// Null, and reported, if there is none. @param what  whose it is, for the message
   const XmlAttribute* required(const XmlElement& element, std::string_view name,

@@ -205,7 +205,7 @@ RecordingReader::RecordingReader(const OpenSampleSource& open_rows, const std::s
   state_ = std::make_unique<State>(open_rows, name, place_word, options);
 }
 
-RecordingReader RecordingReader::from_text(std::string bytes, std::string name,
+RecordingReader RecordingReader::from_text(std::string bytes, const std::string& name,
                                            ReadOptions options) {
   try {
     return RecordingReader(std::make_unique<State>(

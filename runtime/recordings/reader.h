@@ -46,7 +46,8 @@ class RecordingReader {
                   const std::string& place_word, const ReadOptions& options = {});
 
   /// The same from memory (plain or gzip); `name` stands in messages.
-  static RecordingReader from_text(std::string bytes, std::string name, ReadOptions options = {});
+  static RecordingReader from_text(std::string bytes, const std::string& name,
+                                   ReadOptions options = {});
 
   ~RecordingReader();
   RecordingReader(RecordingReader&&) noexcept;

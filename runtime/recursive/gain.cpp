@@ -52,7 +52,8 @@ Eigen::VectorXd scaled_eigenvalues(const Eigen::MatrixXd& R, const Eigen::Vector
 
 Eigen::MatrixXd regressor_correlation(const Eigen::MatrixXd& W, int joints) {
   check_regressors("regressor_correlation", W, joints);
-  const auto samples = static_cast<double>(W.rows() / joints);
+  const Eigen::Index rows = W.rows() / joints;  // of each joint
+  const auto samples = static_cast<double>(rows);
   return W.transpose() * W / samples;
 }
 

@@ -21,7 +21,8 @@ using Signal = std::vector<std::complex<double>>;
 
 Eigen::Index line_below(double cutoff_hz, Eigen::Index samples, double sample_time) {
   const double period = static_cast<double>(samples) * sample_time;
-  const double limit = static_cast<double>((samples - 1) / 2);
+  const Eigen::Index last = (samples - 1) / 2;
+  const auto limit = static_cast<double>(last);
   // A cut-off that is meant to be a line should find it, whatever the rounding.
   const double line = std::floor(cutoff_hz * period * (1 + 1e-9) + 1e-9);
   return static_cast<Eigen::Index>(std::clamp(line, 0.0, std::max(limit, 0.0)));

@@ -310,7 +310,7 @@ VectorXd Plant::acceleration(const VectorXd& torque) const {
   const double* dq = q + state_->n;
   const Eigen::VectorXi before = regime.direction;
   for (Index j = 0; j < torque.size(); ++j) regime.direction[j] = sign(dq[j]);
-  const VectorXd ddq = regime.rest({time(), q, dq, dq + state_->n}, torque.data()).ddq;
+  VectorXd ddq = regime.rest({time(), q, dq, dq + state_->n}, torque.data()).ddq;
   regime.direction = before;  // what is asked here changes nothing
   return ddq;
 }

@@ -34,15 +34,15 @@ amax       12    12    15    # [rad/s^2]
 
 /** What other commands write; `words` follow the robot. */
 export const kPages = [
-  { name: "fit", command: "fit", joints: 3, charts: 3, matrix: false, result: /base parameters fitted by wls/,
+  { name: "fit", command: "fit", joints: 3, charts: 4, matrix: false, result: /base parameters fitted by wls/,
     rows: "effect load_friction joint=3 mu=0.12\n",
     words: ["run1.csv", "--holdout", "run2.csv", "--method", "all"],
-    sections: ["verdict", "parameters", "torque", "methods", "conditioning", "condition", "origin"],
+    sections: ["verdict", "parameters", "torque", "ripple", "methods", "conditioning", "condition", "origin"],
     figures: ["rms", "torque-joint-1", "torque-joint-3"] },
-  { name: "fit-effects", command: "fit", joints: 3, charts: 3, matrix: false, result: /base parameters fitted by wls/,
+  { name: "fit-effects", command: "fit", joints: 3, charts: 4, matrix: false, result: /base parameters fitted by wls/,
     rows: "effect load_friction joint=3 mu=0.12\n", told: "effect load_friction joint=3 mu=*\n",
     words: ["run1.csv", "--holdout", "run2.csv"],
-    sections: ["verdict", "parameters", "effects", "torque", "conditioning", "condition", "origin"],
+    sections: ["verdict", "parameters", "effects", "torque", "ripple", "conditioning", "condition", "origin"],
     figures: ["rms", "torque-joint-2"] },
   { name: "atlas", command: "atlas", joints: 3, charts: 0, matrix: true, result: /this motion can show/, rows: "",
     words: ["run1.csv"], sections: ["verdict", "absorbed", "alike", "noise", "origin"], figures: ["seen", "likeness"] },

@@ -268,7 +268,7 @@ DraftWrench CompositeDraft::carry(int j, const Station& from, const Station& to)
   const int k = from.link;
   const CompositeRobot::Link& link = robot_.link(k);
   const DraftOwner owner{j, k};
-  const DraftWrench w = wrench(j, from);
+  DraftWrench w = wrench(j, from);
   switch (from.kind) {
     case Kind::kLink:
       if (to.kind == Kind::kSlid) return slide_z(draft_, owner, link.r, w);

@@ -66,7 +66,7 @@ class RowWriter {
 
   /// (a x W) z, with the motion of the link or of the frame below.
   ex write_spin() {
-    const ex here = a_[0] * motion_.W[1] - a_[1] * motion_.W[0];
+    ex here = a_[0] * motion_.W[1] - a_[1] * motion_.W[0];
     const JointScrew* below = link_.anchor_screws->find(screw_.joint);
     if (below == nullptr) return here;
     const FrameRotation& r = link_.frame->from_anchor;

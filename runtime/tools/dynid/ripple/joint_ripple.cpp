@@ -104,6 +104,35 @@ void compare(JointRipple& own, const EffectRipple& effect) {
       fmt::format("The equations have {}; the torque at full rate does not show it.", words));
 }
 
+/// Pieces of one run, one after the other.
+RippleRun run_of(const LinearModel& model, const VectorXd& beta,
+                 const std::vector<Motion>& pieces) {
+  constexpr Index kBlock = 4096;  // samples of which the regressor is held at once
+  Index count = 0;
+  for (const Motion& motion : pieces) count += motion.samples();
+  RippleRun run;
+  run.sample_time = pieces.back().sample_time;
+  for (MatrixXd* part : {&run.q, &run.dq, &run.ddq, &run.residual}) {
+    part->resize(count, model.joints());
+  }
+  Index at = 0;
+  for (const Motion& motion : pieces) {
+    const Index rows = motion.samples();
+    run.q.middleRows(at, rows) = motion.q;
+    run.dq.middleRows(at, rows) = motion.dq;
+    run.ddq.middleRows(at, rows) = motion.ddq;
+    for (Index first = 0; first < rows; first += kBlock) {
+      const Index part = std::min(kBlock, rows - first);
+      run.residual.middleRows(at + first, part) =
+          motion.tau.middleRows(first, part) -
+          model.torque(motion.q.middleRows(first, part), motion.dq.middleRows(first, part),
+                       motion.ddq.middleRows(first, part), beta);
+    }
+    at += rows;
+  }
+  return run;
+}
+
 }  // namespace
 
 std::vector<RippleRun> ripple_runs(const LinearModel& model, const VectorXd& beta,
@@ -111,48 +140,26 @@ std::vector<RippleRun> ripple_runs(const LinearModel& model, const VectorXd& bet
   std::vector<RippleRun> runs;
   Index samples = 0;
   for (const MotionSource& source : sources) {
-    if (!source.recorded || samples >= kMostRippleSamples) continue;
-    std::vector<std::vector<const Motion*>> parts;
-    std::vector<Motion> pieces;
-    std::vector<std::size_t> begins;
+    if (!source.recorded) continue;
+    std::vector<std::vector<Motion>> found;  // pieces of each run
+    bool left_out = false;
     source.pieces([&](const StreamPiece& piece) {
-      if (samples >= kMostRippleSamples) return;
-      if (!piece.continues_run || begins.empty()) begins.push_back(pieces.size());
+      left_out = samples >= kMostRippleSamples;
+      if (left_out) return;
+      if (!piece.continues_run || found.empty()) found.emplace_back();
       samples += piece.motion.samples();
-      pieces.push_back(piece.motion);
+      found.back().push_back(piece.motion);
     });
-    for (std::size_t b = 0; b < begins.size(); ++b) {
-      const std::size_t end = b + 1 < begins.size() ? begins[b + 1] : pieces.size();
-      Index count = 0;
-      for (std::size_t i = begins[b]; i < end; ++i) count += pieces[i].samples();
-      RippleRun run;
-      run.sample_time = source.sample_time;
-      const Index n = model.joints();
-      for (MatrixXd* part : {&run.q, &run.dq, &run.ddq, &run.residual}) part->resize(count, n);
-      Index at = 0;
-      for (std::size_t i = begins[b]; i < end; ++i) {
-        const Motion& motion = pieces[i];
-        const Index rows = motion.samples();
-        run.sample_time = motion.sample_time;
-        run.q.middleRows(at, rows) = motion.q;
-        run.dq.middleRows(at, rows) = motion.dq;
-        run.ddq.middleRows(at, rows) = motion.ddq;
-        constexpr Index kBlock = 4096;  // samples of which the regressor is held at once
-        for (Index first = 0; first < rows; first += kBlock) {
-          const Index part = std::min(kBlock, rows - first);
-          run.residual.middleRows(at + first, part) =
-              motion.tau.middleRows(first, part) -
-              model.torque(motion.q.middleRows(first, part), motion.dq.middleRows(first, part),
-                           motion.ddq.middleRows(first, part), beta);
-        }
-        at += rows;
-      }
+    for (const std::vector<Motion>& pieces : found) {
+      runs.push_back(run_of(model, beta, pieces));
       for (std::size_t j = 0; j < source.condition.torque_dead.size(); ++j) {
-        if (source.condition.torque_dead[j])
-          run.residual.col(static_cast<Index>(j)).setConstant(kNoNumber);
+        if (!source.condition.torque_dead[j]) continue;
+        runs.back().residual.col(static_cast<Index>(j)).setConstant(kNoNumber);
       }
-      runs.push_back(std::move(run));
     }
+    if (!left_out) continue;
+    runs.back().cut_off = true;
+    break;
   }
   return runs;
 }
@@ -169,6 +176,7 @@ std::vector<RippleRun> ripple_runs(const EffectRecordings& data, const EffectPoi
     const Motion& motion = data.runs[i].motion;
     runs.push_back({motion.sample_time, motion.q, motion.dq, motion.ddq, residuals[i]});
     samples += motion.samples();
+    runs.back().cut_off = samples >= kMostRippleSamples && i + 1 < data.runs.size();
     for (int j = 0; j < data.joints(); ++j) {
       if (data.is_masked(j)) runs.back().residual.col(j).setConstant(kNoNumber);
     }
@@ -225,7 +233,7 @@ JointRipples ripples_of(const LinearModel& model, const std::vector<RippleRun>& 
   if (runs.empty()) return answer;
   Index samples = 0;
   for (const RippleRun& run : all_runs) samples += run.q.rows();
-  if (samples >= kMostRippleSamples) {
+  if (all_runs.back().cut_off) {
     answer.remarks.push_back(fmt::format(
         "Ripple is sought in the first {} samples; the others are left out for time.", samples));
   }

@@ -20,6 +20,7 @@ struct RippleRun {
   double sample_time = 0;      ///< s
   Eigen::MatrixXd q, dq, ddq;  ///< (N x n)
   Eigen::MatrixXd residual;    ///< (N x n); NaN of a joint without torque
+  bool cut_off = false;        ///< what was recorded after it is left out
 };
 
 /// Samples that are looked at: two minutes at 1 kHz take some seconds for six joints.
