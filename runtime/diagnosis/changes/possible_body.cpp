@@ -119,10 +119,10 @@ class BarrierFunction {
       const BodyVector direction = -MatrixXd(curvature).ldlt().solve(slope);
       const double fall = -slope.dot(direction);  // twice what the whole step takes away
       if (!(fall > kNewtonSettled)) break;
-      constexpr double kPart = 0.25;  // of the expected fall, that a step must have
+      constexpr double kExpectedPart = 0.25;  // of the expected fall, that a step must have
       double length = 1;
       double there = at(x + direction, weight);
-      while (!(there <= here - kPart * length * fall) && length > 1e-10) {
+      while (!(there <= here - kExpectedPart * length * fall) && length > 1e-10) {
         length /= 2;
         there = at(x + length * direction, weight);
       }
