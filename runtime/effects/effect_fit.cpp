@@ -94,7 +94,7 @@ class EffectFitter {
   }
 
   /// The point with the effect's shapes where the search may begin.
-  EffectPoint started(EffectPoint point, std::size_t k) {
+  EffectPoint started(const EffectPoint& point, std::size_t k) {
     tell("starting values of " + name_of(written_[k]),
          static_cast<double>(k) / static_cast<double>(written_.size()));
     const std::vector<VectorXd> starts = start_values(

@@ -14,6 +14,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): its parts are moved
 JointColumns columns_of(std::map<int, MatrixXd> parts) {
   JointColumns columns;
   for (auto& [joint, part] : parts) {

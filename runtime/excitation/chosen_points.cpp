@@ -27,7 +27,7 @@ class SecondOrder {
       x_ = target * 0;
       dx_ = x_;
     }
-    const RowVectorXd ddx = w_ * w_ * (target - x_) - 2 * w_ * dx_;
+    RowVectorXd ddx = w_ * w_ * (target - x_) - 2 * w_ * dx_;
     x_ += T_ * dx_ + 0.5 * T_ * T_ * ddx;
     dx_ += T_ * ddx;
     return ddx;

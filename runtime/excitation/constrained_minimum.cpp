@@ -112,6 +112,7 @@ Minimum constrained_minimum(const std::function<SmoothPoint(const VectorXd&)>& a
     if (left < 2 || gone.count() >= options.seconds) break;
     nlopt_set_maxeval(solver.get(), left);
     nlopt_set_maxtime(solver.get(), options.seconds - gone.count());
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): the search changes its best
     const Minimum before = search.best();
     VectorXd x = before.x;
     double value = 0;

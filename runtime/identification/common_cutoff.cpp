@@ -277,7 +277,7 @@ Cutoff median_cutoff(const std::vector<MotionSource>& sources) {
 }
 
 Cutoff common_cutoff(const LinearModel& model, const std::vector<MotionSource>& sources) {
-  const Cutoff first = median_cutoff(sources);
+  Cutoff first = median_cutoff(sources);
   const bool fit = std::all_of(sources.begin(), sources.end(), [&](const MotionSource& source) {
     return source.joints() == model.joints();
   });

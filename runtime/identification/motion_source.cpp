@@ -168,7 +168,7 @@ Recording with_every_other(Recording recording, int parity) {
 /// @param recording  of uniform time, its condition looked at   @param start  s, before averaging
 /// @param periods    of each run; empty: none repeats
 /// @param chosen     the cut-off, where options leave it open; 0 Hz: chosen from this recording
-MotionSource filtered(std::shared_ptr<const Recording> recording, double start,
+MotionSource filtered(const std::shared_ptr<const Recording>& recording, double start,
                       RecordingCondition condition, const JointStateOptions& options,
                       const std::vector<Periods>& periods, const Cutoff& chosen = {}) {
   MotionSource source;

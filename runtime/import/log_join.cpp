@@ -91,7 +91,7 @@ void LogJoin::set_clock(const ImportMap& map, const ColumnLookup& lookup,
 }
 
 LogJoin::LogJoin(const ImportMap& map, std::vector<OpenedLog>& logs, const ColumnLookup& lookup,
-                 std::vector<JoinedColumn> columns, NoticeLog& log)
+                 const std::vector<JoinedColumn>& columns, NoticeLog& log)
     : logs_(&logs), log_(&log), map_name_(map.name), ended_(logs.size(), false) {
   for (const JoinedColumn& column : columns) table_of(column.place);
   set_clock(map, lookup, columns);

@@ -51,7 +51,7 @@ class LogJoin {
   /// @param logs  must outlive it
   /// @throws ImportError
   LogJoin(const ImportMap& map, std::vector<OpenedLog>& logs, const ColumnLookup& lookup,
-          std::vector<JoinedColumn> columns, NoticeLog& log);
+          const std::vector<JoinedColumn>& columns, NoticeLog& log);
 
   /// The next row; NaN: no value.
   /// @param values  one for each column

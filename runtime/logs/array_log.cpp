@@ -20,8 +20,7 @@ constexpr std::size_t kFewestArrayRows = 10;
 
 /// "gain = 0.5", or the name alone if there is more than one number.
 std::string words_of_short(const ArrayVariable& variable) {
-  const std::string name =
-      variable.table.empty() ? variable.name : variable.table + "." + variable.name;
+  std::string name = variable.table.empty() ? variable.name : variable.table + "." + variable.name;
   if (variable.rows != 1 || variable.columns != 1) return name;
   Eigen::MatrixXd value(1, 1);
   variable.read(0, value);

@@ -170,7 +170,7 @@ std::string text_attribute(hid_t object, const char* name) {
     const Hdf5Id wanted(H5Tcopy(type.get()), H5Tclose);
     char* text = nullptr;
     if (H5Aread(attribute.get(), wanted.get(), &text) < 0 || text == nullptr) return {};
-    const std::string kept = std::string(text).substr(0, kLongestUnit);
+    std::string kept = std::string(text).substr(0, kLongestUnit);
     H5free_memory(text);
     return kept;
   }

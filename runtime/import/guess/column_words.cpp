@@ -203,7 +203,7 @@ std::vector<ColumnFamily> column_families(const std::vector<std::string>& column
                                           const std::vector<std::string>& joints) {
   std::vector<ColumnFamily> families;
   std::vector<bool> used(columns.size(), false);
-  if (joints.size() > 0) add_named(columns, joints, used, families);
+  if (!joints.empty()) add_named(columns, joints, used, families);
   Numbered numbered;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (used[c]) continue;

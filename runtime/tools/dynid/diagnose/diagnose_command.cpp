@@ -246,8 +246,7 @@ DiagnoseTask DiagnoseTask::of(const ToolOptions& options) {
   check_simulation(options);
   check_write_back(options);
   DiagnoseTask task{
-      options, std::move(settings),
-      std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects)),
+      options, settings, std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects)),
       describe_robot(options.robot, OpenParameters::kAbsentRows, {.hold = options.hold}),
       reading(options)};
   refuse_without_parameters(task.robot);

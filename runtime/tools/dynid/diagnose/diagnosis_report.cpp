@@ -143,7 +143,7 @@ std::string why_no_interval(const Finding& finding, std::size_t place) {
 std::string parameter_text(const Finding& finding, std::size_t place, double interval) {
   const EffectParameterFit& parameter = finding.parameters[place];
   const std::string value = fmt::format("{:.4g}", parameter.value);
-  const std::string why = why_no_interval(finding, place);
+  std::string why = why_no_interval(finding, place);
   if (!std::isfinite(parameter.value)) return why;
   if (!why.empty()) return fmt::format("{} ({})", value, why);
   return fmt::format("{} +- {:.2g}", value, interval * parameter.stddev);
