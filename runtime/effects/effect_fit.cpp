@@ -49,7 +49,7 @@ class EffectFitter {
     signals_.set_tangent_beta(point.beta);
     unknowns_ = unknowns_of(point);
     point = within_bounds(scales_, std::move(point), unknowns_);
-    for (std::size_t k = 0; k < written_.size(); ++k) point = started(std::move(point), k);
+    for (std::size_t k = 0; k < written_.size(); ++k) point = started(point, k);
     SearchState state = EffectSearch(data_, signals_, triangles_, scales_, unknowns_, weights_)
                             .with_linear_solved(std::move(point));
     refuse_infinite(state);

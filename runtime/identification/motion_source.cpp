@@ -220,7 +220,7 @@ MotionSource filtered(const std::shared_ptr<const Recording>& recording, double 
         return filtered(recording, start, condition, other, periods);
       }
       auto half = std::make_shared<const Recording>(with_every_other(*recording, state.parity));
-      MotionSource of_half = filtered(std::move(half), start, condition, other, periods);
+      MotionSource of_half = filtered(half, start, condition, other, periods);
       of_half.position_noise = noise;
       return of_half;
     };

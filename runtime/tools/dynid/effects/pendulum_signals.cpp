@@ -88,7 +88,7 @@ int differences_of(const std::string& name) {
 }  // namespace
 
 VectorXd pendulum_signal(const std::string& name) {
-  const VectorXd t = times();
+  VectorXd t = times();
   const bool partner = name.ends_with("_other");
   const std::string stem = partner ? name.substr(0, name.size() - 6) : name;
   const Swing motion = swing(t, partner ? 0.9 : 0);
