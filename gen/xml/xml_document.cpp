@@ -104,8 +104,8 @@ class XmlTreeReader {
   /// Reading goes on to the end of the piece that expat is at, and is over then.
   void refuse(const std::string& message, const std::string& hint) {
     if (!refusal_.empty()) return;
-    refusal_ = std::move(message);
-    refusal_hint_ = std::move(hint);
+    refusal_ = message;
+    refusal_hint_ = hint;
     refusal_byte_ = static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get()));
     XML_StopParser(parser_.get(), XML_FALSE);
   }
