@@ -176,7 +176,7 @@ class RippleAnalysis {
       if (!own || own->log_chance > limit()) continue;
       if (!is_same(*own, order)) continue;
       own->stated = order;
-      best = std::move(own);
+      best = own;
     }
     return best;
   }
