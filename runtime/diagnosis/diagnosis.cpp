@@ -176,8 +176,8 @@ class Diagnostician {
     for (std::size_t i = 0; i < search_.parts().train.size(); ++i) {
       compared.later_files.push_back(static_cast<int>(search_.parts().origin_of(i)));
     }
-    ChangesSince changes =
-        changes_since(compared, input_, search_.hypotheses(), result(), options_.false_alarm);
+    ChangesSince changes = changes_since(compared, input_, search_.hypotheses(), result(),
+                                         options_.false_alarm, options_.rules);
     answer_.sessions = std::move(changes.sessions);
     for (Finding& change : changes.findings) answer_.findings.push_back(std::move(change));
     before_.beta = fitted_to_reference(reference, before_.beta);

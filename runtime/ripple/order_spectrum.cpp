@@ -104,7 +104,7 @@ OrderSums order_sums(const WhiteResidual& white, const VectorXd& e, double order
   return sums;
 }
 
-OrderReach order_reach(const WhiteResidual& white, const RippleOptions& options) {
+OrderReach order_reach(const WhiteResidual& white, const RippleRules& rules) {
   OrderReach reach;
   const RippleData& data = white.data();
   const VectorXd counts = white.direction().cwiseAbs();
@@ -127,29 +127,28 @@ OrderReach order_reach(const WhiteResidual& white, const RippleOptions& options)
   reach.resolution = kOrderTurn / (high - low);
   reach.apart = reach.resolution * kParts * visits.squaredNorm() / std::pow(visits.sum(), 2);
   constexpr double kCycles = 2.5;  // in the travel: 1.5 are slow structure, and one is a resolution
-  reach.least = std::max(options.least_order, kCycles * reach.resolution);
-  const auto place =
-      speeds.begin() +
-      static_cast<std::ptrdiff_t>(options.least_samples * static_cast<double>(speeds.size()));
+  reach.least = std::max<double>(rules.least_order, kCycles * reach.resolution);
+  const auto place = speeds.begin() + static_cast<std::ptrdiff_t>(
+                                          rules.least_samples * static_cast<double>(speeds.size()));
   std::nth_element(speeds.begin(), place, speeds.end());
-  reach.most = std::min(options.most_order,
-                        options.most_per_sample * kOrderTurn / (*place * data.sample_time));
+  reach.most = std::min<double>(rules.most_order,
+                                rules.most_per_sample * kOrderTurn / (*place * data.sample_time));
   reach.most = std::min(reach.most,
                         kMostPieces / (4 * kPiecesPerPeriod * kPerResolution) * reach.resolution);
   return reach;
 }
 
 OrderSpectrum::OrderSpectrum(const WhiteResidual& white, const VectorXd& e, const OrderReach& reach,
-                             const RippleOptions& options)
-    : reach_(reach), options_(options) {
+                             const RippleRules& rules)
+    : reach_(reach), rules_(rules) {
   for (double from = reach.least; from < reach.most; from *= 2) {
     bands_.push_back(band(white, e, from, std::min(2 * from, reach.most)));
   }
 }
 
 OrderSpectrum::OrderSpectrum(const WhiteResidual& white, const VectorXd& e, const OrderReach& reach,
-                             const RippleOptions& options, double order)
-    : reach_(reach), options_(options) {
+                             const RippleRules& rules, double order)
+    : reach_(reach), rules_(rules) {
   double from = reach.least;
   while (2 * from < std::min(order, reach.most)) from *= 2;
   bands_.push_back(band(white, e, from, std::min(2 * from, reach.most)));
@@ -159,18 +158,18 @@ OrderSpectrum::Band OrderSpectrum::band(const WhiteResidual& white, const Vector
                                         double to) const {
   const RippleData& data = white.data();
   Band own{from, to, 0, {}};
-  const double beyond = to + (options_.nearest + options_.neighbours) * reach_.apart;
+  const double beyond = to + (rules_.nearest + rules_.neighbours) * reach_.apart;
   const double width = kOrderTurn / beyond / kPiecesPerPeriod;
   std::size_t size = 1;
   while (static_cast<double>(size) * width * reach_.resolution / kPerResolution < kOrderTurn)
     size *= 2;
   own.step = kOrderTurn / (width * static_cast<double>(size));
   own.sums.resize(1 + static_cast<std::size_t>(beyond / own.step));
-  const VectorXd seen = white.seen(to, options_.most_per_sample);
+  const VectorXd seen = white.seen(to, rules_.most_per_sample);
   const double first = data.q.minCoeff();
   for (std::size_t side = 0; side < 2; ++side) {
     const VectorXd counted = of_side(white, seen, side);
-    if (counted.sum() < options_.least_samples / 2 * static_cast<double>(white.counted())) continue;
+    if (counted.sum() < rules_.least_samples / 2 * static_cast<double>(white.counted())) continue;
     const VectorXd u = white.transposed(e.cwiseProduct(counted));
     ComplexSums pieces(size, 0);
     for (Index k = 0; k < u.size(); ++k) {
@@ -203,9 +202,9 @@ std::optional<OrderTest> OrderSpectrum::level_in(const Band& band, Index place) 
   double sum = 0;
   const auto size = static_cast<Index>(band.sums.size());
   const auto least = static_cast<Index>(reach_.least / 2 / band.step);
-  for (int n = 0; n < options_.neighbours; ++n) {
+  for (int n = 0; n < rules_.neighbours; ++n) {
     const auto away =
-        static_cast<Index>(std::lround((options_.nearest + n) * reach_.apart / band.step));
+        static_cast<Index>(std::lround((rules_.nearest + n) * reach_.apart / band.step));
     for (const Index at : {place - away, place + away}) {
       if (at < least || at >= size) continue;
       const OrderSums& own = band.sums[static_cast<std::size_t>(at)];
@@ -213,7 +212,7 @@ std::optional<OrderTest> OrderSpectrum::level_in(const Band& band, Index place) 
       test.degrees += 2 * own.sides();
     }
   }
-  if (test.degrees < 2 * options_.neighbours || !(sum > 0)) return std::nullopt;
+  if (test.degrees < 2 * rules_.neighbours || !(sum > 0)) return std::nullopt;
   test.level = 2 * sum / test.degrees;
   return test;
 }
@@ -229,7 +228,7 @@ std::optional<OrderTest> OrderSpectrum::level_at(double order) const {
 std::optional<OrderSpectrum::Peak> OrderSpectrum::strongest(
     const std::vector<double>& known) const {
   std::optional<Peak> best;
-  const double part = options_.part_of_line * reach_.resolution;
+  const double part = rules_.part_of_line * reach_.resolution;
   for (const Band& band : bands_) {
     const auto to = static_cast<Index>(band.to / band.step);
     for (auto i = static_cast<Index>(std::ceil(band.from / band.step)); i <= to; ++i) {

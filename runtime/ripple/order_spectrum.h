@@ -52,16 +52,16 @@ struct OrderReach {
   double apart = 0;  ///< orders whose noise is independent, where the travel is not visited evenly
   [[nodiscard]] bool empty() const { return !(most > least); }
 };
-OrderReach order_reach(const WhiteResidual& white, const RippleOptions& options);
+OrderReach order_reach(const WhiteResidual& white, const RippleRules& rules);
 
 /// Orders at a fine grid. Each octave has the samples that its highest order sees below Nyquist.
 class OrderSpectrum {
  public:
   OrderSpectrum(const WhiteResidual& white, const Eigen::VectorXd& e, const OrderReach& reach,
-                const RippleOptions& options);
+                const RippleRules& rules);
   /// The octave of one order alone.
   OrderSpectrum(const WhiteResidual& white, const Eigen::VectorXd& e, const OrderReach& reach,
-                const RippleOptions& options, double order);
+                const RippleRules& rules, double order);
 
   /// The order that stands out most, but for those near `known`.
   struct Peak {
@@ -92,7 +92,7 @@ class OrderSpectrum {
   [[nodiscard]] std::optional<OrderTest> level_in(const Band& band, Eigen::Index place) const;
 
   const OrderReach& reach_;
-  const RippleOptions& options_;
+  const RippleRules& rules_;
   std::vector<Band> bands_;
 };
 

@@ -15,7 +15,7 @@
 #include "runtime/ripple/order_spectrum.h"
 #include "runtime/ripple/rivals.h"
 #include "runtime/ripple/white_residual.h"
-#include "runtime/wind_up/robust_regression.h"
+#include "runtime/estimation/robust_regression.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -58,19 +58,19 @@ struct OrderCandidate {
 
 class RippleAnalysis {
  public:
-  RippleAnalysis(const RippleData& data, const RippleOptions& options)
-      : data_(data), options_(options), white_(data, options) {}
+  RippleAnalysis(const RippleData& data, const RippleRules& rules)
+      : data_(data), rules_(rules), white_(data, rules) {}
 
   RippleResult run() {
     if (!can_be_judged()) return std::move(result_);
     left_ = white_.start();
-    const int rounds = 2 * options_.most_lines;  // those that are ruled out as well
+    const int rounds = 2 * most_lines();  // those that are ruled out as well
     for (int round = 0; round < rounds; ++round) {
-      const OrderSpectrum spectrum(white_, left_, reach_, options_);
+      const OrderSpectrum spectrum(white_, left_, reach_, rules_);
       std::optional<OrderCandidate> best = best_stated(spectrum);
       if (!best) best = best_of_all(spectrum);
       if (!best) break;
-      result_.cut_off = static_cast<int>(result_.lines.size()) >= options_.most_lines;
+      result_.cut_off = static_cast<int>(result_.lines.size()) >= most_lines();
       if (result_.cut_off) break;
       take(*best);
     }
@@ -87,13 +87,13 @@ class RippleAnalysis {
     if (!data_.residual.allFinite()) {
       return refuse("The torque of the joint is not known.");
     }
-    if (white_.counted() < options_.least_moving) {
-      return refuse(fmt::format("The joint moves in {} samples; {} are needed.", white_.counted(),
-                                options_.least_moving));
+    if (static_cast<double>(white_.counted()) < rules_.least_moving) {
+      return refuse(fmt::format("The joint moves in {} samples; {:g} are needed.", white_.counted(),
+                                rules_.least_moving.value));
     }
     if (!white_.usable()) return refuse("The model leaves no torque of this joint.");
-    reach_ = order_reach(white_, options_);
-    const double fewest = 4.0 * options_.neighbours;  // orders: neighbours on both sides, twice
+    reach_ = order_reach(white_, rules_);
+    const double fewest = 4.0 * rules_.neighbours;  // orders: neighbours on both sides, twice
     if (reach_.empty() || (reach_.most - reach_.least) / reach_.apart < fewest) {
       return refuse(
           "The joint travels too little, or too fast for its sample time, for orders to be told "
@@ -102,7 +102,8 @@ class RippleAnalysis {
     return true;
   }
 
-  [[nodiscard]] double limit() const { return std::log(options_.chance); }
+  [[nodiscard]] int most_lines() const { return static_cast<int>(rules_.most_lines); }
+  [[nodiscard]] double limit() const { return std::log(rules_.chance); }
 
   [[nodiscard]] std::vector<double> known() const {
     std::vector<double> orders;
@@ -112,7 +113,7 @@ class RippleAnalysis {
   }
 
   [[nodiscard]] OrderSums sums_at(double order) const {
-    return order_sums(white_, left_, order, options_.most_per_sample);
+    return order_sums(white_, left_, order, rules_.most_per_sample);
   }
 
   /// The order near `start` with the largest power.
@@ -146,8 +147,8 @@ class RippleAnalysis {
     own.order = order;
     own.sums = sums_at(order);
     const VectorXd beside =
-        left_beside(wave_columns(white_, order, options_.most_per_sample).columns, left_);
-    const OrderSpectrum without(white_, beside, reach_, options_, order);
+        left_beside(wave_columns(white_, order, rules_.most_per_sample).columns, left_);
+    const OrderSpectrum without(white_, beside, reach_, rules_, order);
     const std::optional<OrderTest> level = without.level_at(order);
     if (!level) return std::nullopt;
     own.test = order_test(own.sums, level->level, level->degrees);
@@ -160,7 +161,7 @@ class RippleAnalysis {
     std::vector<double> open;
     for (const double order : data_.stated) {
       const bool near = std::any_of(found.begin(), found.end(), [&](double own) {
-        return std::abs(own - order) < options_.part_of_line * reach_.resolution;
+        return std::abs(own - order) < rules_.part_of_line * reach_.resolution;
       });
       if (!near && order >= reach_.least && order <= reach_.most) open.push_back(order);
     }
@@ -201,7 +202,7 @@ class RippleAnalysis {
 
   /// Half of the order's interval: from the curvature of its power.
   [[nodiscard]] double half_interval(const OrderCandidate& own) const {
-    const VectorXd seen = white_.seen(own.order, options_.most_per_sample);
+    const VectorXd seen = white_.seen(own.order, rules_.most_per_sample);
     double information = 0;
     if (own.test.separate) {
       for (const std::size_t side : {0U, 1U}) {
@@ -229,19 +230,19 @@ class RippleAnalysis {
     const auto frequencies = frequencies_of(own.order);
     line.least_hz = frequencies.first;
     line.most_hz = frequencies.second;
-    if (std::optional<Rival> rival = rival_of(white_, left_, own.order, own.test, options_)) {
+    if (std::optional<Rival> rival = rival_of(white_, left_, own.order, own.test, rules_)) {
       line.kind = rival->kind;
       line.rival = rival->value;
       result_.ruled_out.push_back(line);
       // the order's own columns too: it must not be sought again
-      left_ = left_beside(wave_columns(white_, own.order, options_.most_per_sample).columns,
-                          rival->left);
+      left_ =
+          left_beside(wave_columns(white_, own.order, rules_.most_per_sample).columns, rival->left);
       base_ = left_ + explained();
       return;
     }
-    const PositionTest test = position_test(white_, left_, own.order, own.test, options_);
-    const bool torque = test.torque_beside <= options_.beside;
-    const bool position = test.position_beside <= options_.beside;
+    const PositionTest test = position_test(white_, left_, own.order, own.test, rules_);
+    const bool torque = test.torque_beside <= rules_.beside;
+    const bool position = test.position_beside <= rules_.beside;
     if (position && !torque) line.kind = RippleKind::kPosition;
     line.open = !position && !torque;
     line.by_speed = position && torque;
@@ -250,7 +251,7 @@ class RippleAnalysis {
   }
 
   [[nodiscard]] std::pair<double, double> frequencies_of(double order) const {
-    const VectorXd seen = white_.seen(order, options_.most_per_sample);
+    const VectorXd seen = white_.seen(order, rules_.most_per_sample);
     std::vector<double> speeds;
     for (Index k = 0; k < seen.size(); ++k) {
       if (seen[k] != 0) speeds.push_back(std::abs(data_.dq[k]));
@@ -275,7 +276,7 @@ class RippleAnalysis {
     Index count = 0;
     for (const RippleLine& line : result_.lines) {
       places_.push_back(count);
-      parts.push_back(wave_columns(white_, line.order.value, options_.most_per_sample).columns);
+      parts.push_back(wave_columns(white_, line.order.value, rules_.most_per_sample).columns);
       count += parts.back().cols();
     }
     // what grows with the speed is beside the waves, and is not a part of their amplitude
@@ -285,7 +286,7 @@ class RippleAnalysis {
         continue;
       }
       errors_.push_back({count, 0});
-      parts.push_back(position_columns(white_, line.order.value, options_.most_per_sample));
+      parts.push_back(position_columns(white_, line.order.value, rules_.most_per_sample));
       errors_.back().second = parts.back().cols();
       if (parts.back().norm() > 0) parts.back() *= parts.front().norm() / parts.back().norm();
       count += parts.back().cols();
@@ -306,7 +307,7 @@ class RippleAnalysis {
   void answer_spectrum();
 
   const RippleData& data_;
-  const RippleOptions& options_;
+  const RippleRules& rules_;
   WhiteResidual white_;
   OrderReach reach_;
   VectorXd left_;     ///< white, without what was found
@@ -385,16 +386,15 @@ void RippleAnalysis::answer_waves() {
   for (Index k = 0; k < left_.size(); ++k) {
     if (white_.direction()[k] != 0) rows.push_back(k);
   }
-  constexpr double kFactor = 0.2;  // as WindUpRules::cosines
-  constexpr int kMost = 60;        // Student's t has 2.00 there
-  const int cosines = std::min(kMost, cosines_for(static_cast<double>(rows.size()), kFactor));
+  constexpr int kMost = 60;  // Student's t has 2.00 there
+  const int cosines = std::min(kMost, cosines_for(static_cast<double>(rows.size())));
   const RobustRegression fit =
       robust_regression(columns_(rows, Eigen::all), VectorXd(base()(rows)), cosines);
   for (std::size_t i = 0; i < result_.lines.size(); ++i) {
     RippleLine& line = result_.lines[i];
-    const WaveColumns waves = wave_columns(white_, line.order.value, options_.most_per_sample);
+    const WaveColumns waves = wave_columns(white_, line.order.value, rules_.most_per_sample);
     if (line.kind != RippleKind::kPosition && !line.by_speed) {
-      set_waves(line, waves, fit, places_[i], options_.beside);
+      set_waves(line, waves, fit, places_[i], rules_.beside);
       continue;
     }
     const Index count = waves.columns.cols();
@@ -404,14 +404,14 @@ void RippleAnalysis::answer_waves() {
                          columns_.middleCols(first, more) * beta_.segment(first, more);
     const RobustRegression alone =
         robust_regression(waves.columns(rows, Eigen::all), VectorXd(own(rows)), cosines);
-    set_waves(line, waves, alone, 0, options_.beside);
+    set_waves(line, waves, alone, 0, rules_.beside);
   }
 }
 
 void RippleAnalysis::answer_spectrum() {
   constexpr Index kMost = 1200;  // values of a chart
-  const OrderSpectrum before(white_, white_.start(), reach_, options_);
-  const OrderSpectrum left(white_, left_, reach_, options_);
+  const OrderSpectrum before(white_, white_.start(), reach_, rules_);
+  const OrderSpectrum left(white_, left_, reach_, rules_);
   const double log_tail = limit() - std::log(before.tests());
   OrderSpectrum::Shown shown = before.shown(kMost, log_tail);
   result_.shown_order = std::move(shown.order);
@@ -429,9 +429,9 @@ void RippleAnalysis::answer_spectrum() {
 
 }  // namespace
 
-RippleResult analyse_ripple(const RippleData& data, const RippleOptions& options) {
+RippleResult analyse_ripple(const RippleData& data, const RippleRules& rules) {
   check_data(data);
-  return RippleAnalysis(data, options).run();
+  return RippleAnalysis(data, rules).run();
 }
 
 }  // namespace dyngen::runtime

@@ -5,43 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace dyngen::runtime {
+#include "runtime/rules/ripple_rules.h"
 
-/// Numbers that decide what is a ripple.
-struct RippleOptions {
-  /// Probability that noise shows any order as strong, below which an order is kept: 200 joints
-  /// without ripple show none 19 times in 20, 1 - 0.95^(1/200).
-  double chance = 2.5e-4;
-  /// Probability of what is left of an order beside a rival explanation, below which the rival does
-  /// not explain it: a single test.
-  double beside = 0.01;
-  /// Periods per turn from which orders are sought. Slower ones are in the band of the equations.
-  double least_order = 5;
-  /// Periods per turn up to which orders are sought: ten times the ratio of usual gears.
-  double most_order = 2000;
-  /// Periods per sample up to which a sample counts for an order: Nyquist's 0.5 less a tenth, where
-  /// low-passes before sampling begin.
-  double most_per_sample = 0.45;
-  /// Of the speed that 90 % of the samples are below: slower samples are left out, since stiction
-  /// is there. A twentieth of the travel is lost.
-  double slowest = 0.05;
-  /// Part of the samples that must count for an order.
-  double least_samples = 0.1;
-  /// Orders on each side that an order is compared with: F with 2 and 128 degrees of freedom where
-  /// the joint moves both ways.
-  int neighbours = 16;
-  /// Distance in resolutions from which orders are neighbours: half of the main lobe is 1.
-  double nearest = 1.5;
-  /// Distance in resolutions below which an order is a part of a stronger one: its side lobes, and
-  /// an amplitude that changes over the travel.
-  double part_of_line = 3;
-  /// Orders of a joint that are sought at most.
-  int most_lines = 12;
-  /// Samples in motion from which a joint is judged: 60 periods of 16 samples.
-  Eigen::Index least_moving = 1000;
-  /// Coefficients of the noise's autoregression at most: one resonance takes two.
-  Eigen::Index most_coefficients = 12;
-};
+namespace dyngen::runtime {
 
 /// What one joint shows. Runs follow one another.
 struct RippleData {
@@ -108,6 +74,6 @@ struct RippleResult {
 /// Orders of the joint's angle in its torque, of any height, over varying speed.
 /// docs/explanation/ripple.md has the method, its tests and its limits.
 /// @throws std::invalid_argument  if sizes differ
-RippleResult analyse_ripple(const RippleData& data, const RippleOptions& options = {});
+RippleResult analyse_ripple(const RippleData& data, const RippleRules& rules = {});
 
 }  // namespace dyngen::runtime

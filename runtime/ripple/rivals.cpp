@@ -17,10 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Of an order's power that a rival must leave for the order to stand: a line that is 30 % apart in
-/// its frequency leaves more.
-constexpr double kLeastShare = 0.3;
-
 /// Columns of one direction behind the filter, where its samples count.
 template <typename Wave>
 MatrixXd side_columns(const WhiteResidual& white, const VectorXd& seen, const Wave& wave) {
@@ -120,18 +116,17 @@ std::pair<double, double> frequencies_of(const WhiteResidual& white, const Vecto
 
 /// Whether an order stands in what a rival leaves.
 bool stands_beside(const WhiteResidual& white, const VectorXd& left, double order,
-                   const OrderTest& test, double power, const RippleOptions& options) {
-  const OrderSums sums = order_sums(white, left, order, options.most_per_sample);
+                   const OrderTest& test, double power, const RippleRules& rules) {
+  const OrderSums sums = order_sums(white, left, order, rules.most_per_sample);
   const double own = test.separate ? sums.separate() : sums.common();
-  return order_test(sums, test.level, test.degrees).log_tail <= std::log(options.beside) &&
-         own >= kLeastShare * power;
+  return order_test(sums, test.level, test.degrees).log_tail <= std::log(rules.beside) &&
+         own >= rules.least_share * power;
 }
 
 std::optional<Rival> fixed_rival(const WhiteResidual& white, const VectorXd& e, double order,
-                                 const OrderTest& test, double power,
-                                 const RippleOptions& options) {
+                                 const OrderTest& test, double power, const RippleRules& rules) {
   const RippleData& data = white.data();
-  const VectorXd seen = white.seen(order, options.most_per_sample);
+  const VectorXd seen = white.seen(order, rules.most_per_sample);
   constexpr double kEdge = 0.01;
   const auto [from, to] = frequencies_of(white, seen, order, kEdge);
   std::vector<LinePiece> runs, ways;
@@ -139,19 +134,18 @@ std::optional<Rival> fixed_rival(const WhiteResidual& white, const VectorXd& e, 
     runs.push_back({data.run_starts[i], end_of_run(data, i)});
   }
   for (const OneWay& way : white.stretches()) ways.push_back({way.from, way.to});
-  const VectorXd beside =
-      left_beside(wave_columns(white, order, options.most_per_sample).columns, e);
+  const VectorXd beside = left_beside(wave_columns(white, order, rules.most_per_sample).columns, e);
   for (const std::vector<LinePiece>* pieces : {&runs, &ways}) {
     const FixedLine line = strongest_fixed(e, seen, *pieces, from, to);
     VectorXd left = without_fixed(e, seen, *pieces, line.frequency);
-    if (stands_beside(white, left, order, test, power, options)) continue;
+    if (stands_beside(white, left, order, test, power, rules)) continue;
     // phases of many pieces explain anything: the order, which has one phase, must leave some of it
     constexpr std::size_t kFew = 2;
     if (pieces->size() > kFew) {
       const FixedLine more = strongest_fixed(beside, seen, *pieces, from, to);
       const double degrees = 2 * static_cast<double>(pieces->size());
       const double chance = more.tests * chi_square_tail(2 * more.power / test.level, degrees);
-      if (chance > options.beside) continue;
+      if (chance > rules.beside) continue;
     }
     return Rival{RippleKind::kFrequency, line.frequency / data.sample_time, std::move(left)};
   }
@@ -180,16 +174,15 @@ UsualSpeed most_usual_speed(const WhiteResidual& white, const VectorXd& seen) {
 }
 
 std::optional<Rival> image_rival(const WhiteResidual& white, const VectorXd& e, double order,
-                                 const OrderTest& test, double power,
-                                 const RippleOptions& options) {
-  const VectorXd seen = white.seen(order, options.most_per_sample);
+                                 const OrderTest& test, double power, const RippleRules& rules) {
+  const VectorXd seen = white.seen(order, rules.most_per_sample);
   const UsualSpeed usual = most_usual_speed(white, seen);
-  if (usual.part < kLeastShare) return std::nullopt;
-  const OrderReach reach = order_reach(white, options);
+  if (usual.part < rules.least_share) return std::nullopt;
+  const OrderReach reach = order_reach(white, rules);
   const double sampling = kOrderTurn / (usual.speed * white.data().sample_time);  // orders
   constexpr double kEverySample = 1e9;  // periods per sample
   for (const double centre : {sampling - order, sampling + order, 2 * sampling - order}) {
-    if (!(centre > 0) || centre > options.most_order) continue;
+    if (!(centre > 0) || centre > rules.most_order) continue;
     constexpr int kSteps = 16;
     double best = 0, image = centre;
     for (int i = -kSteps; i <= kSteps; ++i) {
@@ -201,7 +194,7 @@ std::optional<Rival> image_rival(const WhiteResidual& white, const VectorXd& e, 
       }
     }
     VectorXd left = left_beside(wave_columns(white, image, kEverySample).columns, e);
-    if (stands_beside(white, left, order, test, power, options)) continue;
+    if (stands_beside(white, left, order, test, power, rules)) continue;
     return Rival{RippleKind::kImage, image, std::move(left)};
   }
   return std::nullopt;
@@ -237,17 +230,17 @@ VectorXd left_beside(const MatrixXd& columns, const VectorXd& e) {
 }
 
 std::optional<Rival> rival_of(const WhiteResidual& white, const VectorXd& e, double order,
-                              const OrderTest& test, const RippleOptions& options) {
-  const OrderSums sums = order_sums(white, e, order, options.most_per_sample);
+                              const OrderTest& test, const RippleRules& rules) {
+  const OrderSums sums = order_sums(white, e, order, rules.most_per_sample);
   const double power = test.separate ? sums.separate() : sums.common();
-  if (auto rival = fixed_rival(white, e, order, test, power, options)) return rival;
-  return image_rival(white, e, order, test, power, options);
+  if (auto rival = fixed_rival(white, e, order, test, power, rules)) return rival;
+  return image_rival(white, e, order, test, power, rules);
 }
 
 PositionTest position_test(const WhiteResidual& white, const VectorXd& e, double order,
-                           const OrderTest& test, const RippleOptions& options) {
-  const MatrixXd torque = wave_columns(white, order, options.most_per_sample).columns;
-  MatrixXd position = position_columns(white, order, options.most_per_sample);
+                           const OrderTest& test, const RippleRules& rules) {
+  const MatrixXd torque = wave_columns(white, order, rules.most_per_sample).columns;
+  MatrixXd position = position_columns(white, order, rules.most_per_sample);
   if (position.norm() > 0) position *= torque.norm() / position.norm();  // of one size
   MatrixXd both(torque.rows(), torque.cols() + position.cols());
   both << torque, position;

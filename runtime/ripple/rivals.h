@@ -35,7 +35,7 @@ struct Rival {
 /// @param test  of the order
 /// @return      none: neither a fixed frequency nor another order explains it
 std::optional<Rival> rival_of(const WhiteResidual& white, const Eigen::VectorXd& e, double order,
-                              const OrderTest& test, const RippleOptions& options);
+                              const OrderTest& test, const RippleRules& rules);
 
 /// Torque and position error beside one another.
 struct PositionTest {
@@ -43,6 +43,6 @@ struct PositionTest {
   double position_beside = 1;  ///< and the other way round
 };
 PositionTest position_test(const WhiteResidual& white, const Eigen::VectorXd& e, double order,
-                           const OrderTest& test, const RippleOptions& options);
+                           const OrderTest& test, const RippleRules& rules);
 
 }  // namespace dyngen::runtime

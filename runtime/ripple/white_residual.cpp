@@ -31,14 +31,15 @@ Index end_of_run(const RippleData& data, std::size_t i) {
   return i + 1 < data.run_starts.size() ? data.run_starts[i + 1] : data.q.size();
 }
 
-WhiteResidual::WhiteResidual(const RippleData& data, const RippleOptions& options)
+WhiteResidual::WhiteResidual(const RippleData& data, const RippleRules& rules)
     : data_(data), direction_(VectorXd::Zero(data.q.size())) {
   if (data.q.size() == 0) return;
-  const double slowest = options.slowest * usual_speed(data.dq);
+  const double slowest = rules.slowest * usual_speed(data.dq);
   if (!(slowest > 0)) return;
   const auto side = [&](Index k) {
     return data.dq[k] > slowest ? 1 : (data.dq[k] < -slowest ? -1 : 0);
   };
+  const auto most = static_cast<Index>(rules.most_coefficients);
   std::vector<VectorXd> pieces;
   for (std::size_t run = 0; run < data.run_starts.size(); ++run) {
     const Index end = end_of_run(data, run);
@@ -46,17 +47,17 @@ WhiteResidual::WhiteResidual(const RippleData& data, const RippleOptions& option
       const Index from = k;
       const int own = side(k);
       while (k < end && side(k) == own) ++k;
-      if (own == 0 || k - from <= 2 * options.most_coefficients) continue;
+      if (own == 0 || k - from <= 2 * most) continue;
       pieces.emplace_back(data.residual.segment(from, k - from));
       // what the filter remembers from before the run is not known
-      const Index first = std::max(from, data.run_starts[run] + options.most_coefficients);
+      const Index first = std::max(from, data.run_starts[run] + most);
       if (first >= k) continue;
       stretches_.push_back({first, k, own});
       direction_.segment(first, k - first).setConstant(own);
       counted_ += k - first;
     }
   }
-  const AutoregressiveNoise noise = autoregression_of(pieces, options.most_coefficients);
+  const AutoregressiveNoise noise = autoregression_of(pieces, most);
   coefficients_ = noise.coefficients;
   innovation_ = noise.innovation;
   if (usable()) start_ = filtered(data.residual).cwiseProduct(direction_.cwiseAbs());

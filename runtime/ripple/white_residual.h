@@ -22,7 +22,7 @@ struct OneWay {
 /// white and of unit variance where samples count.
 class WhiteResidual {
  public:
-  WhiteResidual(const RippleData& data, const RippleOptions& options);
+  WhiteResidual(const RippleData& data, const RippleRules& rules);
 
   [[nodiscard]] bool usable() const { return innovation_ > 0; }
   [[nodiscard]] double innovation() const { return innovation_; }  ///< N m

@@ -31,11 +31,32 @@ void each(Rules& rules, const Visit& visit) {
                      &answer.open_parameters, &answer.printed_part}) {
     visit(*rule);
   }
-  auto& wind_up = rules.wind_up;
+  auto& changes = rules.changes;
   for (auto* rule :
-       {&wind_up.chance, &wind_up.slow_degree, &wind_up.cosines, &wind_up.line_neighbours,
-        &wind_up.line_cycles, &wind_up.most_lines, &wind_up.load_reversals, &wind_up.least_own,
-        &wind_up.least_steps, &wind_up.least_rows}) {
+       {&changes.slab, &changes.further_friction, &changes.inertia_odds, &changes.most_changes,
+        &changes.replaces, &changes.coulomb_allowance, &changes.viscous_allowance,
+        &changes.offset_allowance, &changes.least_friction, &changes.allowance_worth}) {
+    visit(*rule);
+  }
+  auto& steady = rules.steady;
+  for (auto* rule :
+       {&steady.window, &steady.spread, &steady.noise_factor, &steady.settling, &steady.least_run,
+        &steady.least_hold, &steady.pose_settling, &steady.standing, &steady.same_posture,
+        &steady.reach, &steady.band, &steady.slowest, &steady.chance, &steady.rival}) {
+    visit(*rule);
+  }
+  auto& ripple = rules.ripple;
+  for (auto* rule :
+       {&ripple.chance, &ripple.beside, &ripple.least_share, &ripple.least_order,
+        &ripple.most_order, &ripple.most_per_sample, &ripple.slowest, &ripple.least_samples,
+        &ripple.neighbours, &ripple.nearest, &ripple.part_of_line, &ripple.most_lines,
+        &ripple.least_moving, &ripple.most_coefficients}) {
+    visit(*rule);
+  }
+  auto& wind_up = rules.wind_up;
+  for (auto* rule : {&wind_up.chance, &wind_up.slow_degree, &wind_up.line_neighbours,
+                     &wind_up.line_cycles, &wind_up.most_lines, &wind_up.load_reversals,
+                     &wind_up.least_own, &wind_up.least_steps, &wind_up.least_rows}) {
     visit(*rule);
   }
 }

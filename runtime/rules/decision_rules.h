@@ -5,18 +5,13 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/rules/change_rules.h"
+#include "runtime/rules/decision_rule.h"
+#include "runtime/rules/ripple_rules.h"
+#include "runtime/rules/steady_rules.h"
+#include "runtime/rules/wind_up_rules.h"
+
 namespace dyngen::runtime {
-
-/// A number that accepts, rejects or ranks something in a diagnosis, with what it means.
-struct DecisionRule {
-  double value = 0;
-  std::string_view name;     ///< "noise.slow_part_price": as a file of rules has it
-  std::string_view unit;     ///< "1" of a ratio or a count
-  std::string_view meaning;  ///< one sentence
-  std::string_view source;   ///< a distribution, a paper, or the study that it was measured by
-
-  operator double() const { return value; }  // NOLINT(google-explicit-constructor): it is a number
-};
 
 /// How the noise of the equations is modelled.
 struct NoiseRules {
@@ -158,42 +153,6 @@ struct AnswerRules {
       "rounding of the two digits that are printed"};
 };
 
-/// What two encoders on a joint say of its gear.
-struct WindUpRules {
-  DecisionRule chance{0.01, "wind_up.chance", "1",
-                      "Probability of a term of the wind-up, if it is not there, below which it is "
-                      "kept; times the number of its forms that were tried.",
-                      "one false term in a hundred joints"};
-  DecisionRule slow_degree{
-      3, "wind_up.slow_degree", "1",
-      "Degree of the polynomial of the position that is always taken for gear error.",
-      "sensitivity: eccentric wheels, a ratio that is apart, and half a turn of them"};
-  DecisionRule cosines{
-      0.2, "wind_up.cosines", "1",
-      "Degrees of freedom of an interval, over independent rows to the power 2/3.",
-      "half of Lazarus, Lewis, Stock and Watson 2018: intervals of short recordings hold"};
-  DecisionRule line_neighbours{10, "wind_up.line_neighbours", "1",
-                               "Orders of the angle that an order is compared with.",
-                               "F with 2 and 20 degrees"};
-  DecisionRule line_cycles{2.5, "wind_up.line_cycles", "1",
-                           "Periods in the travel from which an order is sought.",
-                           "1.5 are slow gear error, and one more is a resolution"};
-  DecisionRule most_lines{4, "wind_up.most_lines", "1", "Orders that are sought at most.",
-                          "sensitivity"};
-  DecisionRule load_reversals{0.02, "wind_up.load_reversals", "1",
-                              "Part of the samples on either flank from which backlash is judged.",
-                              "sensitivity"};
-  DecisionRule least_own{1e-3, "wind_up.least_own", "1",
-                         "Rms of the load that speed, position and acceleration do not explain, "
-                         "over that of the load, below which no stiffness is given.",
-                         "rounding of the joint state"};
-  DecisionRule least_steps{2, "wind_up.least_steps", "encoder steps",
-                           "Hysteresis and backlash that are smaller cannot be resolved.",
-                           "as the effects backlash and dahl have it"};
-  DecisionRule least_rows{60, "wind_up.least_rows", "1",
-                          "Independent rows from which a joint is judged.", "6 degrees of freedom"};
-};
-
 /// Every number that accepts, rejects or ranks in a diagnosis, outside of the competition of
 /// effects and of their names.
 struct DecisionRules {
@@ -202,6 +161,9 @@ struct DecisionRules {
   ScanRules scans;
   PriorRules priors;
   AnswerRules answer;
+  ChangeRules changes;
+  SteadyRules steady;
+  RippleRules ripple;
   WindUpRules wind_up;
 };
 

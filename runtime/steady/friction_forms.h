@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/rules/steady_rules.h"
 #include "runtime/steady/steady_levels.h"
-#include "runtime/steady/steady_rules.h"
 
 namespace dyngen::runtime {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "runtime/wind_up/robust_regression.h"
+#include "runtime/estimation/robust_regression.h"
 
 namespace dyngen::runtime {
 namespace {

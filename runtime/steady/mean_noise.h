@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "runtime/steady/steady_rules.h"
+#include "runtime/rules/steady_rules.h"
 #include "runtime/steady/steady_runs.h"
 
 namespace dyngen::runtime {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/wind_up/robust_regression.h"
+#include "runtime/estimation/robust_regression.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -75,9 +75,8 @@ void take_gravity(const std::vector<std::size_t>& runs, std::vector<RunSamples>&
     seconds += result.levels[r].run.stretch.seconds();
     mean += samples[r].mean_gravity / static_cast<double>(runs.size());
   }
-  constexpr double kFactor = 0.2;  // as for the wind-up of two encoders: intervals hold
-  constexpr double kRows = 2;      // independent ones a second
-  const RobustRegression fit = robust_regression(D, w, cosines_for(kRows * seconds, kFactor));
+  constexpr double kRows = 2;  // independent ones a second
+  const RobustRegression fit = robust_regression(D, w, cosines_for(kRows * seconds));
   MatrixXd apart(static_cast<Index>(runs.size()), 2);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::size_t r = runs[i];

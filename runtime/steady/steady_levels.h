@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "runtime/recordings/recording.h"
+#include "runtime/rules/steady_rules.h"
 #include "runtime/steady/mean_noise.h"
-#include "runtime/steady/steady_rules.h"
 #include "runtime/steady/steady_runs.h"
 
 namespace dyngen::runtime {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "runtime/recordings/recording.h"
-#include "runtime/steady/steady_rules.h"
+#include "runtime/rules/steady_rules.h"
 
 namespace dyngen::runtime {
 

@@ -17,10 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Inertial parameters of a link change by a load that the catalogue names; that they change in
-// another way than by a body takes a rebuilt link.
-constexpr double kInertiaOdds = 0.05;
-
 constexpr std::array<std::string_view, kBodyParameters> kBodyNames = {"XX", "XY", "XZ", "YY", "YZ",
                                                                       "ZZ", "MX", "MY", "MZ", "M"};
 
@@ -246,7 +242,6 @@ class Candidates {
       candidate.effect.link = link;
       candidate.base = columns;
       candidate.forms = {forms_of(static_cast<int>(columns.size())).front()};
-      candidate.odds = kInertiaOdds;
       candidate.formula = "base parameters of the link";
       add(std::move(candidate), {columns.begin(), columns.end()});
     }

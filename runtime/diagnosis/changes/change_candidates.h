@@ -22,7 +22,6 @@ struct ChangeCandidate {
   std::vector<std::vector<int>> forms;  ///< sets of these parameters that change together
   std::vector<std::string> families;    ///< its own first, then those with the same columns
   std::string formula;                  ///< empty: that of the effect's file
-  double odds = 1;                      ///< prior, relative to other candidates
 };
 
 /// Columns beside the regressor that candidates need, and the candidates.

@@ -9,10 +9,8 @@
 namespace dyngen::runtime {
 namespace {
 
-constexpr std::size_t kMostChanges = 10;  // of one set
-constexpr std::size_t kKept = 16;         // sets of each size from which the next ones grow
-constexpr double kNegligible = 20;        // log evidence below the best: a set without weight
-constexpr double kReplaces = 0.05;        // weight over that of the best set: a name as good
+constexpr std::size_t kKept = 16;   // sets of each size from which the next ones grow
+constexpr double kNegligible = 20;  // log evidence below the best: a set without weight, 2e-9
 
 /// Sets with their log evidence, each looked at once.
 class SetWalk {
@@ -22,7 +20,8 @@ class SetWalk {
   ChangePosterior run() {
     std::vector<ChangeSet> layer = {{}};
     evidence_of({});
-    for (std::size_t size = 1; size <= kMostChanges && !layer.empty(); ++size) {
+    const auto most = static_cast<std::size_t>(system_.rules().most_changes);
+    for (std::size_t size = 1; size <= most && !layer.empty(); ++size) {
       layer = grown(layer);
     }
     shrink();
@@ -143,7 +142,7 @@ std::vector<std::size_t> ChangePosterior::replacements(const ChangeSystem& syste
   }
   std::map<std::size_t, double> found;
   for (const auto& [set, weight] : weights) {
-    if (set.size() != best.size() || weight < kReplaces * weights.at(best)) continue;
+    if (set.size() != best.size() || weight < system.rules().replaces * weights.at(best)) continue;
     if (has(system, set, system.candidates()[candidate])) continue;
     // one in its place, the others with whatever form
     std::vector<std::size_t> others, own;

@@ -18,19 +18,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Part of a combination's chi-square that the common parameters must leave: less is rounding.
-constexpr double kLeft = 1e-9;
 // Part of a parameter that may lie in combinations that no motion shows.
 constexpr double kHidden = 1e-4;
-// Prior variance of a change in units of its own variance: a change is some ten deviations large.
-// One that is larger raises it, so that near copies of it gain nothing (Liang, Paulo, Molina, Clyde
-// and Berger, "Mixtures of g priors for Bayesian variable selection", JASA 2008, 2.4).
-constexpr double kSlab = 100;
-// Prior odds of friction of a further joint, once that of one has changed: oil and heat are common.
-constexpr double kFurtherFriction = 0.1;
-// Scatter over its estimate, which is not certain; and how many sessions the estimate counts as.
+// Scatter over its estimate, which is not certain.
 constexpr std::array<double, 6> kScatterLevels = {0.5, 0.71, 1, 1.41, 2, 2.83};
-constexpr double kScatterWorth = 4;
 
 /// x with P(chi-square of one degree > x) = tail.
 double quantile(double tail) {
@@ -59,8 +50,13 @@ bool has_body(const ChangeCandidate& candidate) {
 
 ChangeSystem::ChangeSystem(const std::vector<SessionEquations>& sessions,
                            const SessionScatter& scatter, Index common,
-                           std::vector<ChangeCandidate> candidates, double false_alarm)
-    : sessions_(sessions), scatter_(scatter), common_(common), candidates_(std::move(candidates)) {
+                           std::vector<ChangeCandidate> candidates, double false_alarm,
+                           const ChangeRules& rules)
+    : sessions_(sessions),
+      scatter_(scatter),
+      common_(common),
+      candidates_(std::move(candidates)),
+      rules_(rules) {
   drop_absent();
   std::vector<double> scatters = {1};
   if (scatter_.estimated) scatters.assign(kScatterLevels.begin(), kScatterLevels.end());
@@ -70,14 +66,14 @@ ChangeSystem::ChangeSystem(const std::vector<SessionEquations>& sessions,
     level.of =
         left_of_sessions(whitened_sessions(sessions_, scatter_, level.scatter), common_, columns_);
     const double s = level.scatter * level.scatter;
-    level.log_weight = level.of.restricted - 0.5 * kScatterWorth * (std::log(s) + 1 / s);
+    level.log_weight = level.of.restricted - 0.5 * rules_.allowance_worth * (std::log(s) + 1 / s);
     if (level.scatter == 1) centre_ = i;
     levels_.push_back(std::move(level));
   }
   join_equal();
   make_forms({});
   const double tests = std::max<double>(1, static_cast<double>(candidates_.size()));
-  cost_ = std::max(0.0, 0.5 * quantile(false_alarm / tests) - 0.5 * std::log(1 + kSlab));
+  cost_ = std::max(0.0, 0.5 * quantile(false_alarm / tests) - 0.5 * std::log(1 + rules_.slab));
 }
 
 void ChangeSystem::drop_absent() {
@@ -101,7 +97,7 @@ void ChangeSystem::drop_absent() {
     const Index from = first_[i], count = candidates_[i].columns.cols();
     const double whole = of.whole.diagonal().segment(from, count).maxCoeff();
     const double left = of.left.diagonal().segment(from, count).maxCoeff();
-    if (whole > 0 && left > kLeft * whole) present.push_back(std::move(candidates_[i]));
+    if (whole > 0 && left > kRankTolerance * whole) present.push_back(std::move(candidates_[i]));
   }
   candidates_ = std::move(present);
   stack();
@@ -118,7 +114,7 @@ void ChangeSystem::join_equal() {
     const Index count = candidates_[i].columns.cols();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
         left.block(first_[i], first_[i], count, count));
-    const Index rank = (eigen.eigenvalues().array() > kLeft).count();
+    const Index rank = (eigen.eigenvalues().array() > kRankTolerance).count();
     return MatrixXd(eigen.eigenvectors().rightCols(rank) *
                     eigen.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal());
   };
@@ -172,13 +168,14 @@ void ChangeSystem::add_form(ChangeForm form, std::vector<MatrixXd>& mixes) {
   scaled = scaled * scaled.colwise().norm().cwiseMax(1e-300).cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled.transpose() *
                                                       of.left.block(at, at, rows, rows) * scaled);
-  const Index rank = (eigen.eigenvalues().array() > kLeft).count();
+  const Index rank = (eigen.eigenvalues().array() > kRankTolerance).count();
   if (rank == 0) return;
   const MatrixXd own = scaled * eigen.eigenvectors().rightCols(rank) *
                        eigen.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
   form.from = mixes.empty() ? 0 : forms_.back().from + forms_.back().count;
   form.count = rank;
-  form.slab = std::max(kSlab, (own.transpose() * of.rest.segment(at, rows)).squaredNorm());
+  form.slab =
+      std::max<double>(rules_.slab, (own.transpose() * of.rest.segment(at, rows)).squaredNorm());
   forms_.push_back(std::move(form));
   mixes.push_back(own);
 }
@@ -270,9 +267,10 @@ double ChangeSystem::prior(const ChangeSet& set) const {
   int frictions = 0;
   for (const std::size_t f : set) {
     const ChangeCandidate& own = candidates_[forms_[f].candidate];
-    double cost = cost_ - std::log(own.odds);
+    const bool inertia = own.kind == ChangeCandidate::Kind::kInertia;
+    double cost = cost_ - (inertia ? std::log(rules_.inertia_odds) : 0);
     if (own.kind == ChangeCandidate::Kind::kFriction && frictions++ > 0) {
-      cost = std::min(cost, -std::log(kFurtherFriction));
+      cost = std::min(cost, -std::log(rules_.further_friction));
     }
     const auto forms =
         static_cast<double>(own.forms.size()) + (own.kind == ChangeCandidate::Kind::kLoad ? 1 : 0);
@@ -303,7 +301,7 @@ BodyEvidence ChangeSystem::evidence_of_load(std::size_t candidate, const ChangeS
   }
   if (!raw.empty()) {
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-    solver.setThreshold(kLeft);
+    solver.setThreshold(kRankTolerance);
     solver.compute(of.left(raw, raw));
     const MatrixXd across = of.left(raw, Eigen::seqN(at, kBodyParameters));
     G -= across.transpose() * solver.solve(across);
@@ -338,7 +336,7 @@ double ChangeSystem::chi_square(const ChangeSet& set) const {
   if (columns.empty()) return 0;
   const Level& level = levels_[centre_];
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-  solver.setThreshold(kLeft);
+  solver.setThreshold(kRankTolerance);
   solver.compute(level.gram(columns, columns));
   const VectorXd b = level.rest(columns);
   return b.dot(solver.solve(b));
@@ -360,7 +358,7 @@ ChangeSystem::Fitted ChangeSystem::fitted(const std::vector<Index>& raw,
   Fitted fit{VectorXd::Zero(count), MatrixXd::Zero(count, count), {}};
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(levels_[i].of.left(raw, raw));
-    const Index rank = (eigen.eigenvalues().array() > kLeft).count();
+    const Index rank = (eigen.eigenvalues().array() > kRankTolerance).count();
     const MatrixXd V = eigen.eigenvectors().rightCols(rank);
     const MatrixXd C =
         V * eigen.eigenvalues().tail(rank).cwiseInverse().asDiagonal() * V.transpose();
@@ -383,7 +381,7 @@ VectorXd ChangeSystem::reference_beside(const std::vector<Index>& raw, const Vec
   const MatrixXd X = all.rows.leftCols(common_);
   const VectorXd scale = X.colwise().norm().transpose().cwiseMax(1e-300).cwiseInverse();
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-  solver.setThreshold(kLeft);
+  solver.setThreshold(kRankTolerance);
   solver.compute(X * scale.asDiagonal());
   return scale.asDiagonal() * solver.solve(y);
 }

@@ -8,6 +8,7 @@
 #include "runtime/diagnosis/changes/change_candidates.h"
 #include "runtime/diagnosis/changes/possible_body.h"
 #include "runtime/diagnosis/changes/session_scatter.h"
+#include "runtime/rules/change_rules.h"
 
 namespace dyngen::runtime {
 
@@ -41,7 +42,10 @@ class ChangeSystem {
   /// @param common       columns that both sides share
   /// @param false_alarm  P that sessions without a change are accused, by prior odds
   ChangeSystem(const std::vector<SessionEquations>& sessions, const SessionScatter& scatter,
-               Eigen::Index common, std::vector<ChangeCandidate> candidates, double false_alarm);
+               Eigen::Index common, std::vector<ChangeCandidate> candidates, double false_alarm,
+               const ChangeRules& rules);
+
+  [[nodiscard]] const ChangeRules& rules() const { return rules_; }
 
   [[nodiscard]] const std::vector<ChangeCandidate>& candidates() const { return candidates_; }
   [[nodiscard]] const std::vector<ChangeForm>& forms() const { return forms_; }
@@ -100,7 +104,8 @@ class ChangeSystem {
   std::vector<Level> levels_;
   std::size_t centre_ = 0;
   std::vector<ChangeForm> forms_;
-  double cost_ = 0;  ///< -log prior odds of a candidate of odds 1
+  ChangeRules rules_;
+  double cost_ = 0;  ///< -log prior odds of a candidate
 };
 
 }  // namespace dyngen::runtime

@@ -21,7 +21,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kTheorem = 1e-6;  // part of an effect's chi-square that the model leaves
-constexpr double kReported = 0.5;  // probability of a change, or of one in its place
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 EffectRecordings together(const EffectRecordings& reference, const EffectRecordings& later) {
@@ -122,15 +121,19 @@ std::string sentence_of(const SessionScatter& scatter, const SessionPlan& plan,
 /// Findings of the best set.
 class ChangeWriter {
  public:
-  ChangeWriter(const ChangeSystem& system, const ChangePosterior& posterior)
-      : system_(system), posterior_(posterior), estimate_(system.estimate(posterior.best)) {}
+  /// @param probable  least probability of a change, or of one in its place, that is reported
+  ChangeWriter(const ChangeSystem& system, const ChangePosterior& posterior, double probable)
+      : system_(system),
+        posterior_(posterior),
+        probable_(probable),
+        estimate_(system.estimate(posterior.best)) {}
 
   std::vector<Finding> run() {
     std::vector<Finding> findings;
     Index place = 0;
     for (std::size_t i = 0; i < posterior_.best.size(); ++i) {
       const ChangeForm& form = system_.forms()[posterior_.best[i]];
-      if (posterior_.probability_of_any(system_, form.candidate) >= kReported) {
+      if (posterior_.probability_of_any(system_, form.candidate) >= probable_) {
         findings.push_back(finding(i, place));
       }
       place += form.mix.rows();
@@ -150,7 +153,7 @@ class ChangeWriter {
     finding.since_reference = true;
     finding.formula = own.formula;
     finding.probability = posterior_.probability(system_, form.candidate);
-    finding.uncertain = finding.probability < kReported;
+    finding.uncertain = finding.probability < probable_;
     finding.where.share = kNotKnown;
     finding.aliases = own.families;
     std::vector<std::string> elsewhere;
@@ -260,6 +263,7 @@ class ChangeWriter {
 
   const ChangeSystem& system_;
   const ChangePosterior& posterior_;
+  double probable_;
   ChangeEstimate estimate_;
 };
 
@@ -267,7 +271,8 @@ class ChangeWriter {
 
 ChangesSince changes_since(const ComparedSessions& compared, const DiagnosisInput& input,
                            const std::vector<Hypothesis>& hypotheses,
-                           const CompetitionResult& result, double false_alarm) {
+                           const CompetitionResult& result, double false_alarm,
+                           const DecisionRules& rules) {
   const EffectRecordings all = together(compared.reference, compared.later);
   const SessionPlan plan = plan_of(compared);
   std::vector<bool> later;
@@ -288,16 +293,19 @@ ChangesSince changes_since(const ComparedSessions& compared, const DiagnosisInpu
   const MatrixXd estimates = estimates_of_sessions(sessions, nb);
   const VectorXd size = estimates.leftCols(plan.reference).rowwise().mean().cwiseAbs();
   const SessionScatter scatter =
-      session_scatter(sessions, scatter_terms(all.model, size, torque_rms(blocks)), common);
+      session_scatter(sessions, scatter_terms(all.model, size, torque_rms(blocks), rules.changes),
+                      common, rules.changes);
   ChangesSince answer;
   answer.sessions = sentence_of(scatter, plan, all.model.revolute);
-  ChangeSystem system(sessions, scatter, common, candidates.all, false_alarm);
+  ChangeSystem system(sessions, scatter, common, candidates.all, false_alarm, rules.changes);
   ChangePosterior posterior = change_posterior(system);
   if (posterior.best.empty()) return answer;
   // loads that are points, at their places beside the other changes
   system.place_points(posterior.best);
   posterior = change_posterior(system);
-  if (!posterior.best.empty()) answer.findings = ChangeWriter(system, posterior).run();
+  if (!posterior.best.empty()) {
+    answer.findings = ChangeWriter(system, posterior, rules.answer.probable).run();
+  }
   return answer;
 }
 

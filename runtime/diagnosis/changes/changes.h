@@ -9,6 +9,7 @@
 #include "runtime/diagnosis/competition/competition_result.h"
 #include "runtime/diagnosis/equation_sets/diagnosis_input.h"
 #include "runtime/diagnosis/names/findings.h"
+#include "runtime/rules/decision_rules.h"
 
 namespace dyngen::runtime {
 
@@ -32,10 +33,12 @@ struct ChangesSince {
 /// the noise.
 /// @param result  of the competition on the later recordings: its effects are taken for effects of
 ///                both sides, unless the reference says otherwise
+/// @param false_alarm  P that sessions without a change are accused
 /// @throws std::invalid_argument  if the recordings do not fit together
 ChangesSince changes_since(const ComparedSessions& compared, const DiagnosisInput& input,
                            const std::vector<Hypothesis>& hypotheses,
-                           const CompetitionResult& result, double false_alarm);
+                           const CompetitionResult& result, double false_alarm,
+                           const DecisionRules& rules);
 
 /// Parameters of the model alone, fitted to the reference; combinations that it does not determine
 /// are those of `start`.

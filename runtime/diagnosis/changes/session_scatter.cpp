@@ -16,17 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Allowed standard deviations from one session to the next of a robot to which nothing was done.
-// They are stated, not measured: friction moves with temperature, grease and standstill, and an
-// offset is half of the difference between the friction of both directions.
-constexpr double kCoulombAllowance = 0.07;  // of Coulomb friction
-constexpr double kViscousAllowance = 0.1;   // of viscous friction
-constexpr double kOffsetAllowance = 0.05;   // of Coulomb friction
-constexpr double kLeastFriction = 0.02;  // of the rms torque: a joint with less is taken to have it
-// Sessions that the allowance counts as where the scatter is estimated beside it: it is a guess.
-constexpr double kAllowanceWorth = 4;
-constexpr double kRankTolerance = 1e-9;  // of a column's length
-
 /// Orthonormal columns that span those of X.
 MatrixXd span_of(const MatrixXd& X, double* log_determinant) {
   const VectorXd norm = X.colwise().norm().transpose();
@@ -63,9 +52,9 @@ double sides_likelihood(const std::vector<SessionEquations>& sessions,
 }
 
 /// Of the squared factor, which the allowance centres: a scaled inverse chi-square.
-double log_prior(double factor) {
+double log_prior(double factor, const ChangeRules& rules) {
   const double s = factor * factor;
-  return -0.5 * kAllowanceWorth * (std::log(s) + 1 / s);
+  return -0.5 * rules.allowance_worth * (std::log(s) + 1 / s);
 }
 
 /// How much more the halves of sessions differ than their noise says.
@@ -123,20 +112,20 @@ bool has_replicates(const std::vector<SessionEquations>& sessions) {
 }  // namespace
 
 std::vector<ScatterTerm> scatter_terms(const LinearModel& model, const VectorXd& size,
-                                       const VectorXd& torque) {
+                                       const VectorXd& torque, const ChangeRules& rules) {
   std::vector<ScatterTerm> terms;
   for (int j = 0; j < model.joints(); ++j) {
     const int coulomb = parameter_of(model, j, ParameterKind::kCoulomb);
-    const double least = kLeastFriction * torque[j];
+    const double least = rules.least_friction * torque[j];
     const double friction = coulomb < 0 ? least : std::max(least, size[coulomb]);
     if (coulomb >= 0) {
-      terms.push_back({coulomb, j, ScatterKind::kCoulomb, kCoulombAllowance * friction});
+      terms.push_back({coulomb, j, ScatterKind::kCoulomb, rules.coulomb_allowance * friction});
     }
     if (const int viscous = parameter_of(model, j, ParameterKind::kViscous); viscous >= 0) {
-      terms.push_back({viscous, j, ScatterKind::kViscous, kViscousAllowance * size[viscous]});
+      terms.push_back({viscous, j, ScatterKind::kViscous, rules.viscous_allowance * size[viscous]});
     }
     if (const int offset = parameter_of(model, j, ParameterKind::kOffset); offset >= 0) {
-      terms.push_back({offset, j, ScatterKind::kOffset, kOffsetAllowance * friction});
+      terms.push_back({offset, j, ScatterKind::kOffset, rules.offset_allowance * friction});
     }
   }
   return terms;
@@ -178,7 +167,8 @@ WhitenedSessions whitened_sessions(const std::vector<SessionEquations>& sessions
 }
 
 SessionScatter session_scatter(const std::vector<SessionEquations>& sessions,
-                               std::vector<ScatterTerm> terms, Index common) {
+                               std::vector<ScatterTerm> terms, Index common,
+                               const ChangeRules& rules) {
   SessionScatter scatter;
   scatter.terms = std::move(terms);
   scatter.inflation = inflation_of(sessions, common);
@@ -189,7 +179,7 @@ SessionScatter session_scatter(const std::vector<SessionEquations>& sessions,
   double step = 2;
   const auto value = [&](const SessionScatter& own) {
     double sum = sides_likelihood(sessions, own, common);
-    for (const double factor : own.factor) sum += log_prior(factor);
+    for (const double factor : own.factor) sum += log_prior(factor, rules);
     return sum;
   };
   double best = value(scatter);

@@ -7,8 +7,12 @@
 
 #include "runtime/diagnosis/changes/session_equations.h"
 #include "runtime/model/linear_model.h"
+#include "runtime/rules/change_rules.h"
 
 namespace dyngen::runtime {
+
+/// Part of a column, or of its chi-square, that others must leave: less is rounding.
+inline constexpr double kRankTolerance = 1e-9;
 
 /// What scatters between sessions.
 enum class ScatterKind { kCoulomb, kViscous, kOffset };
@@ -26,7 +30,7 @@ struct ScatterTerm {
 /// @param size    (nb) |parameter| of the reference
 /// @param torque  (n) rms of the recorded torque
 std::vector<ScatterTerm> scatter_terms(const LinearModel& model, const Eigen::VectorXd& size,
-                                       const Eigen::VectorXd& torque);
+                                       const Eigen::VectorXd& torque, const ChangeRules& rules);
 
 /// How far sessions differ without any change.
 struct SessionScatter {
@@ -57,7 +61,8 @@ WhitenedSessions whitened_sessions(const std::vector<SessionEquations>& sessions
 /// Source: Patterson and Thompson, "Recovery of inter-block information when block sizes are
 /// unequal", Biometrika 1971.
 SessionScatter session_scatter(const std::vector<SessionEquations>& sessions,
-                               std::vector<ScatterTerm> terms, Eigen::Index common);
+                               std::vector<ScatterTerm> terms, Eigen::Index common,
+                               const ChangeRules& rules);
 
 /// Columns of later sessions beside those of both, and what is left of them.
 struct LeftOfSessions {

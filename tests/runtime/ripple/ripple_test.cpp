@@ -269,7 +269,7 @@ TEST(Ripple, StatedOrdersAreTestedFirst) {
   ASSERT_EQ(with.lines.size(), 1U);
   EXPECT_EQ(with.lines.front().stated, 202);
   EXPECT_NEAR(with.lines.front().of_motor, 2, 0.01);
-  EXPECT_LT(with.lines.front().chance, RippleOptions().chance);
+  EXPECT_LT(with.lines.front().chance, RippleRules().chance);
 }
 
 TEST(Ripple, WhatIsBelowTheLimitIsRarelyThere) {

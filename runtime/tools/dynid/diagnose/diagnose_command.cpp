@@ -202,10 +202,10 @@ void add_two_encoders(const ToolOptions& options, const WindUpRules& rules,
 
 /// Ripple above the band of the equations, and rows of what no finding has.
 void add_ripple(const std::vector<RippleRun>& runs, const ToolOptions& options,
-                const DescribedRobot& robot, const EffectCatalogue& catalogue,
-                ProgressLine& progress, DiagnosisReport& report) {
+                const RippleRules& rules, const DescribedRobot& robot,
+                const EffectCatalogue& catalogue, ProgressLine& progress, DiagnosisReport& report) {
   report.ripples = ripples_of(robot.linear, runs, gears_of_map(options),
-                              ripples_in(report.diagnosis.fit.point.effects), progress);
+                              ripples_in(report.diagnosis.fit.point.effects), rules, progress);
   report.ripple_effects = ripple_effects(report.ripples, robot.model, catalogue);
 }
 
@@ -355,11 +355,15 @@ void look_beside(const DiagnoseTask& task, DiagnosisRun& run, bool answered, Pro
     });
   }
   if (answered && !run.runs.empty()) {
-    late.during(
-        [&] { add_ripple(run.runs, task.how, task.robot, *task.catalogue, progress, report); });
+    late.during([&] {
+      add_ripple(run.runs, task.how, task.settings.rules.ripple, task.robot, *task.catalogue,
+                 progress, report);
+    });
   }
   if (!train.empty() && !task.settings.residual_only) {
-    late.during([&] { report.steady = steady_of(task.robot, train, progress); });
+    late.during([&] {
+      report.steady = steady_of(task.robot, train, task.settings.rules.steady, progress);
+    });
   }
   if (answered && !task.options.diagnose.loop.controller.empty()) {
     late.during([&] {

@@ -398,20 +398,21 @@ void look_beside(bool with_effects, const ToolOptions& options,
                  const std::vector<MotionSource>& train, ProgressLine& progress,
                  FitReport& report) {
   const LinearModel& model = report.robot.linear;
+  const DecisionRules& rules = options.diagnose.diagnosis.rules;
   if (!joints_with_two_encoders(train).empty()) {
     std::optional<LoadModel> load;  // beside effects the fit's own
     if (with_effects) {
       load = LoadModel{report.main().estimate.beta, report.main().estimate.covariance};
     }
-    report.two_encoders = two_encoders_of(report.robot, load, train, options,
-                                          options.diagnose.diagnosis.rules.wind_up, progress);
+    report.two_encoders =
+        two_encoders_of(report.robot, load, train, options, rules.wind_up, progress);
     compare_elasticity(report.two_encoders, elasticity_of(report));
   }
   if (!with_effects && model.size() > 0) {
     const std::vector<RippleRun> runs = ripple_runs(model, report.main().estimate.beta, train);
-    report.ripples = ripples_of(model, runs, gears_of_map(options), {}, progress);
+    report.ripples = ripples_of(model, runs, gears_of_map(options), {}, rules.ripple, progress);
   }
-  report.steady = steady_of(report.robot, train, progress);
+  report.steady = steady_of(report.robot, train, rules.steady, progress);
 }
 
 /// @return the exit code, after a sentence where the answer has a gap

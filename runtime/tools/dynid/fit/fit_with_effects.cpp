@@ -130,8 +130,9 @@ void fit_with_effects(const EffectTask& task, const ToolOptions& options,
   summary.noise = noise_at(effects.fit.base, summary.equations, report.data.rows);
   report.data.summary = std::move(summary);
 
-  report.ripples = ripples_of(model, ripple_runs(data, point), gears_of_map(options),
-                              ripples_in(point.effects), progress);
+  report.ripples =
+      ripples_of(model, ripple_runs(data, point), gears_of_map(options), ripples_in(point.effects),
+                 options.diagnose.diagnosis.rules.ripple, progress);
 
   MethodFit fit;
   fit.method = method;

@@ -215,7 +215,7 @@ std::vector<EffectRipple> ripples_in(const std::vector<EffectInstance>& effects)
 
 JointRipples ripples_of(const LinearModel& model, const std::vector<RippleRun>& all_runs,
                         const std::vector<double>& gears, const std::vector<EffectRipple>& effects,
-                        ProgressLine& progress) {
+                        const RippleRules& rules, ProgressLine& progress) {
   JointRipples answer;
   std::vector<RippleRun> runs;
   constexpr double kSame = 1e-3;
@@ -248,7 +248,7 @@ JointRipples ripples_of(const LinearModel& model, const std::vector<RippleRun>& 
       for (int m = 1; data.gear_ratio != 0 && m <= kStatedMultiples; ++m) {
         data.stated.push_back(m * std::abs(data.gear_ratio));
       }
-      own.result = analyse_ripple(data);
+      own.result = analyse_ripple(data, rules);
     } else {
       own.result.why_not = "The joint slides: it has no turns to count periods in.";
     }

@@ -61,7 +61,7 @@ struct JointRipples {
 /// @param gears  turns of the motor for one of each joint; may be empty
 JointRipples ripples_of(const LinearModel& model, const std::vector<RippleRun>& runs,
                         const std::vector<double>& gears, const std::vector<EffectRipple>& effects,
-                        ProgressLine& progress);
+                        const RippleRules& rules, ProgressLine& progress);
 
 /// Whether a line is a row `cogging` of the robot file: a torque of the position that both
 /// directions share, and that no effect has yet.

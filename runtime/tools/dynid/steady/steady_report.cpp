@@ -40,12 +40,11 @@ bool torque_is_dead(const std::vector<MotionSource>& sources, Index joint) {
 }  // namespace
 
 SteadyJoints steady_of(const DescribedRobot& robot, const std::vector<MotionSource>& sources,
-                       ProgressLine& progress) {
+                       const SteadyRules& rules, ProgressLine& progress) {
   SteadyJoints answer;
   const LinearModel& model = robot.linear;
   const auto recordings = usable(sources, answer);
   if (recordings.empty()) return {};
-  const SteadyRules rules;
   for (Index j = 0; j < model.joints(); ++j) {
     progress.show(fmt::format("steady speeds of joint {}", j + 1), static_cast<std::size_t>(j),
                   static_cast<std::size_t>(model.joints()));

@@ -23,7 +23,7 @@ struct SteadyJoints {
 /// Looks at the raw torque and positions of all recordings. Runs in which other joints move are
 /// left out: an error of a fitted model would be taken for friction there.
 SteadyJoints steady_of(const DescribedRobot& robot, const std::vector<MotionSource>& sources,
-                       ProgressLine& progress);
+                       const SteadyRules& rules, ProgressLine& progress);
 
 /// The tables for a terminal; empty: no joint has runs or poses.
 std::string steady_text(const SteadyJoints& steady);

@@ -129,7 +129,7 @@ ChangesSince changes_of(const ComparedArm& arm) {
     named.typical = VectorXd::Ones(1);
     result.first.named.push_back(std::move(named));
   }
-  return changes_since({reference, later, {}}, input, hypotheses, result, 0.002);
+  return changes_since({reference, later, {}}, input, hypotheses, result, 0.002, {});
 }
 
 std::vector<std::string> names_of(const ChangesSince& changes) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/wind_up/robust_regression.h"
+#include "runtime/estimation/robust_regression.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -78,10 +78,11 @@ double RobustRegression::chance(Index first, Index count) const {
   return variance_ratio_tail((b - m + 1) / b * wald / m, m, b - m + 1);
 }
 
-int cosines_for(double independent_rows, double factor) {
+int cosines_for(double independent_rows) {
   constexpr int kFewest = 4;
-  return std::max(kFewest, static_cast<int>(std::lround(factor * std::cbrt(independent_rows) *
-                                                        std::cbrt(independent_rows))));
+  constexpr double kFactor = 0.2;
+  const double root = std::cbrt(independent_rows);
+  return std::max(kFewest, static_cast<int>(std::lround(kFactor * root * root)));
 }
 
 MatrixXd cosine_sums(const MatrixXd& columns, int cosines) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "runtime/rules/decision_rules.h"
+#include "runtime/rules/decision_rule.h"
 
 namespace dyngen::runtime {
 

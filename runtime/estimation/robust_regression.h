@@ -20,10 +20,10 @@ struct RobustRegression {
   [[nodiscard]] double chance(Eigen::Index first, Eigen::Index count) const;
 };
 
-/// Degrees of freedom for so many independent rows: factor n^(2/3), at least 4. A factor of 0.4 is
-/// recommended for tests of one mean.
+/// Degrees of freedom for so many independent rows: 0.2 n^(2/3), at least 4. That is half of what
+/// is recommended for tests of one mean, so that intervals of short recordings hold.
 /// Source: Lazarus, Lewis, Stock and Watson, "HAR inference: recommendations for practice", 2018.
-int cosines_for(double independent_rows, double factor);
+int cosines_for(double independent_rows);
 
 /// Sums of each column times cos(pi j (i + 1/2) / N), j = 1 .. cosines: the orthonormal series that
 /// tells slow noise from the mean, which none of them sees.

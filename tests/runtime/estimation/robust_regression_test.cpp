@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/wind_up/robust_regression.h"
+#include "runtime/estimation/robust_regression.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ TEST(RobustRegression, ExactEquationsGiveTheirNumbers) {
 }
 
 TEST(RobustRegression, CorrelatedNoiseKeepsTheCoverage) {
-  const int cosines = cosines_for(400, 0.2);
+  const int cosines = cosines_for(400);
   const double t = student_interval(0.95, cosines);
   int held = 0, textbook = 0;
   for (unsigned seed = 0; seed < 400; ++seed) {
@@ -67,7 +67,7 @@ TEST(RobustRegression, JointTestsOfNothingAreRarelySmall) {
   for (unsigned seed = 0; seed < 400; ++seed) {
     Line line = made_line(400, 0.8, seed);
     line.w -= line.D * Eigen::Vector2d(1, 2);
-    small += robust_regression(line.D, line.w, cosines_for(400, 0.2)).chance(0, 2) < 0.05;
+    small += robust_regression(line.D, line.w, cosines_for(400)).chance(0, 2) < 0.05;
   }
   EXPECT_LE(small, 36);  // of 400 at 5 %: more once in 1000
 }
