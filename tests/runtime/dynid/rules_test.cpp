@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "runtime/rules/decision_rules.h"
@@ -48,6 +50,22 @@ TEST(Rules, StandInTheReferenceWithTheirValues) {
                                         rule->unit, rule->meaning, rule->source);
     EXPECT_NE(page.find(row), std::string::npos) << row;
   }
+}
+
+TEST(Rules, OfTheCompetitionStandInTheReferenceAsInTheCode) {
+  std::istringstream page(test::content(DYNGEN_SOURCE_DIR "/docs/reference/decision_rules.md"));
+  const std::regex row(R"(\| `((?:competition|names)/[^`]+)` \| `(k\w+)` \| ([^|]+?) \|)");
+  int rows = 0;
+  for (std::string line; std::getline(page, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, row)) continue;
+    const std::string code =
+        test::content(DYNGEN_SOURCE_DIR "/runtime/diagnosis/" + match[1].str());
+    const std::string constant = fmt::format(" {} = {};", match[2].str(), match[3].str());
+    EXPECT_NE(code.find(constant), std::string::npos) << match[1] << ":" << constant;
+    ++rows;
+  }
+  EXPECT_GT(rows, 40);
 }
 
 TEST(Rules, ArePrintedAsAFileThatSetsThem) {
