@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,57 +15,36 @@
 #include "runtime/tools/dynid/excite/excite_limits.h"
 #include "runtime/tools/dynid/robot/described_robot.h"
 #include "tests/runtime/dynid/diagnosis_schema.h"
+#include "tests/runtime/dynid/recorded_arm.h"
 #include "tests/runtime/dynid/run_dynid.h"
 
 namespace dyngen::runtime {
 namespace {
 
-namespace fs = std::filesystem;
 using Eigen::Index;
 using Json = nlohmann::json;
 using test::content;
 using test::dynid;
 using test::Outcome;
 
-class SteadyTest : public testing::Test {
+class SteadyTest : public test::RecordedArm {
  protected:
-  void SetUp() override {
-    folder_ =
-        fs::path(testing::TempDir()) /
-        (std::string("steady_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-
-  /// An upright arm of two joints. @param rows  further ones
-  [[nodiscard]] std::string arm(const std::string& name, const std::string& rows) const {
-    std::ofstream(path(name)) << "name arm\nnumber_link 2\nsigma 0 0\nal 0 0\nd 0 0.5\nth 0 0\n"
-                                 "r 0 0\nm 8 4\nmX 2 0.8\nmY 0 0\nmZ 0 0\nXX 0.02 0.01\nXY 0 0\n"
-                                 "XZ 0 0\nYY 0.7 0.25\nYZ 0 0\nZZ 0.7 0.25\nIA 0.5 0.3\n"
-                                 "Fs 2 1.5\nFv 3 1.5\noff 0 0\ntaumax 400 200\ngy 9.81\n"
-                              << rows << "stop\n";
-    return path(name);
-  }
+  static constexpr const char* kFriction = "2 1.5";
   static constexpr const char* kLimits = "qmin -1.5 -2\nqmax 1.5 2\nvmax 2 2\namax 8 10\n";
 
   /// A programme and its recording: motion.csv, run.csv. @param effects  rows of the plant
   void record(const std::string& archetype, const std::string& effects) const {
-    const std::string robot = arm("arm.robot", kLimits);
+    const std::string robot = arm("arm.robot", kLimits, kFriction);
     const Outcome excite = dynid("excite " + robot + " --archetype " + archetype + " -o " +
                                  path("motion.csv") + " --json " + path("motion.json"));
     ASSERT_EQ(excite.exit_code, 0) << excite.out;
     const Outcome run =
-        dynid("simulate " + robot + " --plant " + arm("plant.robot", kLimits + effects) +
+        dynid("simulate " + robot + " --plant " + arm("plant.robot", kLimits + effects, kFriction) +
               " --trajectory " + path("motion.csv") + " -o " + path("run.csv") +
               " --controller ff --rate 200 --bandwidth 5 --encoder 1e-5 --torque-noise 0.2 "
               "--seed 7");
     ASSERT_EQ(run.exit_code, 0) << run.out;
   }
-
-  fs::path folder_;
 };
 
 Json joint_of(const Json& steady, int joint) {
@@ -116,7 +94,7 @@ TEST_F(SteadyTest, ProgrammesKeepTheLimitsOfSeveralRobots) {
 
 TEST_F(SteadyTest, SpeedsGoFromAHundredthToTheLimit) {
   const Outcome excite = dynid(
-      "excite " + arm("arm.robot", kLimits) + " --archetype speeds --joints 2 -o " +
+      "excite " + arm("arm.robot", kLimits, kFriction) + " --archetype speeds --joints 2 -o " +
       path("motion.csv") + " --json " + path("motion.json") + " --report " + path("motion.html"));
   ASSERT_EQ(excite.exit_code, 0) << excite.out;
   const Json json = Json::parse(content(path("motion.json")));
@@ -133,13 +111,14 @@ TEST_F(SteadyTest, SpeedsGoFromAHundredthToTheLimit) {
 }
 
 TEST_F(SteadyTest, AMissingLimitIsNamedAtItsPlace) {
-  const Outcome none = dynid("excite " + arm("none.robot", "qmin -1 -1\nqmax 1 1\n") +
+  const Outcome none = dynid("excite " + arm("none.robot", "qmin -1 -1\nqmax 1 1\n", kFriction) +
                              " --archetype speeds -o " + path("motion.csv"));
   EXPECT_EQ(none.exit_code, 1) << none.out;
   EXPECT_NE(none.out.find("none.robot:26:1: error: there is no row 'vmax'"), std::string::npos)
       << none.out;
-  const Outcome open = dynid("excite " + arm("open.robot", "qmin -1 -1\nqmax 1 -\nvmax 2 2\n") +
-                             " --archetype poses -o " + path("motion.csv"));
+  const Outcome open =
+      dynid("excite " + arm("open.robot", "qmin -1 -1\nqmax 1 -\nvmax 2 2\n", kFriction) +
+            " --archetype poses -o " + path("motion.csv"));
   EXPECT_EQ(open.exit_code, 1) << open.out;
   EXPECT_NE(open.out.find("open.robot:25:8: error: found no limit in row 'qmax'"),
             std::string::npos)
@@ -147,7 +126,7 @@ TEST_F(SteadyTest, AMissingLimitIsNamedAtItsPlace) {
 }
 
 TEST_F(SteadyTest, WhatASearchTakesIsRefusedBesideAnArchetype) {
-  const Outcome excite = dynid("excite " + arm("arm.robot", kLimits) +
+  const Outcome excite = dynid("excite " + arm("arm.robot", kLimits, kFriction) +
                                " --archetype speeds --starts 3 -o " + path("motion.csv"));
   EXPECT_EQ(excite.exit_code, 2) << excite.out;
   EXPECT_NE(excite.out.find("--starts"), std::string::npos) << excite.out;

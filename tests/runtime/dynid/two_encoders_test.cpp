@@ -4,83 +4,27 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "runtime/recordings/reader.h"
-#include "runtime/recordings/trajectory_file.h"
 #include "runtime/rules/decision_rules.h"
 #include "tests/runtime/dynid/diagnosis_schema.h"
+#include "tests/runtime/dynid/recorded_arm.h"
 #include "tests/runtime/dynid/run_dynid.h"
 #include "tests/support/shared_data.h"
 
 namespace dyngen::runtime {
 namespace {
 
-namespace fs = std::filesystem;
 using Eigen::Index;
 using Json = nlohmann::json;
 using test::content;
 using test::dynid;
 using test::Outcome;
 
-class TwoEncodersTest : public testing::Test {
+class TwoEncodersTest : public test::RecordedArm {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("two_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-
-  /// An upright arm of two joints. @param rows  effects
-  [[nodiscard]] std::string arm(const std::string& name, const std::string& rows) const {
-    std::ofstream(path(name)) << "name arm\nnumber_link 2\nsigma 0 0\nal 0 0\nd 0 0.5\nth 0 0\n"
-                                 "r 0 0\nm 8 4\nmX 2 0.8\nmY 0 0\nmZ 0 0\nXX 0.02 0.01\nXY 0 0\n"
-                                 "XZ 0 0\nYY 0.7 0.25\nYZ 0 0\nZZ 0.7 0.25\nIA 0.5 0.3\n"
-                                 "Fs 0.5 0.2\nFv 3 1.5\noff 0 0\ntaumax 400 200\ngy 9.81\n"
-                              << rows << "stop\n";
-    return path(name);
-  }
-
-  /// The same arm without a dynamic number.
-  [[nodiscard]] std::string open_arm() const {
-    std::ofstream(path("open.robot"))
-        << "name arm\nnumber_link 2\nsigma 0 0\nal 0 0\nd 0 0.5\nth 0 0\nr 0 0\nm * *\nmX * *\n"
-           "mY * *\nmZ * *\nXX * *\nXY * *\nXZ * *\nYY * *\nYZ * *\nZZ * *\nIA * *\nFs * *\n"
-           "Fv * *\noff * *\ngy 9.81\nstop\n";
-    return path("open.robot");
-  }
-
-  /// Sines of several frequencies, which both joints do not share.
-  void waves(const std::string& name, double seconds) const {
-    const Index samples = 1 + std::lround(seconds / 0.004);
-    Trajectory trajectory;
-    trajectory.time = Eigen::VectorXd::LinSpaced(samples, 0, seconds);
-    for (auto* part : {&trajectory.q, &trajectory.dq, &trajectory.ddq}) part->resize(samples, 2);
-    for (Index k = 0; k < samples; ++k) {
-      for (Index j = 0; j < 2; ++j) {
-        double q = 0, dq = 0, ddq = 0;
-        for (const double hz : {0.11, 0.31, 0.73}) {
-          const double w = 2 * std::numbers::pi * hz * (j == 0 ? 1 : 1.37);
-          const double t = trajectory.time[k], a = 0.25;
-          q += a * (1 - std::cos(w * t));
-          dq += a * w * std::sin(w * t);
-          ddq += a * w * w * std::cos(w * t);
-        }
-        trajectory.q(k, j) = q;
-        trajectory.dq(k, j) = dq;
-        trajectory.ddq(k, j) = ddq;
-      }
-    }
-    write_trajectory(trajectory, path(name));
-  }
-
   /// An arm whose first gear gives: run.csv.
   void simulate_elastic() const {
     waves("motion.csv", 40);
@@ -90,8 +34,6 @@ class TwoEncodersTest : public testing::Test {
         " --controller ff --rate 500 --encoder 2e-6 --encoder-noise 1 --torque-noise 1");
     ASSERT_EQ(run.exit_code, 0) << run.out;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(TwoEncodersTest, ASimulatedGearThatGivesHasASecondEncoder) {
