@@ -135,8 +135,8 @@ RobustRegression WindUpFit::fit_of(const std::vector<WindUpTerm>& terms) const {
 
 /// The delay at which the columns are taken is the one that is found.
 void WindUpFit::settle() {
-  constexpr int kRepeats = 3;  // the third changes it by the third power of the delay
-  for (int round = 0; round < kRepeats; ++round) {
+  constexpr int kDelayRounds = 3;  // the third changes it by the third power of the delay
+  for (int round = 0; round < kDelayRounds; ++round) {
     fit_ = fit_of(terms_);
     delay_ = fit_.beta[kDelay];
   }
