@@ -59,6 +59,7 @@ class Candidates {
       : data_(data), later_(later), input_(input), signals_(data), nb_(data.model.size()) {}
 
   ChangeCandidates run(const std::vector<Hypothesis>& effects, const EffectPoint& point) {
+    beta_ = point.beta;
     signals_.set_beta(point.beta);
     signals_.set_tangent_beta(point.beta);
     for (const EffectInstance& effect : point.effects) add_found(effect);
@@ -145,12 +146,24 @@ class Candidates {
       candidate.effect = hypothesis.effect;
       candidate.parameters = hypothesis.linear;
       candidate.forms = forms_of(static_cast<int>(wanted.size()));
+      set_bounds(candidate);
       const std::vector<Index> places = add_columns(
-          effect_columns(data_, signals_, hypothesis.effect, wanted, hypothesis.held), false);
+          effect_columns(data_, signals_, hypothesis.effect, wanted, hypothesis.held), true);
+      ChangeCandidate always = candidate;
+      always.both_sides = true;
+      always.forms = {always.forms.front()};
       add(std::move(candidate), places);
+      add(std::move(always), places);
     } catch (const MissingSignalError&) {
       return;
     }
+  }
+
+  void set_bounds(ChangeCandidate& candidate) const {
+    const EffectInstance& effect = candidate.effect;
+    const EffectSizes sizes = effect.law.sizes(scales_of(data_, beta_, effect.joint));
+    candidate.least = sizes.min(candidate.parameters);
+    candidate.most = sizes.max(candidate.parameters);
   }
 
   [[nodiscard]] EffectInstance on_joint(EffectLaw law, int joint) const {
@@ -311,6 +324,7 @@ class Candidates {
   const std::vector<bool>& later_;
   const DiagnosisInput& input_;
   EffectSignals signals_;
+  VectorXd beta_;
   Index nb_, width_ = 0;
   ChangeCandidates result_;
   std::vector<std::vector<Index>> places_;

@@ -11,7 +11,8 @@
 
 namespace dyngen::runtime {
 
-/// Something that may have changed after the reference.
+/// Something that may have changed after the reference; or an effect of both sides, that the model
+/// lacks and that is no change.
 struct ChangeCandidate {
   enum class Kind { kFriction, kLoad, kInertia, kEffect };
   Kind kind = Kind::kEffect;
@@ -22,6 +23,8 @@ struct ChangeCandidate {
   std::vector<std::vector<int>> forms;  ///< sets of these parameters that change together
   std::vector<std::string> families;    ///< its own first, then those with the same columns
   std::string formula;                  ///< empty: that of the effect's file
+  bool both_sides = false;              ///< acts in the reference too, with the same size
+  Eigen::VectorXd least, most;          ///< (parameters) that sizes can have; empty: any
 };
 
 /// Columns beside the regressor that candidates need, and the candidates.

@@ -123,7 +123,8 @@ bool has(const ChangeSystem& system, const ChangeSet& set, const ChangeCandidate
 
 bool is_same_name(const ChangeCandidate& a, const ChangeCandidate& b) {
   return a.families.front() == b.families.front() && a.effect.joint == b.effect.joint &&
-         a.effect.link == b.effect.link && a.effect.other == b.effect.other;
+         a.effect.link == b.effect.link && a.effect.other == b.effect.other &&
+         a.both_sides == b.both_sides;
 }
 
 double ChangePosterior::probability(const ChangeSystem& system, std::size_t candidate) const {
@@ -151,7 +152,8 @@ std::vector<std::size_t> ChangePosterior::replacements(const ChangeSystem& syste
       const std::size_t other = system.forms()[f].candidate;
       if (std::find(own.begin(), own.end(), other) == own.end()) others.push_back(other);
     }
-    if (others.size() == 1) found[others.front()] += weight;
+    const bool change = others.size() == 1 && !system.candidates()[others.front()].both_sides;
+    if (change) found[others.front()] += weight;
   }
   std::vector<std::size_t> places;
   for (const auto& [place, weight] : found) places.push_back(place);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 #include "runtime/estimation/distributions.h"
@@ -41,6 +43,12 @@ double log_sum(const std::vector<double>& values) {
   return most + std::log(sum);
 }
 
+/// Whether both are one effect, on one joint.
+bool is_same(const ChangeCandidate& a, const ChangeCandidate& b) {
+  return a.effect.law.name == b.effect.law.name && a.effect.joint == b.effect.joint &&
+         a.effect.link == b.effect.link && a.effect.other == b.effect.other;
+}
+
 bool has_body(const ChangeCandidate& candidate) {
   return candidate.kind == ChangeCandidate::Kind::kLoad ||
          candidate.kind == ChangeCandidate::Kind::kInertia;
@@ -63,8 +71,8 @@ ChangeSystem::ChangeSystem(const std::vector<SessionEquations>& sessions,
   for (std::size_t i = 0; i < scatters.size(); ++i) {
     Level level;
     level.scatter = scatters[i];
-    level.of =
-        left_of_sessions(whitened_sessions(sessions_, scatter_, level.scatter), common_, columns_);
+    level.of = left_of_sessions(whitened_sessions(sessions_, scatter_, level.scatter), common_,
+                                columns_, reference_);
     const double s = level.scatter * level.scatter;
     level.log_weight = level.of.restricted - 0.5 * rules_.allowance_worth * (std::log(s) + 1 / s);
     if (level.scatter == 1) centre_ = i;
@@ -72,7 +80,11 @@ ChangeSystem::ChangeSystem(const std::vector<SessionEquations>& sessions,
   }
   join_equal();
   make_forms({});
-  const double tests = std::max<double>(1, static_cast<double>(candidates_.size()));
+  const auto both =
+      static_cast<double>(std::count_if(candidates_.begin(), candidates_.end(),
+                                        [](const ChangeCandidate& own) { return own.both_sides; }));
+  cost_of_both_ = std::log(std::max(1.0, both));
+  const double tests = std::max(1.0, static_cast<double>(candidates_.size()) - both);
   cost_ = std::max(0.0, 0.5 * quantile(false_alarm / tests) - 0.5 * std::log(1 + rules_.slab));
 }
 
@@ -86,12 +98,15 @@ void ChangeSystem::drop_absent() {
       width += own.columns.cols();
     }
     columns_ = MatrixXd::Zero(sessions_.front().triangle.cols() - 1, width);
+    reference_ = columns_;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      columns_.middleCols(first_[i], candidates_[i].columns.cols()) = candidates_[i].columns;
+      const MatrixXd& own = candidates_[i].columns;
+      columns_.middleCols(first_[i], own.cols()) = own;
+      if (candidates_[i].both_sides) reference_.middleCols(first_[i], own.cols()) = own;
     }
   };
   stack();
-  const LeftOfSessions of = left_of_sessions(all, common_, columns_);
+  const LeftOfSessions of = left_of_sessions(all, common_, columns_, reference_);
   std::vector<ChangeCandidate> present;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Index from = first_[i], count = candidates_[i].columns.cols();
@@ -101,10 +116,11 @@ void ChangeSystem::drop_absent() {
   }
   candidates_ = std::move(present);
   stack();
-  length_ = left_of_sessions(all, common_, columns_).whole.diagonal().cwiseSqrt();
+  length_ = left_of_sessions(all, common_, columns_, reference_).whole.diagonal().cwiseSqrt();
   for (Index c = 0; c < length_.size(); ++c) {
     if (!(length_[c] > 0)) length_[c] = 1;
     columns_.col(c) /= length_[c];
+    reference_.col(c) /= length_[c];
   }
 }
 
@@ -125,6 +141,7 @@ void ChangeSystem::join_equal() {
     for (std::size_t k = i + 1; k < candidates_.size() && !dropped[i]; ++k) {
       if (dropped[k] || bases[i].cols() != bases[k].cols()) continue;
       if (has_body(candidates_[i]) || has_body(candidates_[k])) continue;
+      if (candidates_[i].both_sides != candidates_[k].both_sides) continue;
       const MatrixXd inner = bases[i].transpose() *
                              left.block(first_[i], first_[k], bases[i].rows(), bases[k].rows()) *
                              bases[k];
@@ -152,6 +169,7 @@ void ChangeSystem::join_equal() {
   candidates_ = std::move(kept);
   first_ = std::move(first);
   columns_ = columns_(Eigen::all, raw).eval();
+  reference_ = reference_(Eigen::all, raw).eval();
   length_ = length_(raw).eval();
   for (Level& level : levels_) {
     level.of.left = level.of.left(raw, raw).eval();
@@ -267,6 +285,10 @@ double ChangeSystem::prior(const ChangeSet& set) const {
   int frictions = 0;
   for (const std::size_t f : set) {
     const ChangeCandidate& own = candidates_[forms_[f].candidate];
+    if (own.both_sides) {
+      sum -= cost_of_both_;
+      continue;
+    }
     const bool inertia = own.kind == ChangeCandidate::Kind::kInertia;
     double cost = cost_ - (inertia ? std::log(rules_.inertia_odds) : 0);
     if (own.kind == ChangeCandidate::Kind::kFriction && frictions++ > 0) {
@@ -327,8 +349,47 @@ double ChangeSystem::body_price(const ChangeSet& set) const {
   return price;
 }
 
+double ChangeSystem::bounds_price(const ChangeSet& set) const {
+  // P of a size within its bounds, over its prior probability of one half
+  const auto price = [](double value, double deviation, double least, double most) {
+    double sum = 0;
+    for (const double room : {value - least, most - value}) {
+      if (!std::isfinite(room)) continue;
+      const double share = std::max(std::erfc(-room / (deviation * std::numbers::sqrt2)), 1e-300);
+      sum -= std::min(0.0, std::log(share));
+    }
+    return sum;
+  };
+  const bool bounded = std::any_of(set.begin(), set.end(), [&](std::size_t f) {
+    const ChangeCandidate& own = candidates_[forms_[f].candidate];
+    return (own.least.array() > -std::numeric_limits<double>::infinity()).any() ||
+           (own.most.array() < std::numeric_limits<double>::infinity()).any();
+  });
+  if (!bounded) return 0;
+  const RawPlaces raw = raw_places(set);
+  const Fitted fit = fitted(raw.columns, level_weights(set));
+  double sum = 0;
+  for (std::size_t i = 0; i < raw.columns.size(); ++i) {
+    const ChangeCandidate& own = candidates_[forms_[raw.forms[i]].candidate];
+    if (own.least.size() == 0) continue;
+    // the size after the reference: with that of both sides, if the set has one
+    VectorXd slope = VectorXd::Zero(fit.mean.size());
+    for (std::size_t k = 0; k < raw.columns.size(); ++k) {
+      const ChangeCandidate& other = candidates_[forms_[raw.forms[k]].candidate];
+      const bool same = k == i || (!own.both_sides && other.both_sides &&
+                                   raw.parameters[k] == raw.parameters[i] && is_same(own, other));
+      if (same) slope[static_cast<Index>(k)] = 1 / length_[raw.columns[k]];
+    }
+    const double variance = slope.dot(fit.covariance * slope);
+    if (!(variance > 0)) continue;
+    sum += price(slope.dot(fit.mean), std::sqrt(variance), own.least[raw.parameters[i]],
+                 own.most[raw.parameters[i]]);
+  }
+  return sum;
+}
+
 double ChangeSystem::log_evidence(const ChangeSet& set) const {
-  return upper_bound(set) - body_price(set);
+  return upper_bound(set) - body_price(set) - bounds_price(set);
 }
 
 double ChangeSystem::chi_square(const ChangeSet& set) const {
@@ -376,6 +437,8 @@ VectorXd ChangeSystem::reference_beside(const std::vector<Index>& raw, const Vec
   const WhitenedSessions all = whitened_sessions(sessions_, scatter_, 1);
   const Index later = all.rows.rows() - all.later_from;
   VectorXd y = all.rows.rightCols(1);
+  y.head(all.later_from) -= all.rows.topLeftCorner(all.later_from, reference_.rows()) *
+                            (reference_(Eigen::all, raw) * mean);
   y.tail(later) -=
       all.rows.bottomLeftCorner(later, columns_.rows()) * (columns_(Eigen::all, raw) * mean);
   const MatrixXd X = all.rows.leftCols(common_);
@@ -386,17 +449,25 @@ VectorXd ChangeSystem::reference_beside(const std::vector<Index>& raw, const Vec
   return scale.asDiagonal() * solver.solve(y);
 }
 
-ChangeEstimate ChangeSystem::estimate(const ChangeSet& set) const {
-  std::vector<Index> raw, places;  // what the forms let change, and where it stands in the answer
-  Index all = 0;
+ChangeSystem::RawPlaces ChangeSystem::raw_places(const ChangeSet& set) const {
+  RawPlaces raw;
   for (const std::size_t f : set) {
     const ChangeForm& form = forms_[f];
-    for (Index p = 0; p < form.mix.rows(); ++p, ++all) {
+    for (Index p = 0; p < form.mix.rows(); ++p, ++raw.all) {
       if (!form.point && form.mix.row(p).isZero(0)) continue;
-      raw.push_back(first_[form.candidate] + p);
-      places.push_back(all);
+      raw.columns.push_back(first_[form.candidate] + p);
+      raw.places.push_back(raw.all);
+      raw.forms.push_back(f);
+      raw.parameters.push_back(p);
     }
   }
+  return raw;
+}
+
+ChangeEstimate ChangeSystem::estimate(const ChangeSet& set) const {
+  const RawPlaces own = raw_places(set);
+  const std::vector<Index>&raw = own.columns, &places = own.places;
+  const Index all = own.all;
   const Fitted fit = fitted(raw, level_weights(set));
   const VectorXd unit = length_(raw).cwiseInverse();
   ChangeEstimate result;

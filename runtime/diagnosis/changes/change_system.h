@@ -69,6 +69,15 @@ class ChangeSystem {
     Eigen::VectorXd rest;
   };
 
+  /// What the forms of a set let change.
+  struct RawPlaces {
+    std::vector<Eigen::Index> columns;     ///< raw ones
+    std::vector<Eigen::Index> places;      ///< of each in an answer of all parameters
+    std::vector<std::size_t> forms;        ///< of each
+    std::vector<Eigen::Index> parameters;  ///< of each: its place in its candidate
+    Eigen::Index all = 0;                  ///< parameters of an answer
+  };
+
   /// Parameters over their lengths, averaged over the scatter.
   struct Fitted {
     Eigen::VectorXd mean;
@@ -82,7 +91,10 @@ class ChangeSystem {
   void add_form(ChangeForm form, std::vector<Eigen::MatrixXd>& mixes);
   [[nodiscard]] double prior(const ChangeSet& set) const;
   [[nodiscard]] double body_price(const ChangeSet& set) const;
+  /// What sizes beyond their bounds cost.
+  [[nodiscard]] double bounds_price(const ChangeSet& set) const;
   [[nodiscard]] BodyEvidence evidence_of_load(std::size_t form, const ChangeSet& beside) const;
+  [[nodiscard]] RawPlaces raw_places(const ChangeSet& set) const;
   [[nodiscard]] std::vector<Eigen::Index> columns_of(const ChangeSet& set) const;
   [[nodiscard]] double log_likelihood(const Level& level, const std::vector<Eigen::Index>& columns,
                                       const Eigen::VectorXd& slabs) const;
@@ -99,13 +111,15 @@ class ChangeSystem {
   Eigen::Index common_;
   std::vector<ChangeCandidate> candidates_;
   std::vector<Eigen::Index> first_;  ///< raw column of each candidate's first parameter
-  Eigen::MatrixXd columns_;          ///< (K x raw), each over its length
+  Eigen::MatrixXd columns_;          ///< (K x raw) of later sessions, each over its length
+  Eigen::MatrixXd reference_;        ///< the same of the reference: 0, but of effects of both sides
   Eigen::VectorXd length_;           ///< (raw) at the estimated scatter, before projection
   std::vector<Level> levels_;
   std::size_t centre_ = 0;
   std::vector<ChangeForm> forms_;
   ChangeRules rules_;
-  double cost_ = 0;  ///< -log prior odds of a candidate
+  double cost_ = 0;          ///< -log prior odds of a candidate
+  double cost_of_both_ = 0;  ///< the same of an effect of both sides, which accuses nobody
 };
 
 }  // namespace dyngen::runtime

@@ -133,7 +133,8 @@ class ChangeWriter {
     Index place = 0;
     for (std::size_t i = 0; i < posterior_.best.size(); ++i) {
       const ChangeForm& form = system_.forms()[posterior_.best[i]];
-      if (posterior_.probability_of_any(system_, form.candidate) >= probable_) {
+      const bool change = !system_.candidates()[form.candidate].both_sides;
+      if (change && posterior_.probability_of_any(system_, form.candidate) >= probable_) {
         findings.push_back(finding(i, place));
       }
       place += form.mix.rows();

@@ -205,10 +205,12 @@ SessionScatter session_scatter(const std::vector<SessionEquations>& sessions,
 }
 
 LeftOfSessions left_of_sessions(const WhitenedSessions& sessions, Index common,
-                                const MatrixXd& columns) {
+                                const MatrixXd& columns, const MatrixXd& reference) {
   LeftOfSessions result;
   const Index later = sessions.rows.rows() - sessions.later_from;
   MatrixXd C = MatrixXd::Zero(sessions.rows.rows(), columns.cols());
+  C.topRows(sessions.later_from) =
+      sessions.rows.topLeftCorner(sessions.later_from, reference.rows()) * reference;
   C.bottomRows(later) = sessions.rows.bottomLeftCorner(later, columns.rows()) * columns;
   double determinant = 0;
   const MatrixXd Q = span_of(sessions.rows.leftCols(common), &determinant);

@@ -64,15 +64,16 @@ SessionScatter session_scatter(const std::vector<SessionEquations>& sessions,
                                std::vector<ScatterTerm> terms, Eigen::Index common,
                                const ChangeRules& rules);
 
-/// Columns of later sessions beside those of both, and what is left of them.
+/// Columns that candidates add to those of the model, and what is left of them.
 struct LeftOfSessions {
   Eigen::MatrixXd whole;  ///< (k x k) before the common columns are taken out
   Eigen::MatrixXd left;   ///< (k x k) after
   Eigen::VectorXd rest;   ///< (k) with the torque, after
   double restricted = 0;  ///< log of the restricted likelihood of the torque without them
 };
-/// @param columns  (K x k): each as a combination of A's columns in later sessions
+/// @param columns    (K x k): each as a combination of A's columns in later sessions
+/// @param reference  (K x k): the same in sessions of the reference
 LeftOfSessions left_of_sessions(const WhitenedSessions& sessions, Eigen::Index common,
-                                const Eigen::MatrixXd& columns);
+                                const Eigen::MatrixXd& columns, const Eigen::MatrixXd& reference);
 
 }  // namespace dyngen::runtime

@@ -99,6 +99,21 @@ TEST(Changes, NamesEveryKind) {
   EXPECT_EQ(loads, 0);
 }
 
+// what the model lacks on both sides is in later sessions too, and yet it did not come
+TEST(Changes, AnEffectOfBothSidesIsNoChange) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    ComparedArm arm;
+    arm.seed = seed;
+    arm.always = {test::known(test::spring_law(), 1, {2})};
+    EXPECT_EQ(test::names_of(test::changes_of(arm)), Names()) << "seed " << seed;
+    arm.change = change_of(7, -1.2);
+    EXPECT_EQ(test::names_of(test::changes_of(arm)), Names{"friction_change 1"}) << "seed " << seed;
+    arm.change.setZero();
+    arm.effects = {test::known(test::spring_law(), 1, {2})};
+    EXPECT_EQ(test::names_of(test::changes_of(arm)), Names{"gravity_spring 2"}) << "seed " << seed;
+  }
+}
+
 TEST(Changes, AccusesNoSessionsThatOnlyScatter) {
   for (const int sessions : {1, 2, 4}) {
     int accused = 0;

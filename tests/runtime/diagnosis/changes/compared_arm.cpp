@@ -48,10 +48,11 @@ std::vector<MotionSource> sessions_of(const ComparedArm& arm, bool later, std::m
     if (later) beta += arm.change;
     const double phase = 0.37 * static_cast<double>(s + (later ? 7 : 0)) + 0.01 * arm.seed;
     const auto seed = static_cast<unsigned>(random());
-    const std::vector<EffectInstance> none;
-    sources.push_back(measured({sines(20, 0.01, phase)}, beta, later ? arm.effects : none,
-                               arm.noise, arm.coefficient, seed)
-                          .front());
+    std::vector<EffectInstance> effects = arm.always;
+    if (later) effects.insert(effects.end(), arm.effects.begin(), arm.effects.end());
+    sources.push_back(
+        measured({sines(20, 0.01, phase)}, beta, effects, arm.noise, arm.coefficient, seed)
+            .front());
   }
   return sources;
 }

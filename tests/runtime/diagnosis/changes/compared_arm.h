@@ -21,6 +21,7 @@ Eigen::VectorXd load_of(int link, double mass, double x, double y, double inerti
 struct ComparedArm {
   Eigen::VectorXd change = Eigen::VectorXd::Zero(13);  ///< of the base parameters
   std::vector<runtime::EffectInstance> effects{};      ///< that came
+  std::vector<runtime::EffectInstance> always{};       ///< of both sides, which the model lacks
   int before = 3, after = 3;                           ///< sessions
   double scatter = 0.05;  ///< standard deviation between sessions, of friction; of an offset: of Fc
   double noise = 0.1;     ///< N m
