@@ -335,6 +335,10 @@ class Candidates {
 
 }  // namespace
 
+bool is_same_effect(const EffectInstance& a, const EffectInstance& b) {
+  return a.law.name == b.law.name && a.joint == b.joint && a.link == b.link && a.other == b.other;
+}
+
 ChangeCandidates change_candidates(const EffectRecordings& data, const std::vector<bool>& later,
                                    const DiagnosisInput& input,
                                    const std::vector<Hypothesis>& effects,

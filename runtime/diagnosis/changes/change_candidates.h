@@ -27,6 +27,9 @@ struct ChangeCandidate {
   Eigen::VectorXd least, most;          ///< (parameters) that sizes can have; empty: any
 };
 
+/// Whether both are one effect, on one joint or link.
+bool is_same_effect(const EffectInstance& a, const EffectInstance& b);
+
 /// Columns beside the regressor that candidates need, and the candidates.
 struct ChangeCandidates {
   JointColumns further;     ///< over the equations of all runs

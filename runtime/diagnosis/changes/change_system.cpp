@@ -43,12 +43,6 @@ double log_sum(const std::vector<double>& values) {
   return most + std::log(sum);
 }
 
-/// Whether both are one effect, on one joint.
-bool is_same(const ChangeCandidate& a, const ChangeCandidate& b) {
-  return a.effect.law.name == b.effect.law.name && a.effect.joint == b.effect.joint &&
-         a.effect.link == b.effect.link && a.effect.other == b.effect.other;
-}
-
 bool has_body(const ChangeCandidate& candidate) {
   return candidate.kind == ChangeCandidate::Kind::kLoad ||
          candidate.kind == ChangeCandidate::Kind::kInertia;
@@ -377,7 +371,8 @@ double ChangeSystem::bounds_price(const ChangeSet& set) const {
     for (std::size_t k = 0; k < raw.columns.size(); ++k) {
       const ChangeCandidate& other = candidates_[forms_[raw.forms[k]].candidate];
       const bool same = k == i || (!own.both_sides && other.both_sides &&
-                                   raw.parameters[k] == raw.parameters[i] && is_same(own, other));
+                                   raw.parameters[k] == raw.parameters[i] &&
+                                   is_same_effect(own.effect, other.effect));
       if (same) slope[static_cast<Index>(k)] = 1 / length_[raw.columns[k]];
     }
     const double variance = slope.dot(fit.covariance * slope);

@@ -50,14 +50,25 @@ SessionPlan plan_of(const ComparedSessions& compared) {
   return plan;
 }
 
-/// Torque less the model, with parameters of each session's own.
+/// Torque less the model and effects of both sides, with parameters of each session's own.
+/// @param nb       parameters of the model
+/// @param further  columns beside the regressor, of which the first `shared` are of both sides
 RunResiduals residuals_of_sessions(const std::vector<RowBlock>& blocks, const SessionPlan& plan,
-                                   const std::vector<JointNoise>& noise, Index parameters) {
+                                   const std::vector<JointNoise>& noise, Index nb,
+                                   const JointColumns& further, Index shared) {
   const MatrixXd beta =
-      estimates_of_sessions(session_equations(blocks, plan, noise, {}), parameters);
+      estimates_of_sessions(session_equations(blocks, plan, noise, further), nb + shared);
   RunResiduals residuals;
+  Index start = 0;
   for (std::size_t run = 0; run < blocks.size(); ++run) {
-    residuals.push_back(residual(blocks[run], beta.col(plan.of_run[run])));
+    const VectorXd own = beta.col(plan.of_run[run]);
+    MatrixXd left = residual(blocks[run], own.head(nb));
+    for (std::size_t part = 0; part < further.parts.size(); ++part) {
+      left.col(further.joints[part]) -=
+          further.parts[part].block(start, 0, left.rows(), shared) * own.tail(shared);
+    }
+    start += left.rows();
+    residuals.push_back(std::move(left));
   }
   return residuals;
 }
@@ -268,46 +279,99 @@ class ChangeWriter {
   ChangeEstimate estimate_;
 };
 
+/// The sessions of both sides, and what is known to act in all of them.
+class ChangeSearch {
+ public:
+  ChangeSearch(const ComparedSessions& compared, const DiagnosisInput& input,
+               const CompetitionResult& result, double false_alarm, const DecisionRules& rules)
+      : input_(input),
+        false_alarm_(false_alarm),
+        rules_(rules),
+        all_(together(compared.reference, compared.later)),
+        plan_(plan_of(compared)),
+        point_(result.fit.point) {
+    for (const int session : plan_.of_run) later_.push_back(session >= plan_.reference);
+    point_.initial.clear();
+    blocks_ = without_effects(all_, point_);
+    noise_ = result.noise;
+  }
+
+  /// @param effects  linear ones that may have come, or act on both sides
+  ChangesSince run(std::vector<Hypothesis> effects) {
+    effects_ = std::move(effects);
+    for (;;) {
+      const std::size_t before = effects_.size();
+      ChangesSince answer = look();
+      if (effects_.size() == before) return answer;
+    }
+  }
+
+ private:
+  /// Effects of the best set that act on both sides become parameters of both, so that the scatter
+  /// between sessions is what is left beside them.
+  ChangesSince look() {
+    const Index nb = all_.model.size();
+    const ChangeCandidates candidates = change_candidates(all_, later_, input_, effects_, point_);
+    // what effects leave of both sides, each session fitted by itself: noise, and misfit
+    const RunResiduals left = residuals_of_sessions(blocks_, plan_, noise_.joints, nb,
+                                                    candidates.further, candidates.shared);
+    noise_ = torque_noise_model(all_, left, std::vector<double>(all_.runs.size(), 0.0), true);
+    const std::vector<SessionEquations> sessions =
+        session_equations(blocks_, plan_, noise_.joints, candidates.further);
+    const Index common = nb + candidates.shared;
+    const MatrixXd estimates = estimates_of_sessions(sessions, nb);
+    const VectorXd size = estimates.leftCols(plan_.reference).rowwise().mean().cwiseAbs();
+    const SessionScatter scatter = session_scatter(
+        sessions, scatter_terms(all_.model, size, torque_rms(blocks_), rules_.changes), common,
+        rules_.changes);
+    ChangesSince answer;
+    answer.sessions = sentence_of(scatter, plan_, all_.model.revolute);
+    ChangeSystem system(sessions, scatter, common, candidates.all, false_alarm_, rules_.changes);
+    ChangePosterior posterior = change_posterior(system);
+    if (posterior.best.empty() || share_effects_of_both(system, posterior)) return answer;
+    // loads that are points, at their places beside the other changes
+    system.place_points(posterior.best);
+    posterior = change_posterior(system);
+    if (posterior.best.empty() || share_effects_of_both(system, posterior)) return answer;
+    answer.findings = ChangeWriter(system, posterior, rules_.answer.probable).run();
+    return answer;
+  }
+
+  /// @return whether there were any
+  bool share_effects_of_both(const ChangeSystem& system, const ChangePosterior& posterior) {
+    bool any = false;
+    for (const std::size_t member : posterior.best) {
+      const ChangeCandidate& own = system.candidates()[system.forms()[member].candidate];
+      if (!own.both_sides) continue;
+      any = true;
+      point_.effects.push_back(own.effect);
+      std::erase_if(effects_, [&](const Hypothesis& effect) {
+        return is_same_effect(effect.effect, own.effect);
+      });
+    }
+    return any;
+  }
+
+  const DiagnosisInput& input_;
+  double false_alarm_;
+  const DecisionRules& rules_;
+  EffectRecordings all_;
+  SessionPlan plan_;
+  EffectPoint point_;  ///< with effects of both sides
+  std::vector<bool> later_;
+  std::vector<RowBlock> blocks_;
+  TorqueNoiseModel noise_;
+  std::vector<Hypothesis> effects_;
+};
+
 }  // namespace
 
 ChangesSince changes_since(const ComparedSessions& compared, const DiagnosisInput& input,
                            const std::vector<Hypothesis>& hypotheses,
                            const CompetitionResult& result, double false_alarm,
                            const DecisionRules& rules) {
-  const EffectRecordings all = together(compared.reference, compared.later);
-  const SessionPlan plan = plan_of(compared);
-  std::vector<bool> later;
-  for (const int session : plan.of_run) later.push_back(session >= plan.reference);
-  EffectPoint point = result.fit.point;
-  point.initial.clear();
-  const std::vector<RowBlock> blocks = without_effects(all, point);
-  const Index nb = all.model.size();
-  // what effects leave of both sides, each session fitted by itself: noise, and misfit of the model
-  const RunResiduals left = residuals_of_sessions(blocks, plan, result.noise.joints, nb);
-  const TorqueNoiseModel noise =
-      torque_noise_model(all, left, std::vector<double>(all.runs.size(), 0.0), true);
-  const ChangeCandidates candidates = change_candidates(
-      all, later, input, possible(hypotheses, result, !input.loads.empty()), point);
-  const std::vector<SessionEquations> sessions =
-      session_equations(blocks, plan, noise.joints, candidates.further);
-  const Index common = nb + candidates.shared;
-  const MatrixXd estimates = estimates_of_sessions(sessions, nb);
-  const VectorXd size = estimates.leftCols(plan.reference).rowwise().mean().cwiseAbs();
-  const SessionScatter scatter =
-      session_scatter(sessions, scatter_terms(all.model, size, torque_rms(blocks), rules.changes),
-                      common, rules.changes);
-  ChangesSince answer;
-  answer.sessions = sentence_of(scatter, plan, all.model.revolute);
-  ChangeSystem system(sessions, scatter, common, candidates.all, false_alarm, rules.changes);
-  ChangePosterior posterior = change_posterior(system);
-  if (posterior.best.empty()) return answer;
-  // loads that are points, at their places beside the other changes
-  system.place_points(posterior.best);
-  posterior = change_posterior(system);
-  if (!posterior.best.empty()) {
-    answer.findings = ChangeWriter(system, posterior, rules.answer.probable).run();
-  }
-  return answer;
+  ChangeSearch search(compared, input, result, false_alarm, rules);
+  return search.run(possible(hypotheses, result, !input.loads.empty()));
 }
 
 VectorXd fitted_to_reference(const EffectRecordings& reference, const VectorXd& start) {

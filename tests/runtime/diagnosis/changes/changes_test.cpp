@@ -109,7 +109,7 @@ TEST(Changes, AnEffectOfBothSidesIsNoChange) {
     arm.change = change_of(7, -1.2);
     EXPECT_EQ(test::names_of(test::changes_of(arm)), Names{"friction_change 1"}) << "seed " << seed;
     arm.change.setZero();
-    arm.effects = {test::known(test::spring_law(), 1, {2})};
+    arm.effects = {test::known(test::spring_law(), 1, {1})};
     EXPECT_EQ(test::names_of(test::changes_of(arm)), Names{"gravity_spring 2"}) << "seed " << seed;
   }
 }
