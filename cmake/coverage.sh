@@ -22,11 +22,13 @@ if [ $# -eq 0 ]; then
 fi
 cmake --build "$build" --parallel "${JOBS:-$(nproc)}" --target "$@"
 
+# slow tests repeat what others run, some hundred times
+slow=$(ctest --test-dir "$build" --show-only --label-regex slow | sed -n 's/^ *Test *#[0-9]*: *//p' | paste -sd: -)
 # counts of an earlier run are not counted again
 find "$build" -name '*.gcda' -delete
 for target in "$@"; do
   program=$(find "$build" -type f -name "$target" -perm -u+x | head -n 1)
-  (cd "$build" && "$OLDPWD/$program" --gtest_brief=1 --gtest_filter="${FILTER:-*}") ||
+  (cd "$build" && "$OLDPWD/$program" --gtest_brief=1 --gtest_filter="${FILTER:-*}-$slow") ||
     echo "$target: some tests failed; their lines count all the same" >&2
 done
 python3 cmake/coverage.py "$build"
