@@ -18,6 +18,7 @@
 #include "runtime/diagnosis/answer/verdict.h"
 #include "runtime/diagnosis/changes/changes.h"
 #include "runtime/diagnosis/competition/heldout.h"
+#include "runtime/diagnosis/competition/loop_disturbance.h"
 #include "runtime/diagnosis/competition/search.h"
 #include "runtime/diagnosis/equation_sets/raw_residual.h"
 #include "runtime/diagnosis/equation_sets/sufficiency.h"
@@ -144,8 +145,21 @@ class Diagnostician {
     answer_.noise.correlation_time = noise.correlation_time;
     answer_.noise.worth = noise.worth;
     answer_.noise.from_periods = noise.from_periods;
-    answer_.noise.how =
-        noise_sentence(noise, search_.parts().train, search_.seen().sticking, result().sticking);
+    answer_.noise.how = noise_sentence(noise, search_.parts().train, search_.seen().sticking,
+                                       result().sticking, disturbed_joints());
+  }
+
+  /// Joints, from 0, on which a disturbance inside the loop is seen beside all that was found.
+  [[nodiscard]] std::vector<int> disturbed_joints() const {
+    if (result().noise.from_periods || options_.residual_only) return {};
+    const EffectRecordings& evidence = search_.sets().evidence();
+    EffectSignals signals(evidence);
+    EvidenceSystem::Options settings;
+    settings.surrogates = 0;
+    settings.rules = options_.rules;
+    const EvidenceSystem system = system_beside(evidence, signals, search_.hypotheses(), result(),
+                                                result().fit.point, result().noise, settings);
+    return LoopDisturbance(evidence, result().noise, options_.false_alarm).joints_beside(system);
   }
 
   std::vector<StructureTest> tests_of(const Screening& screening) const {

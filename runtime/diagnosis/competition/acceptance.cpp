@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "runtime/diagnosis/competition/loop_disturbance.h"
 #include "runtime/diagnosis/competition/sandwich_test.h"
 
 namespace dyngen::runtime {
@@ -53,6 +54,32 @@ bool Acceptance::refuted(const Candidate& candidate) const {
                                      options_);
 }
 
+/// Whether a disturbance inside the loop shows beside it, beside which it is no more than noise.
+bool Acceptance::is_disturbance(const Candidate& candidate, const Screening& screening) const {
+  if (result_.noise.from_periods || !options_.with_regressor) return false;
+  const LoopDisturbance disturbance(data_.evidence, result_.noise, false_alarm_);
+  const Hypothesis& hypothesis = sought_.hypotheses[candidate.named.hypothesis];
+  NamedResult named = candidate.named;
+  EvidenceSystem::Options options = options_;
+  options.surrogates = 0;
+  const EvidenceSystem system = system_beside(data_.evidence, data_.signals, sought_.hypotheses,
+                                              result_, result_.fit.point, result_.noise, options);
+  std::vector<int> linear, all;
+  for (const int p : hypothesis.linear) linear.push_back(1 + p);
+  all = linear;
+  for (const int p : hypothesis.shapes) {
+    if (!hypothesis.windowed) all.push_back(1 + p);
+  }
+  const auto white = [&](const std::vector<int>& wanted) {
+    return system.whitened(
+        effect_columns(data_.evidence, data_.signals, named.best.effect, wanted, hypothesis.held));
+  };
+  const std::optional<Score> left = disturbance.beside_it(system, white(linear), white(all));
+  if (!left) return false;
+  named.best.score = *left;
+  return screening.family_wise(surprise_of_refined(named, hypothesis)) > false_alarm_;
+}
+
 /// Whether held-out recordings speak for it, or, of one beyond doubt, agree with it; an event is
 /// not in them and must only not harm them.
 bool Acceptance::proved(const Candidate& candidate, HeldoutProof proof) const {
@@ -67,7 +94,10 @@ bool Acceptance::proved(const Candidate& candidate, HeldoutProof proof) const {
 
 std::optional<Acceptance::Accepted> Acceptance::judged(Candidate candidate,
                                                        const Screening& screening) const {
-  if (refuted(candidate) || !proved(candidate, proof_of(candidate.fit))) return std::nullopt;
+  if (refuted(candidate) || !proved(candidate, proof_of(candidate.fit)) ||
+      is_disturbance(candidate, screening)) {
+    return std::nullopt;
+  }
   Winner winner;
   winner.hypothesis = candidate.named.hypothesis;
   winner.trial = std::move(candidate.named.best);

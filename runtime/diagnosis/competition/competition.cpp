@@ -49,7 +49,7 @@ class Competition {
                 {[this](const EffectInstance& effect) { return fit(effects_and(effect)); },
                  [this] { return exhausted(kLikelihoods); }}),
         pairs_(data_, sought_, stiction_, conditions_, options_.false_alarm, result_),
-        acceptance_(data_, sought_, system_options(), result_),
+        acceptance_(data_, sought_, system_options(), options_.false_alarm, result_),
         judges_{data_, sought_, stiction_, conditions_, nameless_, result_, options_.false_alarm} {}
 
   CompetitionResult run() {

@@ -8,6 +8,7 @@
 
 #include "runtime/diagnosis/competition/half_band_test.h"
 #include "runtime/diagnosis/competition/likely_structure.h"
+#include "runtime/diagnosis/competition/loop_disturbance.h"
 #include "runtime/diagnosis/competition/nameless_proof.h"
 #include "runtime/diagnosis/competition/sandwich_test.h"
 
@@ -20,6 +21,13 @@ using Form = GenericStructure::Form;
 constexpr double kUnheldCaution = 0.01;  // of the false alarms: nothing held out speaks for it
 constexpr std::ptrdiff_t kCandidates = 4;
 constexpr double kRuledOutNet = 15;  // squares, net: a form that cannot be is no small thing
+
+/// Independent samples that the noise of its joints is known by.
+double least_worth(const JointColumns& columns, const EvidenceSystem& system) {
+  double least = system.worth(columns.joints.front());
+  for (const int joint : columns.joints) least = std::min(least, system.worth(joint));
+  return least;
+}
 
 }  // namespace
 
@@ -200,6 +208,20 @@ bool NamelessSearch::is_proved(const Nameless& nameless, const TorqueNoiseModel&
                       !needs_proof);
 }
 
+/// Whether a disturbance inside the loop shows beside structure, beside which that is no more than
+/// noise.
+bool NamelessSearch::is_disturbance(const Nameless& nameless, const JointColumns& white,
+                                    const EvidenceSystem& system,
+                                    const TorqueNoiseModel& noise) const {
+  if (noise.from_periods || !options_.with_regressor) return false;
+  const LoopDisturbance disturbance(data_.evidence, noise, false_alarm_);
+  const std::optional<Score> left = disturbance.beside_it(system, white, white);
+  if (!left) return false;
+  const double surprise =
+      surprise_of(left->delta_chi2, nameless.score.degrees, least_worth(white, system));
+  return result_.last.family_wise(surprise) > false_alarm_;
+}
+
 /// With its score beside the model, unless something contradicts it.
 /// @param noise        of the system
 /// @param needs_proof  that held-out recordings have it too
@@ -211,6 +233,7 @@ std::optional<Nameless> NamelessSearch::confirmed(Nameless nameless, const Evide
   const JointColumns white = system.whitened(plain);
   nameless.score = score_of(system.products(white, false), false);
   if (!is_proved(nameless, noise, needs_proof)) return std::nullopt;
+  if (is_disturbance(nameless, white, system, noise)) return std::nullopt;
   const auto own = std::find(plain.joints.begin(), plain.joints.end(), joint);
   const auto place = static_cast<std::size_t>(own - plain.joints.begin());
   if (data_.half_band.contradicts(sought_.hypotheses, result_, nameless, options_))

@@ -74,6 +74,9 @@ class NamelessSearch {
   [[nodiscard]] Nameless nameless_of(const GenericResult& generic, const std::string& costly) const;
   [[nodiscard]] bool is_proved(const Nameless& nameless, const TorqueNoiseModel& noise,
                                bool needs_proof) const;
+  [[nodiscard]] bool is_disturbance(const Nameless& nameless, const JointColumns& white,
+                                    const EvidenceSystem& system,
+                                    const TorqueNoiseModel& noise) const;
   [[nodiscard]] std::optional<Nameless> confirmed(Nameless nameless, const EvidenceSystem& system,
                                                   const TorqueNoiseModel& noise,
                                                   bool needs_proof) const;

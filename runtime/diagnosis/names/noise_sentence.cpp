@@ -35,11 +35,24 @@ std::string sticks(const std::vector<StictionJoint>& joints, const std::vector<M
   return text;
 }
 
+/// What a disturbance inside the loop means for the findings; empty: none is seen.
+std::string follows(const std::vector<int>& joints) {
+  if (joints.empty()) return "";
+  std::vector<int> numbers;
+  for (const int joint : joints) numbers.push_back(joint + 1);
+  return fmt::format(
+      ". A disturbance inside the control loop, or noise of the positions, shows on joint{} {}: "
+      "the "
+      "motion follows it. What it can explain is not named",
+      numbers.size() > 1 ? "s" : "", fmt::join(numbers, ", "));
+}
+
 }  // namespace
 
 std::string noise_sentence(const TorqueNoiseModel& noise, const std::vector<MotionSource>& train,
                            const std::vector<StictionJoint>& left_out,
-                           const std::vector<StictionJoint>& impulses) {
+                           const std::vector<StictionJoint>& impulses,
+                           const std::vector<int>& disturbed) {
   return (noise.of_recordings    ? "from the differences between recordings of the same motion"
           : noise.from_periods   ? "from the differences between periods of the same motion"
           : noise.beside_largest ? "from what smooth functions of the joints' states leave too, "
@@ -48,7 +61,7 @@ std::string noise_sentence(const TorqueNoiseModel& noise, const std::vector<Moti
                                    "an upper bound of the "
                                    "noise") +
          sticks(left_out, train, "these equations are excluded") +
-         sticks(impulses, train, "an impulse at each reversal is excluded");
+         sticks(impulses, train, "an impulse at each reversal is excluded") + follows(disturbed);
 }
 
 }  // namespace dyngen::runtime

@@ -14,8 +14,10 @@ namespace dyngen::runtime {
 /// @param train     what StictionJoint::recordings counts
 /// @param left_out  joints whose equations at their reversals do not count
 /// @param impulses  joints that have an impulse at each reversal instead
+/// @param disturbed joints, from 0, on which a disturbance inside the loop is seen
 std::string noise_sentence(const TorqueNoiseModel& noise, const std::vector<MotionSource>& train,
                            const std::vector<StictionJoint>& left_out,
-                           const std::vector<StictionJoint>& impulses);
+                           const std::vector<StictionJoint>& impulses,
+                           const std::vector<int>& disturbed);
 
 }  // namespace dyngen::runtime

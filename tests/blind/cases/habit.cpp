@@ -7,6 +7,10 @@
 namespace blind {
 namespace {
 
+constexpr Range kCoarseBits = {12, 14};
+constexpr Range kLoopDisturbance = {0.01, 0.05};  // over the rms of the torque
+constexpr Range kLoopMemory = {0.05, 1};          // s
+
 Habit plain_habit(const std::string& name, int periods = 5) {
   Habit habit;
   habit.name = name;
@@ -62,7 +66,7 @@ std::vector<Habit> habits_of_length() {
 
 std::vector<Habit> habits_of_instruments() {
   Habit coarse = plain_habit("coarse_encoder");
-  coarse.bits = {12, 14};
+  coarse.bits = kCoarseBits;
   Habit jittered = plain_habit("jittered");
   jittered.rates = {100, 125, 200, 250};
   jittered.jitter = {0.1, 0.3};
@@ -75,12 +79,30 @@ std::vector<Habit> habits_of_instruments() {
   current.colour = Colour::kPink;
   current.allowed = {"torque_gain"};
   Habit disturbed = plain_habit("loop_disturbance");
-  disturbed.disturbance = {0.01, 0.05};
-  disturbed.memory = {0.05, 1};
+  disturbed.disturbance = kLoopDisturbance;
+  disturbed.memory = kLoopMemory;
   Habit own = plain_habit("own_compensation");
   own.compensation_error = {0.1, 0.3};
   own.allowed = {"stribeck", "presliding", "nonlinear_viscous", "quadratic_drag"};
   return {coarse, jittered, late, current, disturbed, own};
+}
+
+/// Motions without periods in which a disturbance acts inside the loop, or encoders are coarse:
+/// the motion that would be an instrument is not known.
+std::vector<Habit> habits_without_instrument() {
+  std::vector<Habit> all;
+  for (const Habit& moving : habits_of_motion()) {
+    if (moving.path != Path::kPoints && moving.path != Path::kTeleoperation) continue;
+    Habit disturbed = moving, coarse = moving;
+    disturbed.name = "loop_" + moving.name;
+    disturbed.disturbance = kLoopDisturbance;
+    disturbed.memory = kLoopMemory;
+    coarse.name = "coarse_" + moving.name;
+    coarse.bits = kCoarseBits;
+    all.push_back(disturbed);
+    all.push_back(coarse);
+  }
+  return all;
 }
 
 }  // namespace
@@ -90,7 +112,8 @@ const std::vector<Habit>& habits() {
     std::vector<Habit> some = {plain_habit("laboratory"), plain_habit("one_period", 1),
                                plain_habit("two_periods", 2), plain_habit("three_periods", 3),
                                plain_habit("ten_periods", 10)};
-    for (const auto& more : {habits_of_length(), habits_of_motion(), habits_of_instruments()}) {
+    for (const auto& more : {habits_of_length(), habits_of_motion(), habits_of_instruments(),
+                             habits_without_instrument()}) {
       some.insert(some.end(), more.begin(), more.end());
     }
     return some;

@@ -231,6 +231,19 @@ TEST(Habit, OfADisturbedLoopActsWithoutBeingRecorded) {
   EXPECT_GT(left_of(draft, recording, recording.log.recorded), 1e-3);
 }
 
+TEST(Habit, WithoutPeriodsMayHaveADisturbedLoopOrCoarseEncoders) {
+  for (const std::string path : {"points", "teleoperation"}) {
+    const Draft loop = drafted("loop_" + path),
+                coarse = drafted("coarse_" + path, "planar2", 7, true);
+    EXPECT_FALSE(loop.motions.front().repeats) << path;
+    EXPECT_GE(loop.disturbance_share, 0.01) << path;
+    EXPECT_LE(loop.disturbance_share, 0.05) << path;
+    EXPECT_FALSE(coarse.motions.front().repeats) << path;
+    EXPECT_EQ(coarse.disturbance.size(), 0) << path;
+    EXPECT_LE(coarse.noise.bits, 14) << path;
+  }
+}
+
 TEST(Habit, OfOwnCompensationLeavesFrictionThatIsNotRecorded) {
   const Draft draft = drafted("own_compensation");
   ASSERT_EQ(draft.compensation.size(), 2);

@@ -33,7 +33,7 @@ struct SpringRound {
         hypotheses{arm.hypothesis(spring_up_to(stiffest))},
         sought(sought_in(arm.evidence, hypotheses)),
         result(arm.nothing_found()),
-        acceptance(arm.data, sought, {}, result) {
+        acceptance(arm.data, sought, {}, 0.002, result) {
     acceptance.begin_round();
     screening.named = {arm.named(sought, 0)};
   }
