@@ -366,10 +366,12 @@ void ImportedRows::make(double time, std::uint64_t place, double* sample, RowInf
                  sample + duty_target_);
   }
   bool bad = std::isnan(sample[0]);
+  const std::size_t first_temperature =
+      layout_.width() - static_cast<std::size_t>(layout_.temperatures);
   for (std::size_t i = 1; i < layout_.width(); ++i) {
     if (!(std::abs(sample[i]) <= kWildValue)) {
       sample[i] = kMissing;
-      bad = true;
+      bad = bad || i < first_temperature;  // a missing temperature makes no row bad
     }
   }
   if (!bad) return;

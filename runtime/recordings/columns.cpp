@@ -19,7 +19,7 @@ struct Spelling {
   Kind kind;
 };
 
-constexpr std::array<Spelling, 12> kNumbered = {{{"q", Kind::kQ},
+constexpr std::array<Spelling, 15> kNumbered = {{{"q", Kind::kQ},
                                                  {"tau", Kind::kTau},
                                                  {"qd", Kind::kDq},
                                                  {"dq", Kind::kDq},
@@ -30,7 +30,10 @@ constexpr std::array<Spelling, 12> kNumbered = {{{"q", Kind::kQ},
                                                  {"ql", Kind::kLinkQ},
                                                  {"q_link", Kind::kLinkQ},
                                                  {"qlink", Kind::kLinkQ},
-                                                 {"temp", Kind::kTemperature}}};
+                                                 {"temp", Kind::kTemperature},
+                                                 {"temp_", Kind::kTemperature},
+                                                 {"temperature", Kind::kTemperature},
+                                                 {"temperature_", Kind::kTemperature}}};
 
 constexpr int kMostJoints = 1000;
 
@@ -48,6 +51,7 @@ std::optional<Meaning> meaning_of_word(std::string_view name) {
   }
   if (lower == "time") return Meaning{Kind::kTime, 0};
   if (lower == "segment") return Meaning{Kind::kSegment, 0};
+  if (lower == "temp" || lower == "temperature") return Meaning{Kind::kTemperature, 1};  // of all
   const std::size_t digits = std::min(lower.find_first_of("0123456789"), lower.size());
   const std::string_view word = std::string_view(lower).substr(0, digits);
   const std::string_view number = std::string_view(lower).substr(digits);

@@ -119,7 +119,12 @@ const char* RowParser::read_value(const Line& line, const Cursor& cursor, std::s
     case Word::kNumber:
       break;
     case Word::kBad:
-      mark_bad(info, field, column, text);
+      // a temperature that is missing makes no row bad: repair_temperatures() fills it
+      if (columns_->quantities[field] == ColumnQuantity::kTemperature) {
+        value = std::numeric_limits<double>::quiet_NaN();
+      } else {
+        mark_bad(info, field, column, text);
+      }
       break;
     case Word::kAmbiguous:
       throw recording_error(

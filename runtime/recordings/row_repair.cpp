@@ -142,6 +142,7 @@ void BadValueRepair::interpolate(const double* after) {
     return row == count + 1 ? after : block_.values(row - 1);
   };
   for (std::size_t column = 0; column < width_; ++column) {
+    if (std::isnan(after[column])) continue;  // a temperature, which good rows may lack
     for (std::size_t row = 1; row <= count; ++row) {
       if (!std::isnan(at(row)[column])) continue;
       std::size_t right = row + 1;

@@ -16,6 +16,7 @@
 #include "runtime/recordings/notice_log.h"
 #include "runtime/recordings/row_repair.h"
 #include "runtime/recordings/stuck_columns.h"
+#include "runtime/recordings/temperature_repair.h"
 #include "runtime/recordings/time_base.h"
 #include "runtime/recordings/unwrapping.h"
 
@@ -54,6 +55,7 @@ class SignalRepair {
 
   void run() {
     if (recording_.samples() == 0) return;
+    repair_temperatures(recording_, notices_);
     for (Index j = 0; j < positions(); ++j) {
       if (j < recording_.q.cols() || recording_.has_link(j - recording_.q.cols())) {
         repair_position(j);
