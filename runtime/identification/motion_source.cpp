@@ -235,9 +235,9 @@ MotionSource filtered(const std::shared_ptr<const Recording>& recording, double 
   return source;
 }
 
-MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
+/// @param start  s, time stamp of the first sample of the whole recording
+MotionSource motion_in_memory(Recording recording, double start, RecordingCondition condition,
                               const MotionOptions& options) {
-  const double start = recording.samples() > 0 ? recording.time[0] : 0;
   look_at_signals(recording, condition);
   const auto recorded =
       std::make_shared<const Recording>(with_uniform_time(std::move(recording), condition));
@@ -251,6 +251,12 @@ MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
   MotionSource source = filtered(used, start, std::move(condition), options.state, periods);
   source.recorded = recorded;
   return source;
+}
+
+MotionSource motion_in_memory(Recording recording, RecordingCondition condition,
+                              const MotionOptions& options) {
+  const double start = recording.samples() > 0 ? recording.time[0] : 0;
+  return motion_in_memory(std::move(recording), start, std::move(condition), options);
 }
 
 /// What the first part of a large file says of all of it.
@@ -294,25 +300,53 @@ MotionSource stream_of(const RecordingInput& input, MotionOptions options,
   return source;
 }
 
-/// What says most of a recording that is too long for memory.
+/// Long enough for two periods of a motion that repeats, behind a filter that cuts its ends. More
+/// than a fifth of what is read is no stretch.
+double seconds_of_stretch(const Recording& first, const MotionOptions& options) {
+  constexpr double kPeriods = 2.5, kMost = 0.2;
+  const double usual = StretchOptions().seconds;
+  if (first.samples() < 2 || first.run_starts.size() != 1) return usual;
+  const double sample_time =
+      (first.time[first.samples() - 1] - first.time[0]) / static_cast<double>(first.samples() - 1);
+  const double in_all =
+      options.numbers_of_stretches / numbers_of_rows(1, first.joints(), sample_time) * sample_time;
+  const Periods periods = find_periods(first, options.period);
+  const double wanted = periods.count >= 2 ? kPeriods * periods.period : 0;
+  return wanted <= kMost * in_all ? std::max(usual, wanted) : usual;
+}
+
+/// What says most of a long recording.
 MotionSource motion_of_stretches(const RecordingInput& input, const MotionOptions& options,
                                  std::vector<Notice>& told) {
   ReadOptions reading;
+  StretchOptions choice;
+  choice.most_numbers = options.numbers_of_stretches;
   {
     constexpr Index kSeen = 20000;
     RecordingReader reader = input.open(reading);
     Recording first;
     reader.next(first, kSeen);
     reading.spread_stamps = stamps_are_repeated(reader) && input.reopens;
+    choice.seconds = seconds_of_stretch(first, options);
   }
-  Stretches stretches = telling_stretches(input, reading, {}, &told);
+  Stretches stretches = telling_stretches(input, reading, choice, &told);
   repair_signals(stretches.recording, told);
   RecordingCondition condition;
   condition.repairs = told;
   condition.stretches = std::move(stretches.times);
   condition.messages.push_back(stretches.sentence);
   told.push_back({input.name, 0, 0, stretches.sentence});
-  return motion_in_memory(std::move(stretches.recording), std::move(condition), options);
+  return motion_in_memory(std::move(stretches.recording), stretches.start, std::move(condition),
+                          options);
+}
+
+bool is_long(const Recording& recording, const MotionOptions& options) {
+  const Index samples = recording.samples();
+  if (samples < 2 || !std::isfinite(options.numbers_above)) return false;
+  const double seconds = recording.time[samples - 1] - recording.time[0];
+  const double sample_time = seconds / static_cast<double>(samples - 1);
+  return seconds > options.read_whole &&
+         numbers_of_rows(samples, recording.joints(), sample_time) > options.numbers_above;
 }
 
 }  // namespace
@@ -335,7 +369,13 @@ MotionSource motion_of_input(const RecordingInput& input, const MotionOptions& o
     return stream_of(input, options, told);
   }
   RecordingCondition condition;
+  const auto before = static_cast<std::ptrdiff_t>(told.size());
   Recording recording = read_recording(input, {}, &told);
+  if (input.reopens && is_long(recording, options)) {
+    recording = {};  // its memory is needed
+    told.erase(told.begin() + before, told.end());
+    return motion_of_stretches(input, options, told);
+  }
   condition.repairs = told;
   return motion_in_memory(std::move(recording), std::move(condition), options);
 }

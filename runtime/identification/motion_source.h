@@ -37,6 +37,11 @@ struct MotionOptions {
   /// Bytes of text above which only those stretches are read into memory that say most
   /// (telling_stretches()); before stream_above.
   std::size_t stretches_above = std::numeric_limits<std::size_t>::max();
+  /// The same of numbers in memory, as numbers_of_rows() counts them, where a recording is longer
+  /// than `read_whole`.
+  double numbers_above = std::numeric_limits<double>::infinity();
+  double read_whole = 0;              ///< s
+  double numbers_of_stretches = 1e6;  ///< StretchOptions::most_numbers
 };
 
 /// What is known of a recording's quality.
@@ -55,7 +60,7 @@ struct RecordingCondition {
   Eigen::VectorXd period_scatter;  ///< (n) rms over periods of the torque; may be empty
   std::vector<Notice> repairs;     ///< what the reader repaired
   std::vector<std::string> messages;
-  /// Of a recording that is too long for memory: s, first and last sample of what is used.
+  /// Of a long recording: s since its start, first and last sample of each stretch that is used.
   std::vector<std::pair<double, double>> stretches;
 };
 

@@ -22,6 +22,8 @@ using Eigen::VectorXd;
 constexpr Index kRowsOfPass = 20000;  // read at once
 constexpr Index kParts = 6;           // of a joint's torque
 constexpr Index kSlopeSamples = 10;   // on either side: noise of positions counts less in slopes
+constexpr double kFullRate = 1e-3;    // s: worth_of_row()
+constexpr double kMostWorth = 4;
 
 using PartMatrix = Eigen::Matrix<double, kParts, kParts>;
 
@@ -139,8 +141,23 @@ double log_determinant(const PartMatrix& matrix) {
   return 2 * factor.matrixLLT().diagonal().array().log().sum();
 }
 
+/// The part of the time in which each stretch has its middle.
+std::vector<std::size_t> parts_of_time(const std::vector<StretchInformation>& all, int parts) {
+  std::vector<std::size_t> part(all.size(), 0);
+  if (all.empty()) return part;
+  const double first = all.front().first, length = all.back().last - first;
+  for (std::size_t s = 0; s < all.size() && length > 0; ++s) {
+    const double share = ((all[s].first + all[s].last) / 2 - first) / length;
+    part[s] = static_cast<std::size_t>(std::clamp(share * parts, 0.0, parts - 1.0));
+  }
+  return part;
+}
+
 /// Numbers of the stretches that are taken, ascending.
-std::vector<std::size_t> chosen(const std::vector<StretchInformation>& all, Index most_rows) {
+std::vector<std::size_t> chosen(const std::vector<StretchInformation>& all, Index most_rows,
+                                int parts) {
+  const std::vector<std::size_t> part = parts_of_time(all, parts);
+  std::vector<int> given(static_cast<std::size_t>(parts), 0);
   std::vector<std::size_t> taken;
   std::vector<bool> used(all.size(), false);
   std::vector<PartMatrix> sum(all.empty() ? 0 : all.front().joints.size(), PartMatrix::Zero());
@@ -148,8 +165,13 @@ std::vector<std::size_t> chosen(const std::vector<StretchInformation>& all, Inde
   for (;;) {
     std::size_t best = all.size();
     double most = -std::numeric_limits<double>::infinity();
+    const auto open = [&](std::size_t s) { return !used[s] && rows + all[s].rows <= most_rows; };
+    int fewest = std::numeric_limits<int>::max();
     for (std::size_t s = 0; s < all.size(); ++s) {
-      if (used[s] || rows + all[s].rows > most_rows) continue;
+      if (open(s)) fewest = std::min(fewest, given[part[s]]);
+    }
+    for (std::size_t s = 0; s < all.size(); ++s) {
+      if (!open(s) || given[part[s]] > fewest) continue;
       double value = 0;
       for (std::size_t j = 0; j < sum.size(); ++j)
         value += log_determinant(sum[j] + all[s].joints[j]);
@@ -160,6 +182,7 @@ std::vector<std::size_t> chosen(const std::vector<StretchInformation>& all, Inde
     }
     if (best == all.size()) break;
     used[best] = true;
+    ++given[part[best]];
     rows += all[best].rows;
     for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += all[best].joints[j];
     taken.push_back(best);
@@ -176,19 +199,28 @@ std::string sentence_of(const Stretches& stretches) {
     const auto& [from, to] = stretches.times[i];
     used += to - from;
     if (i < kMostNamed) {
-      list += fmt::format("{}{:.6g} to {:.6g} s", i == 0 ? "" : ", ", from, to);
+      list += fmt::format("{}{:.6g} to {:.6g}", i == 0 ? "" : ", ", from, to);
     }
   }
   if (stretches.times.size() > kMostNamed) {
     list += fmt::format(" and {} more, which --json names", stretches.times.size() - kMostNamed);
   }
   return fmt::format(
-      "too long for a diagnosis: of {:.6g} s the {} stretch{} that say most are used, {:.6g} s: {}",
+      "long recording: of {:.6g} s, {} stretch{} with {:.6g} s in all {} used, spread over it (s "
+      "since its start): {}",
       stretches.seconds_in_all, stretches.times.size(), stretches.times.size() == 1 ? "" : "es",
-      used, list);
+      used, stretches.times.size() == 1 ? "is" : "are", list);
 }
 
 }  // namespace
+
+double worth_of_row(double sample_time) {
+  return std::clamp(sample_time / kFullRate, 1.0, kMostWorth);
+}
+
+double numbers_of_rows(Index rows, int joints, double sample_time) {
+  return static_cast<double>(rows) * (2 * joints + 1) * worth_of_row(sample_time);
+}
 
 Stretches telling_stretches(const RecordingInput& input, const ReadOptions& reading,
                             const StretchOptions& options, std::vector<Notice>* notices) {
@@ -197,11 +229,15 @@ Stretches telling_stretches(const RecordingInput& input, const ReadOptions& read
   std::vector<StretchInformation> all = information_of(first, options.seconds);
   normalise(all);
   for (const StretchInformation& one : all) result.seconds_in_all += one.last - one.first;
-  const auto width = static_cast<std::size_t>(2 * first.joints() + 1);
-  const std::vector<std::size_t> taken =
-      chosen(all, static_cast<Index>(options.most_numbers / width));
-
   Index rows = 0;
+  for (const StretchInformation& one : all) rows += one.rows;
+  if (!all.empty()) result.start = all.front().first;
+  const double sample_time = result.seconds_in_all / static_cast<double>(std::max<Index>(1, rows));
+  const double of_row = numbers_of_rows(1, first.joints(), sample_time);
+  const std::vector<std::size_t> taken =
+      chosen(all, static_cast<Index>(options.most_numbers / of_row), options.parts);
+
+  rows = 0;
   for (const std::size_t s : taken) rows += all[s].rows;
   Recording& out = result.recording;
   RecordingReader again = input.open(reading);
@@ -224,11 +260,12 @@ Stretches telling_stretches(const RecordingInput& input, const ReadOptions& read
                  const bool follows = row > 0 && stretch == last_taken + 1 && !starts;
                  if (!follows) {
                    out.run_starts.push_back(row);
-                   result.times.emplace_back(chunk.time[k], chunk.time[k]);
+                   const double since = chunk.time[k] - result.start;
+                   result.times.emplace_back(since, since);
                  }
                  last_taken = stretch;
                }
-               result.times.back().second = chunk.time[k];
+               result.times.back().second = chunk.time[k] - result.start;
                out.time[row] = chunk.time[k];
                for (const auto part : kRecordingParts) {
                  if ((chunk.*part).cols() > 0) (out.*part).row(row) = (chunk.*part).row(k);

@@ -2,6 +2,7 @@
 #include "runtime/diagnosis/answer/found_effects.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,31 @@ std::string why(const Finding& finding, const Naming& naming) {
         fmt::format("; the next name, {}: chi-square higher by {:.0f}", next.name, next.distance);
   }
   for (const std::string& value : finding.unusual) text += "; " + value;
+  for (const std::string& sentence : finding.caveats) text += "; " + sentence;
   return text;
+}
+
+/// @param scales  of the finding's joint
+std::vector<std::string> caveats(const Finding& finding, const Naming& naming,
+                                 const EffectScales& scales) {
+  std::vector<std::string> sentences;
+  const EffectLaw& law = finding.effect.law;
+  std::vector<std::string> forms = naming.forms;
+  std::sort(forms.begin(), forms.end());
+  if (!forms.empty()) {
+    sentences.push_back(fmt::format("{} explains it as well: these recordings do not separate them",
+                                    fmt::join(forms, " or ")));
+  }
+  for (std::size_t p = 0; p < law.parameters.size(); ++p) {
+    const EffectParameter& own = law.parameters[p];
+    const double value = finding.parameters[p].value;
+    if (own.role != EffectRole::kShape || own.unit != "s" || !(value > scales.duration)) continue;
+    sentences.push_back(
+        fmt::format("{} is longer than the {:.3g} s of recording: how far the effect goes on is "
+                    "not known",
+                    own.name, scales.duration));
+  }
+  return sentences;
 }
 
 struct Found {
@@ -146,8 +171,9 @@ Found found(const Search& search, std::size_t place, const Naming& naming, Effec
     object("structure",
            fmt::format("joint {} has structure without a name that explains more", joint + 1));
   }
-  finding.unusual = unusual_values(
-      finding.effect, ScaleTable(search.sets().train).of(fit.point.beta, finding.effect));
+  const EffectScales scales = ScaleTable(search.sets().train).of(fit.point.beta, finding.effect);
+  finding.unusual = unusual_values(finding.effect, scales);
+  finding.caveats = caveats(finding, naming, scales);
   finding.uncertain = finding.doubted || finding.probability < rules.probable;
   finding.why = why(finding, naming);
   return {std::move(finding), std::move(where)};

@@ -129,13 +129,50 @@ std::string sentence_of(const SessionScatter& scatter, const SessionPlan& plan,
   return text + ".";
 }
 
+/// Mean temperature of a joint in the reference and after it; NaN where a recording has none.
+std::pair<double, double> mean_temperatures(const EffectRecordings& all,
+                                            const std::vector<bool>& later, int joint) {
+  std::array<double, 2> sum{}, samples{};
+  for (std::size_t run = 0; run < all.runs.size(); ++run) {
+    const MatrixXd& temperature = all.runs[run].motion.temperature;
+    if (temperature.size() == 0) return {kNotKnown, kNotKnown};
+    const std::size_t side = later[run] ? 1 : 0;
+    sum[side] += temperature.col(joint).sum();
+    samples[side] += static_cast<double>(temperature.rows());
+  }
+  return {sum[0] / samples[0], sum[1] / samples[1]};
+}
+
+/// What warmth says of friction that changed; empty: nothing.
+/// @param change  of friction at the usual speed: only its sign counts
+std::string warmth_caveat(const std::pair<double, double>& temperatures, double change) {
+  constexpr double kSame = 2;  // K: by which friction changes less than sessions scatter
+  const auto [before, after] = temperatures;
+  if (std::isnan(before)) {
+    return change < 0 ? "a warmer arm has less friction too, and no column temp of both sides "
+                        "tells that from wear"
+                      : "a colder arm has more friction too, and no column temp of both sides "
+                        "tells that from wear";
+  }
+  const double warmer = after - before;
+  if (std::abs(warmer) < kSame || (warmer > 0) == (change > 0)) return {};
+  return fmt::format(
+      "the joint was {:.3g} degrees {} than in the reference ({:.1f} C after {:.1f} C), which "
+      "changes friction in this way too: compare sessions of one temperature before it is called "
+      "wear",
+      std::abs(warmer), warmer > 0 ? "warmer" : "colder", after, before);
+}
+
 /// Findings of the best set.
 class ChangeWriter {
  public:
   /// @param probable  least probability of a change, or of one in its place, that is reported
-  ChangeWriter(const ChangeSystem& system, const ChangePosterior& posterior, double probable)
+  ChangeWriter(const ChangeSystem& system, const ChangePosterior& posterior,
+               const EffectRecordings& all, const std::vector<bool>& later, double probable)
       : system_(system),
         posterior_(posterior),
+        all_(all),
+        later_(later),
         probable_(probable),
         estimate_(system.estimate(posterior.best)) {}
 
@@ -184,7 +221,13 @@ class ChangeWriter {
     }
     finding.elsewhere = fmt::format("{}", fmt::join(elsewhere, ", "));
     finding.parameters = parameters(own, form, first, finding.effect);
-    if (own.kind == ChangeCandidate::Kind::kFriction) keep_changed(finding);
+    if (own.kind == ChangeCandidate::Kind::kFriction) {
+      keep_changed(finding);
+      const double change = change_at_usual_speed(finding);
+      const std::string caveat =
+          warmth_caveat(mean_temperatures(all_, later_, own.effect.joint), change);
+      if (!caveat.empty()) finding.caveats.push_back(caveat);
+    }
     ChangeSet without = posterior_.best;
     without.erase(without.begin() + static_cast<std::ptrdiff_t>(member));
     finding.evidence.lambda =
@@ -232,6 +275,22 @@ class ChangeWriter {
     }
   }
 
+  /// N m or N at the rms of the speed in the later sessions.
+  [[nodiscard]] double change_at_usual_speed(const Finding& finding) const {
+    double squares = 0, samples = 0, change = 0;
+    for (std::size_t run = 0; run < all_.runs.size(); ++run) {
+      if (!later_[run]) continue;
+      squares += all_.runs[run].motion.dq.col(finding.effect.joint).squaredNorm();
+      samples += static_cast<double>(all_.runs[run].motion.samples());
+    }
+    const double speed = std::sqrt(squares / std::max(samples, 1.0));
+    for (std::size_t p = 0; p < finding.parameters.size(); ++p) {
+      const bool viscous = finding.effect.law.parameters[p].name == "Fv";
+      change += finding.parameters[p].value * (viscous ? speed : 1.0);
+    }
+    return change;
+  }
+
   static std::string place_of(const ChangeCandidate& own) {
     if (own.kind == ChangeCandidate::Kind::kLoad) {
       return own.effect.joint < 0 ? "the last link"
@@ -270,11 +329,14 @@ class ChangeWriter {
     if (!finding.elsewhere.empty()) {
       text += "; these data cannot separate it from " + finding.elsewhere;
     }
+    for (const std::string& caveat : finding.caveats) text += "; " + caveat;
     return text;
   }
 
   const ChangeSystem& system_;
   const ChangePosterior& posterior_;
+  const EffectRecordings& all_;
+  const std::vector<bool>& later_;
   double probable_;
   ChangeEstimate estimate_;
 };
@@ -333,7 +395,7 @@ class ChangeSearch {
     system.place_points(posterior.best);
     posterior = change_posterior(system);
     if (posterior.best.empty() || share_effects_of_both(system, posterior)) return answer;
-    answer.findings = ChangeWriter(system, posterior, rules_.answer.probable).run();
+    answer.findings = ChangeWriter(system, posterior, all_, later_, rules_.answer.probable).run();
     return answer;
   }
 

@@ -71,6 +71,9 @@ struct Finding {
   std::vector<FalsifierOutcome> tests;
   /// "f = 2.1 Hz: unusual, a slower oscillation is a liquid": values beyond usual ranges
   std::vector<std::string> unusual;
+  /// Sentences on what the name and its numbers do not say: another form of the effect that
+  /// explains it as well, a time constant that the recordings do not reach
+  std::vector<std::string> caveats{};
   std::string formula;  ///< of the effect's file; empty where the caller knows it
   std::string why;      ///< one sentence
 };
@@ -105,7 +108,8 @@ struct BaseShift {
 };
 
 /// rms of the recorded torque less the model, of recordings that no parameter was fitted to.
-/// `before`: the model alone, fitted to the training recordings; where there is a reference, to that.
+/// `before`: the model alone, fitted to the training recordings; where there is a reference, to
+/// that.
 struct HeldoutResidual {
   Eigen::VectorXd before, after, floor;  ///< (n) N m or N; NaN: of a joint that is not judged
   /// (n) 0 .. 1: part of each joint's equations where it is within the positions of the fitted

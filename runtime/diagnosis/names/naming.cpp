@@ -149,6 +149,7 @@ Naming name_winner(const EffectRecordings& data, EffectSignals& signals,
   naming.delta_bic = -best;
   naming.part_left = rivals.own.score.part_left;
   naming.kin = std::move(rivals.kin);
+  naming.forms = std::move(rivals.forms);
   naming.elsewhere = std::move(rivals.elsewhere);
   std::map<std::string, Rival> best_of = best_of_families(std::move(rivals.others));
   if (!hypothesis.windowed) {

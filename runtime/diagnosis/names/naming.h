@@ -17,6 +17,7 @@ struct Naming {
   std::vector<std::string> families;  ///< that these data cannot tell apart; the winner's first
   std::vector<Rival> rivals;          ///< the best of each other family, nearest first
   std::optional<Rival> kin;           ///< the best other one of the winner's family, on its joint
+  std::vector<std::string> forms;     ///< RivalsOfWinner::forms
   std::vector<Rival> elsewhere;       ///< of the same family, on joints that are not told apart
   std::string unnamed;                ///< what has no name and comes nearest (UnnamedRival)
   Nameless unnamed_form;              ///< the same

@@ -105,6 +105,7 @@ RivalsOfWinner rivals_of(const EffectRecordings& data, EffectSignals& signals,
     }
     rival.distance = rivals.net - net;
     if (hypothesis.effect.joint == winning.effect.joint) {
+      if (rival.distance < kApart) rivals.forms.push_back(hypothesis.effect.law.name);
       if (!rivals.kin || rival.distance < rivals.kin->distance) rivals.kin = std::move(rival);
     } else if (!on_the_same_joints(hypothesis.effect, winning.effect)) {
       rivals.elsewhere.push_back(std::move(rival));

@@ -24,6 +24,8 @@ struct RivalsOfWinner {
   double net = 0;             ///< its chi-square reduction, less its penalty
   std::vector<Rival> others;  ///< of other families; their distance is what they explain, net
   std::optional<Rival> kin;   ///< the best other one of its family, on its joint
+  /// All others of its family on its joint that explain as much but for kApart: their names
+  std::vector<std::string> forms;
   /// Of its family, the nearest of each other joint, where these data do not tell it apart. Of two
   /// joints that are coupled the same two the other way round are no other ones.
   std::vector<Rival> elsewhere;

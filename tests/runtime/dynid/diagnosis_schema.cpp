@@ -230,6 +230,7 @@ Check schema() {
        {"parameters", table_of(parameter)},
        {"evidence", object({{"lambda", number}, {"delta_bic", number}, {"heldout_gain", number}})},
        {"unusual", texts},
+       {"caveats", texts},
        {"why", text}});
   return object(
       {{"schema", one_of({"dynid.diagnosis/1"})},
@@ -259,6 +260,7 @@ Check schema() {
                            {"noise_floor", array_of(number)}})},
        {"effort", object({{"done", number}, {"limit", number}, {"not_searched", array_of(text)}})},
        {"next_experiment", object({{"purpose", kind("s0")}, {"trajectory", kind("s0")}})},
+       {"notes", texts},
        {"ripple", array_of(ripple())}},
       {{"two_encoders", array_of(two_encoders())}, {"steady", array_of(steady())}});
 }

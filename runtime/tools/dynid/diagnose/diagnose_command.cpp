@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "gen/diagnostic/diagnostic.h"
 #include "gen/tool/output_files.h"
 #include "runtime/diagnosis/equation_sets/division.h"
+#include "runtime/identification/recording_clock.h"
 #include "runtime/identification/standing_joints.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_document.h"
 #include "runtime/tools/dynid/diagnose/diagnosis_recordings.h"
@@ -48,9 +50,20 @@ struct DiagnosedMotions {
 /// minutes.
 constexpr std::size_t kReadWhole = 40'000'000;
 
-/// How they are read: whole, and without averages, since what drifts is seen between periods. Of a
-/// longer one the stretches that say most are read.
-ToolOptions reading(ToolOptions options) {
+// The same for all recordings of one side together, as numbers_of_rows() counts: those that last
+// longer than kAlwaysWhole share it. Of longer ones stretches are read, with half as many numbers.
+constexpr double kMostNumbers = 2e6;
+constexpr double kAlwaysWhole = 300;  // s
+constexpr double kMostOfStretches = 1e6;
+
+/// How they are read: whole, and without averages, since what drifts is seen between periods. Of
+/// longer ones the stretches that say most are read.
+/// @param files  recordings of one side
+ToolOptions reading(ToolOptions options, std::size_t files) {
+  const double share = kMostNumbers / static_cast<double>(std::max<std::size_t>(1, files));
+  options.motion.numbers_above = share;
+  options.motion.read_whole = kAlwaysWhole;
+  options.motion.numbers_of_stretches = std::min(kMostOfStretches, share);
   options.motion.stretches_above = kReadWhole;
   options.motion.stream_above = std::numeric_limits<std::size_t>::max();
   options.motion.average_periods = false;
@@ -74,9 +87,10 @@ LoadedRecordings load_unexplained(const std::vector<std::string>& paths, const T
 DiagnosedMotions read_motions(const std::vector<std::string>& paths, const std::string& use,
                               const ToolOptions& options, const KnownEffects& known,
                               ProgressLine& progress) {
+  const ToolOptions how = reading(options, paths.size());
   const LoadedRecordings loaded = options.diagnose.diagnosis.residual_only
-                                      ? load_unexplained(paths, options, progress)
-                                      : load_recordings(paths, options, false, progress);
+                                      ? load_unexplained(paths, how, progress)
+                                      : load_recordings(paths, how, false, progress);
   DiagnosedMotions motions;
   for (std::size_t i = 0; i < loaded.sources.size(); ++i) {
     motions.sources.push_back(without_effects(loaded.sources[i], known));
@@ -248,7 +262,7 @@ DiagnoseTask DiagnoseTask::of(const ToolOptions& options) {
   DiagnoseTask task{
       options, settings, std::make_shared<const EffectCatalogue>(effect_catalogue(options.effects)),
       describe_robot(options.robot, OpenParameters::kAbsentRows, {.hold = options.hold}),
-      reading(options)};
+      reading(options, options.recordings.size())};
   refuse_without_parameters(task.robot);
   refuse_with_hold(options, task.robot.held);
   return task;
@@ -258,12 +272,30 @@ DiagnoseTask DiagnoseTask::of(const ToolOptions& options) {
 struct DiagnosisRun {
   DiagnosisInput input;
   std::vector<DiagnosedRecording> recordings;
+  std::vector<std::string> notes;   ///< on how recordings were read
   std::vector<MotionSource> proof;  ///< held-out ones with the torque of all effects
   Diagnosis diagnosis;
   DiagnosisViews views;
   std::vector<RippleRun> runs;  ///< at full rate; empty: with --residual-only
   Eigen::VectorXd posture;      ///< in the middle of a held-out recording
 };
+
+/// Files that continue one another have one time: those that are fitted with those that are held
+/// out, and those of the reference.
+void add_clock(DiagnosisInput& input, std::vector<std::string>& notes) {
+  const std::size_t fitted = input.train.size();
+  std::vector<MotionSource> later = input.train;
+  later.insert(later.end(), input.heldout.begin(), input.heldout.end());
+  ClockedRecordings today = on_one_clock(std::move(later), kLongestPause);
+  ClockedRecordings before = on_one_clock(std::move(input.reference), kLongestPause);
+  const auto middle = today.sources.begin() + static_cast<std::ptrdiff_t>(fitted);
+  input.train.assign(today.sources.begin(), middle);
+  input.heldout.assign(middle, today.sources.end());
+  input.reference = std::move(before.sources);
+  for (std::string* sentence : {&today.sentence, &before.sentence}) {
+    if (!sentence->empty()) notes.push_back(std::move(*sentence));
+  }
+}
 
 void read_input(const DiagnoseTask& task, ProgressLine& progress, DiagnosisRun& run) {
   const ToolOptions& options = task.options;
@@ -289,6 +321,14 @@ void read_input(const DiagnoseTask& task, ProgressLine& progress, DiagnosisRun& 
   }
   input.heldout = read(options.heldout, "held out");
   input.reference = read(options.diagnose.reference, "reference");
+  add_clock(input, run.notes);
+  for (const MotionSource& source : joined_sources(input)) {
+    for (const std::string& message : source.condition.messages) {
+      if (!source.condition.stretches.empty() && message.starts_with("long recording")) {
+        run.notes.push_back(source.name + ": " + message);
+      }
+    }
+  }
   input.hypotheses = competing_effects(task.robot, *task.catalogue, joined_sources(input));
   if (!input.reference.empty()) input.loads = load_places(task.robot);
 }
@@ -332,6 +372,7 @@ DiagnosisReport report_of(const DiagnoseTask& task, DiagnosisRun& run) {
   report.arm = arm_drawing(task.robot.model, run.posture, marked_joints(report.diagnosis));
   report.recordings = std::move(run.recordings);
   report.notes = notes_of_numbers(task.robot, false);
+  report.notes.insert(report.notes.end(), run.notes.begin(), run.notes.end());
   for (std::string& remark : repeated_recordings(options)) {
     report.notes.push_back(std::move(remark));
   }

@@ -47,6 +47,7 @@ Json finding_json(const Finding& finding, const EffectWords& words) {
             {"delta_bic", number(finding.evidence.delta_bic)},
             {"heldout_gain", number(finding.evidence.heldout_gain)}}},
           {"unusual", finding.unusual},
+          {"caveats", finding.caveats},
           {"why", finding.why}};
 }
 
@@ -121,7 +122,8 @@ std::string diagnosis_json(const DiagnosisReport& report) {
                {"next_experiment",
                 {{"purpose", text_or_null(diagnosis.next.purpose)},
                  {"trajectory", text_or_null(report.trajectory)}}}};
-  // recordings that are too long for memory
+  json["notes"] = report.notes;
+  // long recordings
   for (const DiagnosedRecording& own : report.recordings) {
     for (const auto& [from, to] : own.stretches) {
       json["stretches"].push_back({{"recording", own.name}, {"t_from", from}, {"t_to", to}});

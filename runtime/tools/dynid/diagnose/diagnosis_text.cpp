@@ -66,6 +66,7 @@ std::string finding_line(const DiagnosisReport& report, std::size_t place) {
   if (!finding.unnamed.empty()) others.push_back(finding.unnamed);
   if (!others.empty()) text += fmt::format("; or {}", fmt::join(others, ", "));
   for (const std::string& value : finding.unusual) text += "; " + value;
+  for (const std::string& sentence : finding.caveats) text += "; " + sentence;
   return text + "\n";
 }
 
