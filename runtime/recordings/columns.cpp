@@ -36,6 +36,7 @@ constexpr std::array<Spelling, 15> kNumbered = {{{"q", Kind::kQ},
                                                  {"temperature_", Kind::kTemperature}}};
 
 constexpr int kMostJoints = 1000;
+constexpr int kOfAllJoints = -1;  // number of a temperature without one
 
 /// What a name means; number 0 where it has none.
 struct Meaning {
@@ -51,7 +52,9 @@ std::optional<Meaning> meaning_of_word(std::string_view name) {
   }
   if (lower == "time") return Meaning{Kind::kTime, 0};
   if (lower == "segment") return Meaning{Kind::kSegment, 0};
-  if (lower == "temp" || lower == "temperature") return Meaning{Kind::kTemperature, 1};  // of all
+  if (lower == "temp" || lower == "temperature") {
+    return Meaning{Kind::kTemperature, kOfAllJoints};
+  }
   const std::size_t digits = std::min(lower.find_first_of("0123456789"), lower.size());
   const std::string_view word = std::string_view(lower).substr(0, digits);
   const std::string_view number = std::string_view(lower).substr(digits);
@@ -167,6 +170,7 @@ class HeaderReader {
   void read_unit(const Field& field, const Meaning& meaning, std::size_t place);
   void check_group(Kind kind, std::string_view word, int expected) const;
   void find_links(SampleLayout& layout) const;
+  void settle_common_temperature();
   void place(Kind kind, int& next);
   ColumnGroup& group(Kind kind) { return groups_[static_cast<std::size_t>(kind)]; }
   [[nodiscard]] const ColumnGroup& group(Kind kind) const {
@@ -231,7 +235,8 @@ void HeaderReader::sort_out_names() {
       continue;
     }
     const bool numbered = meaning->kind != Kind::kTime && meaning->kind != Kind::kSegment;
-    if (numbered && (meaning->number < 1 || meaning->number > kMostJoints)) {
+    const bool of_all = meaning->kind == Kind::kTemperature && meaning->number == kOfAllJoints;
+    if (numbered && !of_all && (meaning->number < 1 || meaning->number > kMostJoints)) {
       fail(field.column, fmt::format("found column {}, expected numbers from 1 to {}",
                                      quoted(field.text), kMostJoints));
     }
@@ -270,6 +275,22 @@ void HeaderReader::check_group(Kind kind, std::string_view word, int expected) c
     fail(last_column, fmt::format("found no column '{}{}', expected {}1 to {}{} for {} joints",
                                   word, next, word, word, expected, expected));
   }
+}
+
+/// A temperature without a number is that of all joints, unless joints have their own.
+void HeaderReader::settle_common_temperature() {
+  auto& fields = group(Kind::kTemperature).fields;
+  const auto common = fields.find(kOfAllJoints);
+  if (common == fields.end()) return;
+  const std::size_t place = common->second;
+  fields.erase(common);
+  if (fields.empty()) {
+    fields.emplace(1, place);
+    return;
+  }
+  log_->add_once("common temperature", line_number_, fields_[place].column,
+                 fmt::format("found column {} beside temperatures of joints; ignored",
+                             quoted(fields_[place].text)));
 }
 
 /// Some joints alone may have a second encoder: numbers may have gaps.
@@ -319,6 +340,7 @@ Columns HeaderReader::read(char separator, int joints, bool torque_required) {
   layout.ddq = recorded(Kind::kDdq, "qdd");
   layout.tau_sim = recorded(Kind::kTauSim, "tausim");
   find_links(layout);
+  settle_common_temperature();
   check_group(Kind::kTemperature, "temp", 0);
   layout.temperatures = group(Kind::kTemperature).count();
 

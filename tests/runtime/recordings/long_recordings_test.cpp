@@ -20,7 +20,7 @@ using runtime::MotionOptions;
 using runtime::MotionSource;
 using runtime::Recording;
 
-/// One joint at 50 Hz that is much faster in the first tenth: all that is most telling is there.
+/// One joint at 50 Hz that moves far in the first tenth alone: all that is most telling is there.
 Recording slow_day(double seconds, double start) {
   constexpr double kStep = 0.02;
   const auto samples = static_cast<Index>(seconds / kStep);
@@ -30,8 +30,8 @@ Recording slow_day(double seconds, double start) {
   recording.q.resize(samples, 1);
   for (Index k = 0; k < samples; ++k) {
     const double t = recording.time[k] - start;
-    recording.q(k, 0) =
-        (t < seconds / 10 ? 1.0 : 0.2) * std::sin((t < seconds / 10 ? 3.1 : 0.7) * t);
+    const double fast = 1 / (1 + std::exp((t - seconds / 10) / 5));
+    recording.q(k, 0) = (0.2 + 0.8 * fast) * std::sin(1.5 * t);
   }
   recording.tau = 2 * recording.q;
   recording.run_starts = {0};

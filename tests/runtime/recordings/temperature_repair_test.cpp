@@ -41,6 +41,15 @@ TEST(Temperatures, HaveTheirNamesWithAndWithoutANumber) {
   }
 }
 
+TEST(Temperatures, OfAllJointsGiveWayToThoseOfJoints) {
+  const ReadResult result =
+      read_text(with_temperatures("temp,temp1,temp2", [](int) { return "20,25,26"; }));
+  ASSERT_EQ(result.recording.temperature.cols(), 2);
+  EXPECT_EQ(result.recording.temperature(3, 0), 25);
+  ASSERT_EQ(result.notices.size(), 1U);
+  EXPECT_NE(result.notices[0].find("beside temperatures of joints"), std::string::npos);
+}
+
 TEST(Temperatures, OfASlowSensorAreFilledAlongLines) {
   std::vector<Notice> notices;
   const Recording recording = repaired(
