@@ -60,7 +60,8 @@ TEST(Rules, OfTheCompetitionStandInTheReferenceAsInTheCode) {
     std::smatch match;
     if (!std::regex_match(line, match, row)) continue;
     const std::string code =
-        test::content(DYNGEN_SOURCE_DIR "/runtime/diagnosis/" + match[1].str());
+        std::regex_replace(test::content(DYNGEN_SOURCE_DIR "/runtime/diagnosis/" + match[1].str()),
+                           std::regex(R"(\s+)"), " ");
     const std::string constant = fmt::format(" {} = {};", match[2].str(), match[3].str());
     EXPECT_NE(code.find(constant), std::string::npos) << match[1] << ":" << constant;
     ++rows;

@@ -30,7 +30,7 @@ Recording random_recording(Eigen::Index samples, Eigen::Index joints) {
   recording.dq = 1e-300 * random(joints);
   recording.ddq = random(joints);
   recording.tau_sim = random(joints);
-  recording.temperature = random(2);
+  recording.temperature = random(joints);
   recording.run_starts = {0, samples / 3, samples / 2};
   return recording;
 }
