@@ -63,12 +63,12 @@ ConsistencyPrior complete_prior(const ConsistencyProblem& problem,
     }
     prior.chi.segment<10>(first) = ten;
     prior.factors.push_back(upper_factor(pseudo_inertia(ten)));
-    for (int kind = kRotorInertia; kind <= kOffset; ++kind) {
+    for (int kind = kRotorInertiaPlace; kind <= kOffsetPlace; ++kind) {
       double& value = prior.chi[first + kind];
       if (!std::isfinite(value)) value = 0;
       if (is_nonnegative(kind) && value < 0) {
         negative.push_back(fmt::format(
-            "{}{}", kActuatorNames[static_cast<std::size_t>(kind - kRotorInertia)], link + 1));
+            "{}{}", kActuatorNames[static_cast<std::size_t>(kind - kRotorInertiaPlace)], link + 1));
         value = 0;
       }
       if (value != 0) prior.scale[first + kind] = std::abs(value);

@@ -157,7 +157,7 @@ ConsistentEstimate fit_consistent(const ConsistencyProblem& problem,
     const bool pushed = column.dot(residual) > kPush * column.norm();
     if (!found.at_zero[static_cast<std::size_t>(k)] || !pushed) continue;
     result.at_bound[place] = true;
-    at_zero.push_back(fmt::format("{}{}", kActuatorNames[place % kChiPerLink - kRotorInertia],
+    at_zero.push_back(fmt::format("{}{}", kActuatorNames[place % kChiPerLink - kRotorInertiaPlace],
                                   place / kChiPerLink + 1));
   }
 

@@ -72,7 +72,7 @@ ColumnLookup::Scope ColumnLookup::scope(const MapPlace& place, const std::string
 
 void ColumnLookup::collect(const Scope& where, const std::string& name, ColumnQuantity quantity,
                            bool bare, std::vector<ColumnPlace>& found) const {
-  const NameAndUnit asked = name_and_unit(name);
+  const ColumnLabel asked = name_and_unit(name);
   const std::string_view bare_name =
       signal_unit(asked.unit, quantity) ? asked.name : std::string_view(name);
   for (const std::size_t i : where.logs) {
@@ -82,7 +82,7 @@ void ColumnLookup::collect(const Scope& where, const std::string& name, ColumnQu
       if (!where.table.empty() && table.name != where.table) continue;
       for (std::size_t c = 0; c < table.columns.size(); ++c) {
         const std::string& column = table.columns[c];
-        const NameAndUnit parts = name_and_unit(column);
+        const ColumnLabel parts = name_and_unit(column);
         const bool has_unit = signal_unit(parts.unit, quantity).has_value();
         // the map and the log may have the unit in the name or not
         const bool is_it = bare ? (has_unit ? parts.name : column) == bare_name
@@ -186,7 +186,7 @@ std::vector<ColumnPlace> ColumnLookup::find_all(const ColumnNames& columns, cons
 std::optional<ColumnPlace> ColumnLookup::clock_of(const ColumnPlace& other) const {
   const LogTable& table = (*logs_)[other.log].log->tables()[other.table];
   const std::string& name = map_->time.column;
-  const NameAndUnit asked = name_and_unit(name);
+  const ColumnLabel asked = name_and_unit(name);
   const std::string_view bare_name =
       unit_conversion(asked.unit, ColumnQuantity::kTime) ? asked.name : std::string_view(name);
   const auto make = [&](std::size_t c, std::string unit) {
@@ -194,7 +194,7 @@ std::optional<ColumnPlace> ColumnLookup::clock_of(const ColumnPlace& other) cons
   };
   for (const bool bare : {false, true}) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      const NameAndUnit parts = name_and_unit(table.columns[c]);
+      const ColumnLabel parts = name_and_unit(table.columns[c]);
       const bool has_unit = unit_conversion(parts.unit, ColumnQuantity::kTime).has_value();
       if (bare ? (has_unit ? parts.name : std::string_view(table.columns[c])) != bare_name
                : table.columns[c] != name && !is_called(table, table.columns[c], name)) {

@@ -16,8 +16,8 @@ enum class MapUse {
   kMotion      ///< needs positions, or what was commanded
 };
 
-/// Reads a map (YAML). docs/reference/import.md has all keys. Unknown keys, wrong units, lists of another
-/// length than the robot has joints, and questions that were not answered are errors.
+/// Reads a map (YAML). docs/reference/import.md has all keys. Unknown keys, wrong units, lists of
+/// another length than the robot has joints, and questions that were not answered are errors.
 /// @throws ImportError  with a line for each fault
 ImportMap read_import_map(const std::string& path, MapUse use = MapUse::kRecording);
 

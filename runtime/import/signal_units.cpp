@@ -43,7 +43,7 @@ std::string known_signal_units(ColumnQuantity quantity) {
   return units;
 }
 
-NameAndUnit name_and_unit(std::string_view column) {
+ColumnLabel name_and_unit(std::string_view column) {
   column = trimmed(column);
   if (column.empty()) return {};
   constexpr std::string_view kOpen = "[(<{", kClose = "])>}";

@@ -32,9 +32,9 @@ std::optional<SignalUnit> signal_unit(std::string_view word, ColumnQuantity quan
 std::string known_signal_units(ColumnQuantity quantity);
 
 /// A name without a unit in brackets at its end: "A1" of "A1 [deg]"; what is in the brackets.
-struct NameAndUnit {
+struct ColumnLabel {
   std::string_view name, unit;
 };
-NameAndUnit name_and_unit(std::string_view column);
+ColumnLabel name_and_unit(std::string_view column);
 
 }  // namespace dyngen::runtime

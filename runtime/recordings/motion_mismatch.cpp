@@ -76,7 +76,7 @@ std::vector<MovingJoint> moving_joints(const Eigen::Ref<const MatrixXd>& q) {
       continue;
     }
     const double noisy = noise / deviation(j);
-    const double weight = kRepeats / (kRepeats + 4 * noisy * noisy);
+    const double weight = kJustRepeats / (kJustRepeats + 4 * noisy * noisy);
     moving.push_back({j, weight, std::sqrt(weight) / deviation(j)});
   }
   return moving;

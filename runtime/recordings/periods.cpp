@@ -64,7 +64,7 @@ Eigen::RowVectorXd mismatch_of_joints(const MovingPositions& motion, Index lag) 
          (2 * static_cast<double>(n));
 }
 
-/// Mismatch of a lag, that of the joint where it is largest. 0: repeats; kRepeats: just so; with no
+/// Mismatch of a lag, that of the joint where it is largest. 0: repeats; kJustRepeats: just so; with no
 /// noise, 1: unrelated.
 double mismatch_at(const MovingPositions& motion, Index lag) {
   return mismatch_of_joints(motion, lag).maxCoeff();
@@ -139,7 +139,7 @@ std::vector<Index> candidates(const Eigen::VectorXd& mismatch) {
     if (!risen || mismatch(lag) > mismatch(lag - 1) || mismatch(lag) > mismatch(lag + 1)) continue;
     // Between two samples the valley is deeper, by no more than this.
     const double bend = mismatch(lag - 1) - 2 * mismatch(lag) + mismatch(lag + 1);
-    if (mismatch(lag) - bend / 4 <= kRepeats) lags.push_back(lag);
+    if (mismatch(lag) - bend / 4 <= kJustRepeats) lags.push_back(lag);
   }
   return lags;
 }
@@ -156,7 +156,7 @@ double search(const MovingPositions& motion) {
   constexpr std::size_t kMostCandidates = 200;
   for (const Index lag : candidates(mismatch)) {
     const Valley valley = valley_at(motion, lag * stride, stride);
-    if (valley.depth > kRepeats) continue;
+    if (valley.depth > kJustRepeats) continue;
     valleys.push_back(valley);
     deepest = std::min(deepest, std::max(valley.depth, 0.0));
     if (valleys.size() >= kMostCandidates) break;
@@ -170,7 +170,7 @@ double search(const MovingPositions& motion) {
     double period = valley.lag;
     for (double times = 2; times * period <= 0.75 * static_cast<double>(n); times *= 2) {
       const Valley far = valley_at(motion, static_cast<Index>(std::lround(times * period)), 2);
-      if (far.depth > 2 * kRepeats) break;
+      if (far.depth > 2 * kJustRepeats) break;
       period = far.lag / times;
     }
     return period;
@@ -293,7 +293,7 @@ Periods find_periods(const Recording& recording, std::optional<double> given) {
   const Eigen::RowVectorXd mismatch = mismatch_of_joints(motion, found.samples);
   const double worst = mismatch.cwiseQuotient(motion.weight.transpose()).maxCoeff();
   found.correlation = std::clamp(1 - worst, -1.0, 1.0);
-  const bool repeats = valley_at(motion, found.samples, 1).depth <= kRepeats;
+  const bool repeats = valley_at(motion, found.samples, 1).depth <= kJustRepeats;
   found.message = fmt::format("{} periods of {:.6g} s ({} samples), correlation {:.6f}{}",
                               found.count, found.period, found.samples, found.correlation,
                               repeats ? "" : "; positions repeat badly with the given period");

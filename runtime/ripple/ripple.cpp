@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "runtime/estimation/distributions.h"
+#include "runtime/estimation/robust_regression.h"
 #include "runtime/ripple/order_spectrum.h"
 #include "runtime/ripple/rivals.h"
 #include "runtime/ripple/white_residual.h"
-#include "runtime/estimation/robust_regression.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -230,7 +230,7 @@ class RippleAnalysis {
     const auto frequencies = frequencies_of(own.order);
     line.least_hz = frequencies.first;
     line.most_hz = frequencies.second;
-    if (std::optional<Rival> rival = rival_of(white_, left_, own.order, own.test, rules_)) {
+    if (std::optional<OrderRival> rival = rival_of(white_, left_, own.order, own.test, rules_)) {
       line.kind = rival->kind;
       line.rival = rival->value;
       result_.ruled_out.push_back(line);

@@ -123,8 +123,9 @@ bool stands_beside(const WhiteResidual& white, const VectorXd& left, double orde
          own >= rules.least_share * power;
 }
 
-std::optional<Rival> fixed_rival(const WhiteResidual& white, const VectorXd& e, double order,
-                                 const OrderTest& test, double power, const RippleRules& rules) {
+std::optional<OrderRival> fixed_rival(const WhiteResidual& white, const VectorXd& e, double order,
+                                      const OrderTest& test, double power,
+                                      const RippleRules& rules) {
   const RippleData& data = white.data();
   const VectorXd seen = white.seen(order, rules.most_per_sample);
   constexpr double kEdge = 0.01;
@@ -147,7 +148,7 @@ std::optional<Rival> fixed_rival(const WhiteResidual& white, const VectorXd& e, 
       const double chance = more.tests * chi_square_tail(2 * more.power / test.level, degrees);
       if (chance > rules.beside) continue;
     }
-    return Rival{RippleKind::kFrequency, line.frequency / data.sample_time, std::move(left)};
+    return OrderRival{RippleKind::kFrequency, line.frequency / data.sample_time, std::move(left)};
   }
   return std::nullopt;
 }
@@ -173,8 +174,9 @@ UsualSpeed most_usual_speed(const WhiteResidual& white, const VectorXd& seen) {
   return usual;
 }
 
-std::optional<Rival> image_rival(const WhiteResidual& white, const VectorXd& e, double order,
-                                 const OrderTest& test, double power, const RippleRules& rules) {
+std::optional<OrderRival> image_rival(const WhiteResidual& white, const VectorXd& e, double order,
+                                      const OrderTest& test, double power,
+                                      const RippleRules& rules) {
   const VectorXd seen = white.seen(order, rules.most_per_sample);
   const UsualSpeed usual = most_usual_speed(white, seen);
   if (usual.part < rules.least_share) return std::nullopt;
@@ -195,7 +197,7 @@ std::optional<Rival> image_rival(const WhiteResidual& white, const VectorXd& e, 
     }
     VectorXd left = left_beside(wave_columns(white, image, kEverySample).columns, e);
     if (stands_beside(white, left, order, test, power, rules)) continue;
-    return Rival{RippleKind::kImage, image, std::move(left)};
+    return OrderRival{RippleKind::kImage, image, std::move(left)};
   }
   return std::nullopt;
 }
@@ -229,8 +231,8 @@ VectorXd left_beside(const MatrixXd& columns, const VectorXd& e) {
   return e - columns * products.completeOrthogonalDecomposition().solve(columns.transpose() * e);
 }
 
-std::optional<Rival> rival_of(const WhiteResidual& white, const VectorXd& e, double order,
-                              const OrderTest& test, const RippleRules& rules) {
+std::optional<OrderRival> rival_of(const WhiteResidual& white, const VectorXd& e, double order,
+                                   const OrderTest& test, const RippleRules& rules) {
   const OrderSums sums = order_sums(white, e, order, rules.most_per_sample);
   const double power = test.separate ? sums.separate() : sums.common();
   if (auto rival = fixed_rival(white, e, order, test, power, rules)) return rival;

@@ -25,7 +25,7 @@ Eigen::MatrixXd position_columns(const WhiteResidual& white, double order, doubl
 Eigen::VectorXd left_beside(const Eigen::MatrixXd& columns, const Eigen::VectorXd& e);
 
 /// What explains an order as well as the order itself does.
-struct Rival {
+struct OrderRival {
   RippleKind kind = RippleKind::kFrequency;
   double value = 0;      ///< Hz, or an order
   Eigen::VectorXd left;  ///< (N) what it leaves
@@ -34,8 +34,8 @@ struct Rival {
 /// @param e     white, with the order in it
 /// @param test  of the order
 /// @return      none: neither a fixed frequency nor another order explains it
-std::optional<Rival> rival_of(const WhiteResidual& white, const Eigen::VectorXd& e, double order,
-                              const OrderTest& test, const RippleRules& rules);
+std::optional<OrderRival> rival_of(const WhiteResidual& white, const Eigen::VectorXd& e,
+                                   double order, const OrderTest& test, const RippleRules& rules);
 
 /// Torque and position error beside one another.
 struct PositionTest {

@@ -45,6 +45,10 @@ struct ChangeRules {
       4, "changes.allowance_worth", "sessions",
       "Sessions that the allowance counts as, where the scatter is estimated beside it.",
       "it is a guess: a factor of 2 either way is likely"};
+  DecisionRule same_temperature{
+      2, "changes.same_temperature", "K",
+      "Mean temperatures of a joint that differ by less say nothing of its friction.",
+      "a guess: 2 K change friction by less than sessions scatter"};
 };
 
 }  // namespace dyngen::runtime

@@ -32,10 +32,10 @@ void each(Rules& rules, const Visit& visit) {
     visit(*rule);
   }
   auto& changes = rules.changes;
-  for (auto* rule :
-       {&changes.slab, &changes.further_friction, &changes.inertia_odds, &changes.most_changes,
-        &changes.replaces, &changes.coulomb_allowance, &changes.viscous_allowance,
-        &changes.offset_allowance, &changes.least_friction, &changes.allowance_worth}) {
+  for (auto* rule : {&changes.slab, &changes.further_friction, &changes.inertia_odds,
+                     &changes.most_changes, &changes.replaces, &changes.coulomb_allowance,
+                     &changes.viscous_allowance, &changes.offset_allowance, &changes.least_friction,
+                     &changes.allowance_worth, &changes.same_temperature}) {
     visit(*rule);
   }
   auto& steady = rules.steady;

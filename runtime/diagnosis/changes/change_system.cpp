@@ -106,7 +106,7 @@ void ChangeSystem::drop_absent() {
     const Index from = first_[i], count = candidates_[i].columns.cols();
     const double whole = of.whole.diagonal().segment(from, count).maxCoeff();
     const double left = of.left.diagonal().segment(from, count).maxCoeff();
-    if (whole > 0 && left > kRankTolerance * whole) present.push_back(std::move(candidates_[i]));
+    if (whole > 0 && left > kRoundingPart * whole) present.push_back(std::move(candidates_[i]));
   }
   candidates_ = std::move(present);
   stack();
@@ -124,7 +124,7 @@ void ChangeSystem::join_equal() {
     const Index count = candidates_[i].columns.cols();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
         left.block(first_[i], first_[i], count, count));
-    const Index rank = (eigen.eigenvalues().array() > kRankTolerance).count();
+    const Index rank = (eigen.eigenvalues().array() > kRoundingPart).count();
     return MatrixXd(eigen.eigenvectors().rightCols(rank) *
                     eigen.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal());
   };
@@ -180,7 +180,7 @@ void ChangeSystem::add_form(ChangeForm form, std::vector<MatrixXd>& mixes) {
   scaled = scaled * scaled.colwise().norm().cwiseMax(1e-300).cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled.transpose() *
                                                       of.left.block(at, at, rows, rows) * scaled);
-  const Index rank = (eigen.eigenvalues().array() > kRankTolerance).count();
+  const Index rank = (eigen.eigenvalues().array() > kRoundingPart).count();
   if (rank == 0) return;
   const MatrixXd own = scaled * eigen.eigenvectors().rightCols(rank) *
                        eigen.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
@@ -317,7 +317,7 @@ BodyEvidence ChangeSystem::evidence_of_load(std::size_t candidate, const ChangeS
   }
   if (!raw.empty()) {
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-    solver.setThreshold(kRankTolerance);
+    solver.setThreshold(kRoundingPart);
     solver.compute(of.left(raw, raw));
     const MatrixXd across = of.left(raw, Eigen::seqN(at, kBodyParameters));
     G -= across.transpose() * solver.solve(across);
@@ -392,7 +392,7 @@ double ChangeSystem::chi_square(const ChangeSet& set) const {
   if (columns.empty()) return 0;
   const Level& level = levels_[centre_];
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-  solver.setThreshold(kRankTolerance);
+  solver.setThreshold(kRoundingPart);
   solver.compute(level.gram(columns, columns));
   const VectorXd b = level.rest(columns);
   return b.dot(solver.solve(b));
@@ -414,7 +414,7 @@ ChangeSystem::Fitted ChangeSystem::fitted(const std::vector<Index>& raw,
   Fitted fit{VectorXd::Zero(count), MatrixXd::Zero(count, count), {}};
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(levels_[i].of.left(raw, raw));
-    const Index rank = (eigen.eigenvalues().array() > kRankTolerance).count();
+    const Index rank = (eigen.eigenvalues().array() > kRoundingPart).count();
     const MatrixXd V = eigen.eigenvectors().rightCols(rank);
     const MatrixXd C =
         V * eigen.eigenvalues().tail(rank).cwiseInverse().asDiagonal() * V.transpose();
@@ -439,7 +439,7 @@ VectorXd ChangeSystem::reference_beside(const std::vector<Index>& raw, const Vec
   const MatrixXd X = all.rows.leftCols(common_);
   const VectorXd scale = X.colwise().norm().transpose().cwiseMax(1e-300).cwiseInverse();
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-  solver.setThreshold(kRankTolerance);
+  solver.setThreshold(kRoundingPart);
   solver.compute(X * scale.asDiagonal());
   return scale.asDiagonal() * solver.solve(y);
 }

@@ -26,7 +26,7 @@ MatrixXd span_of(const MatrixXd& X, double* log_determinant) {
   const VectorXd scale = norm(present);
   Eigen::ColPivHouseholderQR<MatrixXd> qr(X(Eigen::all, present) *
                                           scale.cwiseInverse().asDiagonal());
-  qr.setThreshold(kRankTolerance);
+  qr.setThreshold(kRoundingPart);
   const Index rank = qr.rank();
   if (log_determinant != nullptr) {
     *log_determinant = 2 * (qr.matrixR().diagonal().head(rank).cwiseAbs().array().log().sum() +

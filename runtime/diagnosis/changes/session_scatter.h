@@ -12,7 +12,7 @@
 namespace dyngen::runtime {
 
 /// Part of a column, or of its chi-square, that others must leave: less is rounding.
-inline constexpr double kRankTolerance = 1e-9;
+inline constexpr double kRoundingPart = 1e-9;
 
 /// What scatters between sessions.
 enum class ScatterKind { kCoulomb, kViscous, kOffset };

@@ -71,7 +71,7 @@ std::vector<std::optional<EarlierRun>> earlier_motions(const std::vector<const M
     for (std::size_t other = i; other-- > 0 && !earlier[i];) {
       if (!comparable(*motions[i], *motions[other], rules)) continue;
       const SameMotion same = compare_motions(motions[other]->q, motions[i]->q);
-      if (same.mismatch <= kRepeats)
+      if (same.mismatch <= kJustRepeats)
         earlier[i] = EarlierRun{other, same.lag * motions[i]->sample_time};
     }
   }

@@ -60,7 +60,7 @@ std::string yaml_numbers(const std::vector<double>& values) {
     text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", value);
   return "[" + text + "]";
 }
-int MapGuess::bits_of(const Candidate& candidate) const {
+int MapGuess::bits_of(const SignalCandidate& candidate) const {
   int bits = 0;
   for (const std::size_t column : candidate.family.columns) {
     UnsignedWatch watch;
@@ -73,7 +73,7 @@ int MapGuess::bits_of(const Candidate& candidate) const {
   return bits;
 }
 
-MatrixXd MapGuess::values_of(const Candidate& candidate) const {
+MatrixXd MapGuess::values_of(const SignalCandidate& candidate) const {
   const MatrixXd& all = logs_.tables[candidate.table].values;
   MatrixXd values(all.rows(), static_cast<Index>(candidate.family.columns.size()));
   for (Index j = 0; j < values.cols(); ++j) {
@@ -93,7 +93,7 @@ MatrixXd MapGuess::values_of(const Candidate& candidate) const {
   return values;
 }
 
-std::string MapGuess::columns_of(const Candidate& candidate) const {
+std::string MapGuess::columns_of(const SignalCandidate& candidate) const {
   std::string text = "columns: " + yaml_text(candidate.family.pattern);
   if (candidate.family.columns.size() > 1 && !is_column_pattern(candidate.family.pattern)) {
     text = "columns: [";
@@ -140,7 +140,7 @@ void MapGuess::find_candidates() {
   for (std::size_t t = 0; t < logs_.tables.size(); ++t) {
     const LogTable& table = logs_.tables[t].table;
     for (ColumnFamily& family : column_families(table.columns, names_)) {
-      Candidate candidate;
+      SignalCandidate candidate;
       candidate.table = t;
       const std::size_t first = family.columns.front();
       if (first < table.units.size()) candidate.unit = table.units[first];
@@ -198,7 +198,7 @@ void MapGuess::name_headerless() {
   }
   std::size_t next = 0;
   if (time >= 0) {
-    Candidate clock;
+    SignalCandidate clock;
     clock.role = ColumnRole::kTime;
     clock.family.pattern = names[static_cast<std::size_t>(time)];
     clock.family.columns = {static_cast<std::size_t>(time)};
@@ -215,7 +215,7 @@ void MapGuess::name_headerless() {
                                                 ColumnRole::kTorque};
   const std::size_t blocks = left / joints;
   for (std::size_t block = 0; block < std::min<std::size_t>(blocks, 3); ++block) {
-    Candidate candidate;
+    SignalCandidate candidate;
     candidate.role = blocks >= 3 ? kThree[block] : kTwo[block];
     for (std::size_t j = 0; j < joints; ++j) {
       if (static_cast<Index>(next) == time) ++next;
@@ -228,7 +228,7 @@ void MapGuess::name_headerless() {
 void MapGuess::count_joints() {
   joints_ = static_cast<std::size_t>(robot_.joints.joints);
   if (joints_ > 0) return;
-  for (const Candidate& candidate : candidates_) {
+  for (const SignalCandidate& candidate : candidates_) {
     if (candidate.role != ColumnRole::kPosition || !candidate.commanded.empty()) continue;
     joints_ = std::max(joints_, candidate.family.columns.size());
   }
@@ -245,39 +245,39 @@ void MapGuess::count_joints() {
 }
 
 /// One that is measured and has a column for each joint; null and a question where several do.
-const Candidate* MapGuess::choose(ColumnRole role, const char* key) {
-  std::vector<const Candidate*> fitting;
-  for (const Candidate& candidate : candidates_) {
+const SignalCandidate* MapGuess::choose(ColumnRole role, const char* key) {
+  std::vector<const SignalCandidate*> fitting;
+  for (const SignalCandidate& candidate : candidates_) {
     if (candidate.role == role && candidate.commanded.empty() &&
         candidate.family.columns.size() == joints_) {
       fitting.push_back(&candidate);
     }
   }
   const auto prefer = [&](const auto& is_better) {
-    std::vector<const Candidate*> better;
+    std::vector<const SignalCandidate*> better;
     std::copy_if(fitting.begin(), fitting.end(), std::back_inserter(better), is_better);
     if (!better.empty()) fitting = better;
   };
-  const auto has = [](const Candidate* one, std::initializer_list<const char*> words) {
+  const auto has = [](const SignalCandidate* one, std::initializer_list<const char*> words) {
     return std::any_of(words.begin(), words.end(), [&](const char* word) {
       return std::find(one->family.words.begin(), one->family.words.end(), word) !=
              one->family.words.end();
     });
   };
   if (fitting.size() > 1) {
-    prefer([&](const Candidate* one) {
+    prefer([&](const SignalCandidate* one) {
       return has(one, {"actual", "act", "ist", "measured", "meas", "msr"});
     });
   }
   if (fitting.empty()) return nullptr;
   if (fitting.size() == 1) return fitting.front();
   std::vector<std::string> patterns;
-  for (const Candidate* one : fitting) patterns.push_back(one->family.pattern);
+  for (const SignalCandidate* one : fitting) patterns.push_back(one->family.pattern);
   question(fmt::format("which columns are the {}: {}?", key, listed(patterns)));
   const bool told = std::all_of(fitting.begin(), fitting.end(),
-                                [](const Candidate* one) { return !one->unit.empty(); });
+                                [](const SignalCandidate* one) { return !one->unit.empty(); });
   line(fmt::format("{}: {{columns: \"?\"{}}}", key, told ? "" : ", unit: \"?\""));
-  for (const Candidate* one : fitting) used_.push_back(one);
+  for (const SignalCandidate* one : fitting) used_.push_back(one);
   return nullptr;
 }
 
@@ -300,7 +300,7 @@ GuessedMap MapGuess::make() {
   }
   if (!names_.empty()) {
     const bool by_name =
-        std::any_of(candidates_.begin(), candidates_.end(), [](const Candidate& one) {
+        std::any_of(candidates_.begin(), candidates_.end(), [](const SignalCandidate& one) {
           return one.family.pattern.find("{joint}") != std::string::npos;
         });
     if (by_name) {

@@ -105,7 +105,7 @@ UnitGuess torque_unit(const MatrixXd& values, const std::vector<std::string>& wo
 }  // namespace
 
 void MapGuess::guess_position() {
-  const Candidate* chosen = choose(ColumnRole::kPosition, "position");
+  const SignalCandidate* chosen = choose(ColumnRole::kPosition, "position");
   if (chosen == nullptr) {
     if (lines_.empty() || lines_.back().find("position:") == std::string::npos) {
       question("which columns are the positions of the joints?");
@@ -140,7 +140,7 @@ void MapGuess::guess_position() {
 }
 
 void MapGuess::guess_velocity() {
-  const Candidate* chosen = choose(ColumnRole::kVelocity, "velocity");
+  const SignalCandidate* chosen = choose(ColumnRole::kVelocity, "velocity");
   if (chosen == nullptr) return;
   used_.push_back(chosen);
   const MatrixXd values = values_of(*chosen);
@@ -255,7 +255,7 @@ void MapGuess::note_torque_lag(const MatrixXd& torque) {
 
 /// Where no column is a torque.
 void MapGuess::guess_torque_of_motors() {
-  if (const Candidate* current = choose(ColumnRole::kCurrent, "torque")) {
+  if (const SignalCandidate* current = choose(ColumnRole::kCurrent, "torque")) {
     used_.push_back(current);
     const std::string unit = current->unit.empty() ? "A" : current->unit;
     reason(current->unit.empty() ? kPlausible : sure_of_unit(*current),
@@ -265,7 +265,7 @@ void MapGuess::guess_torque_of_motors() {
     return;
   }
   if (!lines_.empty() && lines_.back().starts_with("torque:")) return;
-  if (const Candidate* duty = choose(ColumnRole::kDuty, "torque")) {
+  if (const SignalCandidate* duty = choose(ColumnRole::kDuty, "torque")) {
     used_.push_back(duty);
     reason(kPlausible,
            fmt::format("no torque is recorded; {} is a duty cycle", duty->family.pattern));
@@ -284,7 +284,7 @@ void MapGuess::guess_torque_of_motors() {
 }
 
 void MapGuess::guess_torque() {
-  const Candidate* chosen = choose(ColumnRole::kTorque, "torque");
+  const SignalCandidate* chosen = choose(ColumnRole::kTorque, "torque");
   const bool asked = !lines_.empty() && lines_.back().starts_with("torque:");
   if (asked) return;
   if (chosen == nullptr) {
@@ -314,7 +314,7 @@ void MapGuess::guess_torque() {
 }
 
 void MapGuess::guess_temperature() {
-  for (const Candidate& candidate : candidates_) {
+  for (const SignalCandidate& candidate : candidates_) {
     if (candidate.role != ColumnRole::kTemperature || !candidate.commanded.empty()) continue;
     used_.push_back(&candidate);
     reason(kLikely, fmt::format("{} by name", candidate.family.pattern));
@@ -325,7 +325,7 @@ void MapGuess::guess_temperature() {
 
 void MapGuess::note_others() {
   std::vector<std::string> commanded, flags;
-  for (const Candidate& candidate : candidates_) {
+  for (const SignalCandidate& candidate : candidates_) {
     if (std::find(used_.begin(), used_.end(), &candidate) != used_.end()) continue;
     if (!candidate.commanded.empty()) {
       commanded.push_back(candidate.family.pattern);

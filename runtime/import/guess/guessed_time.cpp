@@ -36,7 +36,7 @@ double step_of_counter(const VectorXd& values) {
 }  // namespace
 
 /// A column without a name that rises by 1 from row to row says nothing of seconds.
-bool MapGuess::counts_rows(const Candidate& candidate) const {
+bool MapGuess::counts_rows(const SignalCandidate& candidate) const {
   const bool named = std::any_of(candidate.family.pattern.begin(), candidate.family.pattern.end(),
                                  [](char c) { return c < '0' || c > '9'; });
   return !named && candidate.unit.empty() && step_of_counter(values_of(candidate).col(0)) == 1;
@@ -89,8 +89,8 @@ std::string MapGuess::time_unit(const std::string& name, double step, std::strin
 }
 
 void MapGuess::guess_time() {
-  const Candidate* best = nullptr;
-  for (const Candidate& candidate : candidates_) {
+  const SignalCandidate* best = nullptr;
+  for (const SignalCandidate& candidate : candidates_) {
     if (candidate.role != ColumnRole::kTime) continue;
     const VectorXd times = values_of(candidate).col(0);
     if (times.size() < 3) continue;
@@ -98,7 +98,7 @@ void MapGuess::guess_time() {
     const auto rising = static_cast<double>((steps.array() > 0).count());
     constexpr double kMostRising = 0.9;
     if (rising < kMostRising * static_cast<double>(steps.size())) continue;
-    const auto is_stamp = [](const Candidate& one) {
+    const auto is_stamp = [](const SignalCandidate& one) {
       return std::find(one.family.words.begin(), one.family.words.end(), "stamp") !=
              one.family.words.end();
     };

@@ -20,7 +20,7 @@ namespace dyngen::runtime {
 inline constexpr int kTold = 99, kSure = 95, kLikely = 80, kPlausible = 70;
 
 /// Columns that may be one signal.
-struct Candidate {
+struct SignalCandidate {
   std::size_t table = 0;
   ColumnFamily family;
   ColumnRole role = ColumnRole::kPosition;
@@ -60,10 +60,10 @@ class MapGuess {
   void name_headerless();
   void count_joints();
   void guess_time();
-  [[nodiscard]] bool counts_rows(const Candidate& candidate) const;
+  [[nodiscard]] bool counts_rows(const SignalCandidate& candidate) const;
   bool guess_counter();
   std::string time_unit(const std::string& name, double step, std::string& reason);
-  const Candidate* choose(ColumnRole role, const char* key);
+  const SignalCandidate* choose(ColumnRole role, const char* key);
   void guess_position();
   void guess_velocity();
   void guess_torque();
@@ -72,18 +72,18 @@ class MapGuess {
   void note_others();
   void note_torque_lag(const Eigen::MatrixXd& torque);
   /// Of signed numbers that the log holds as unsigned ones; 0: it does not look so.
-  [[nodiscard]] int bits_of(const Candidate& candidate) const;
-  [[nodiscard]] Eigen::MatrixXd values_of(const Candidate& candidate) const;
-  [[nodiscard]] std::string columns_of(const Candidate& candidate) const;
+  [[nodiscard]] int bits_of(const SignalCandidate& candidate) const;
+  [[nodiscard]] Eigen::MatrixXd values_of(const SignalCandidate& candidate) const;
+  [[nodiscard]] std::string columns_of(const SignalCandidate& candidate) const;
   [[nodiscard]] std::vector<DerivativeFit> fits(const Eigen::MatrixXd& upper) const;
 
   /// Why a candidate has its unit, and how sure that is.
-  static std::string why_unit(const Candidate& candidate) {
+  static std::string why_unit(const SignalCandidate& candidate) {
     return candidate.unit_ending.empty()
                ? "the log says so"
                : fmt::format("'{}' is the end of its name", candidate.unit_ending);
   }
-  static int sure_of_unit(const Candidate& candidate) {
+  static int sure_of_unit(const SignalCandidate& candidate) {
     return candidate.unit_ending.empty() ? kTold : kSure;
   }
   void reason(int sure, const std::string& text) {
@@ -100,8 +100,8 @@ class MapGuess {
   const GuessRobot& robot_;
   std::vector<std::string> names_;  ///< of joints, as the log has them
   std::vector<NameColumns> name_columns_;
-  std::vector<Candidate> candidates_;
-  std::vector<const Candidate*> used_;
+  std::vector<SignalCandidate> candidates_;
+  std::vector<const SignalCandidate*> used_;
   std::vector<std::string> lines_;
   std::size_t joints_ = 0;
   int questions_ = 0;

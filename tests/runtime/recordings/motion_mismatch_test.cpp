@@ -33,7 +33,7 @@ TEST(CompareMotions, FindsTheLagBetweenSamples) {
       const MatrixXd first = motion(0, rows, 1, 1e-4);
       const MatrixXd other = motion(0.004 * samples, rows - 30, 2, 1e-4);
       const SameMotion same = compare_motions(first, other);
-      EXPECT_LE(same.mismatch, kRepeats) << samples;
+      EXPECT_LE(same.mismatch, kJustRepeats) << samples;
       EXPECT_NEAR(same.lag, samples, 0.05);
     }
   }
@@ -43,13 +43,13 @@ TEST(CompareMotions, AnotherMotionIsAnother) {
   const MatrixXd first = motion(0, 900, 1, 1e-4);
   MatrixXd other = motion(0, 900, 2, 1e-4);
   other.col(1) *= 1.05;
-  EXPECT_GT(compare_motions(first, other).mismatch, kRepeats);
+  EXPECT_GT(compare_motions(first, other).mismatch, kJustRepeats);
   other = motion(0, 900, 2, 1e-4);
   other.col(0).array() += 0.1;  // the same form at another place
-  EXPECT_GT(compare_motions(first, other).mismatch, kRepeats);
-  EXPECT_GT(compare_motions(first, motion(400, 900, 2, 1e-4)).mismatch, kRepeats);
-  EXPECT_GT(compare_motions(MatrixXd::Zero(900, 3), MatrixXd::Zero(900, 3)).mismatch, kRepeats);
-  EXPECT_GT(compare_motions(first, first.topRows(5)).mismatch, kRepeats);
+  EXPECT_GT(compare_motions(first, other).mismatch, kJustRepeats);
+  EXPECT_GT(compare_motions(first, motion(400, 900, 2, 1e-4)).mismatch, kJustRepeats);
+  EXPECT_GT(compare_motions(MatrixXd::Zero(900, 3), MatrixXd::Zero(900, 3)).mismatch, kJustRepeats);
+  EXPECT_GT(compare_motions(first, first.topRows(5)).mismatch, kJustRepeats);
 }
 
 }  // namespace
