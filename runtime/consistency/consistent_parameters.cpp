@@ -17,6 +17,7 @@
 #include "runtime/consistency/consistency_path.h"
 #include "runtime/consistency/log_cholesky_fit.h"
 #include "runtime/consistency/pseudo_inertia.h"
+#include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -59,9 +60,7 @@ struct FreeSolution {
 };
 
 FreeSolution solve_free(const Eigen::MatrixXd& R, const Eigen::VectorXd& z) {
-  // Columns of unit length: which directions are unknown shall not depend on units.
-  Eigen::VectorXd scale = R.colwise().norm();
-  for (double& length : scale) length = length > 0 ? 1 / length : 1;
+  const Eigen::VectorXd scale = unit_scale(R);
   const Eigen::MatrixXd scaled = R * scale.asDiagonal();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeFullU | Eigen::ComputeFullV);
   FreeSolution result;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/estimation/decompositions.h"
 #include "runtime/estimation/inequalities.h"
 
 namespace dyngen::runtime {
@@ -222,8 +223,7 @@ EffectSearch::Held EffectSearch::held_at(const SearchState& state) const {
   }
   if (active.empty()) return held;
   // half the gradient of the cost is a sum of the inequalities' normals, in scaled unknowns
-  VectorXd scale = rows.W.colwise().norm();
-  for (double& s : scale) s = s > 0 ? 1 / s : 1;
+  const VectorXd scale = unit_scale(rows.W);
   const VectorXd gradient = scale.cwiseProduct(rows.W.transpose() * (rows.W * x - rows.tau));
   MatrixXd normals = (inequalities.G(active, Eigen::all) * scale.asDiagonal()).transpose();
   const VectorXd lengths = normals.colwise().norm().cwiseMax(1e-300);

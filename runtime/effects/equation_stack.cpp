@@ -81,8 +81,7 @@ MatrixXd EquationStack::whitened(MatrixXd columns) const {
 
 MatrixXd orthonormal(const MatrixXd& W) {
   if (W.cols() == 0) return W;
-  VectorXd scale = W.colwise().norm();
-  for (double& s : scale) s = s > 0 ? 1 / s : 1;
+  const VectorXd scale = unit_scale(W);
   const SingularValues svd = decomposed(triangle_of(W) * scale.asDiagonal());
   const Index rank = (svd.values.array() > kRankTolerance * svd.values[0]).count();
   MatrixXd basis = W * (scale.asDiagonal() * svd.V.leftCols(rank) *

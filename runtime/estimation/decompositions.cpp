@@ -73,6 +73,15 @@ MatrixXd pseudo_inverse(const MatrixXd& A, double tolerance) {
   return orthogonal(A, tolerance).pseudoInverse();
 }
 
+VectorXd unit_scale(const MatrixXd& A, double least) {
+  const VectorXd lengths = A.colwise().norm();
+  check_finite(lengths);
+  const double longest = lengths.size() > 0 ? lengths.maxCoeff() : 0;
+  if (!(longest > 0)) return VectorXd::Ones(lengths.size());
+  return lengths.unaryExpr(
+      [=](double length) { return 1 / (length > least * longest ? length : longest); });
+}
+
 MatrixXd complement_of(const MatrixXd& Q) {
   if (Q.cols() == 0) return MatrixXd::Identity(Q.rows(), Q.rows());
   const MatrixXd all = Eigen::HouseholderQR<MatrixXd>(Q).householderQ();

@@ -108,8 +108,7 @@ ConstrainedSolution constrained_least_squares(const MatrixXd& A, const VectorXd&
         A.rows(), n, b.size(), start.size(), inequalities.G.rows(), inequalities.G.cols(),
         inequalities.h.size()));
   }
-  VectorXd scale = A.colwise().norm();
-  for (double& s : scale) s = s > 0 ? 1 / s : 1;
+  const VectorXd scale = unit_scale(A);
   // x = start + L y, and ||R y - d|| as small as it can be
   MatrixXd scaled(A.rows(), n + 1);
   scaled << A * scale.asDiagonal(), b - A * start;

@@ -100,12 +100,8 @@ InstrumentalEstimate instrumental_variables(const InstrumentSource& source,
       factor_of(paired_rows(source, parameters), doubled(columns, parameters), 2 * parameters);
   const StackedRows rows = stacked(pairs, joint_weights);
   const Index nb = parameters;
-  VectorXd z_scale = rows.W.leftCols(nb).colwise().norm(),
-           scale = rows.W.rightCols(nb).colwise().norm();
-  for (Index i = 0; i < nb; ++i) {
-    z_scale[i] = z_scale[i] > 0 ? 1 / z_scale[i] : 1;
-    scale[i] = scale[i] > 0 ? 1 / scale[i] : 1;
-  }
+  const VectorXd z_scale = unit_scale(rows.W.leftCols(nb));
+  const VectorXd scale = unit_scale(rows.W.rightCols(nb));
   // [Z W tau] = Q R: Z'(tau - W beta) = 0 becomes R_ZW beta = R_Ztau
   MatrixXd all(rows.W.rows(), 2 * nb + 1);
   all << rows.W.leftCols(nb) * z_scale.asDiagonal(), rows.W.rightCols(nb) * scale.asDiagonal(),

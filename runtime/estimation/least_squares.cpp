@@ -16,10 +16,25 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-VectorXd unit_norm_scale(const MatrixXd& W) {
-  VectorXd scale = W.colwise().norm();
-  for (double& s : scale) s = s > 0 ? 1 / s : 1;
-  return scale;
+// rad: how exactly a joint's zero is known. A column that is a smaller part of the longest one says
+// how the posture of joints that stand is off, not what its parameter is.
+constexpr double kKnownPosture = 1e-3;
+
+/// Equations in scaled parameters, and how many directions of these they see.
+struct ScaledRows {
+  MatrixXd A;
+  SingularValues svd;
+  int rank = 0;
+};
+
+ScaledRows scaled_rows(const MatrixXd& W, const VectorXd& scale, double tolerance) {
+  ScaledRows scaled;
+  scaled.A = W * scale.asDiagonal();
+  scaled.svd = decomposed(scaled.A);
+  const VectorXd& values = scaled.svd.values;
+  const double largest = values.size() > 0 ? std::max(values[0], 1e-300) : 1;
+  scaled.rank = static_cast<int>((values.array() > tolerance * largest).count());
+  return scaled;
 }
 
 void check_weights(const TorqueFactor& factor, const VectorXd& joint_weights) {
@@ -68,16 +83,19 @@ Estimate solved(const TorqueFactor& factor, const VectorXd& joint_weights,
   const StackedRows rows = stacked(factor, joint_weights);
   Estimate estimate;
   estimate.joint_weights = joint_weights;
-  estimate.scale = options.scale.size() != 0 ? options.scale : unit_norm_scale(rows.W);
-  const MatrixXd A = rows.W * estimate.scale.asDiagonal();
-  const Index parameters = A.cols();
-
-  const SingularValues svd = decomposed(A);
+  estimate.scale = options.scale.size() != 0 ? options.scale : unit_scale(rows.W);
+  const Index parameters = rows.W.cols();
+  ScaledRows scaled = scaled_rows(rows.W, estimate.scale, options.tolerance);
+  if (scaled.rank < parameters && options.scale.size() == 0) {
+    // the shortest solution takes nothing of columns that are there by the chance of a posture
+    estimate.scale = unit_scale(rows.W, kKnownPosture);
+    scaled = scaled_rows(rows.W, estimate.scale, options.tolerance);
+  }
+  const MatrixXd& A = scaled.A;
+  const SingularValues& svd = scaled.svd;
   const VectorXd& singular = svd.values;
   estimate.condition = condition_number(singular);
-  const double largest = singular.size() > 0 ? singular[0] : 0;
-  estimate.rank =
-      static_cast<int>((singular.array() > options.tolerance * std::max(largest, 1e-300)).count());
+  estimate.rank = scaled.rank;
   const bool deficient = estimate.rank < parameters;
   const int rank =
       std::min(estimate.rank, static_cast<int>(parameters) - options.dropped_directions);

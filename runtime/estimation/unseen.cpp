@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
+
+#include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -13,6 +16,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+// Of the torque of the largest term: how exactly a posture is known, in rad.
+constexpr double kKnownTerm = 1e-3;
 
 /// Reduced row echelon form of the transposed directions: each combination then has a parameter of
 /// its own and few others.
@@ -47,10 +53,24 @@ std::string combination_text(const std::vector<std::pair<int, double>>& terms,
   return text;
 }
 
+/// An offset, with friction or alone: no posture tells it, and motion one way does not part it from
+/// Coulomb friction.
+bool is_of_offset(const VectorXd& direction, const LinearModel& model) {
+  bool offset = false;
+  for (Index c = 0; c < direction.size(); ++c) {
+    if (direction[c] == 0) continue;
+    const ParameterKind kind = model.parameters[static_cast<std::size_t>(c)].kind;
+    offset = offset || kind == ParameterKind::kOffset;
+    if (kind == ParameterKind::kInertial || kind == ParameterKind::kRotorInertia) return false;
+  }
+  return offset;
+}
+
 /// Which part of a motion shows a direction.
 enum class Shown { kNot, kPosture, kSpeed, kAcceleration };
 
-/// Motions of some joints around a posture: the direction's largest torque, by kind of motion.
+/// Motions of some joints around a posture: the direction's largest torque on these joints, by kind
+/// of motion. The torque of a joint that stands is held by stiction and shows nothing.
 Shown shown_by(const LinearModel& model, const VectorXd& direction, const VectorXd& posture,
                const std::vector<int>& moving) {
   constexpr Index kTrials = 12;
@@ -71,7 +91,7 @@ Shown shown_by(const LinearModel& model, const VectorXd& direction, const Vector
     MatrixXd Y;
     model.regressor(q, dq, ddq, Y);
     double largest = 0, size = 0;
-    for (int j = 0; j < n; ++j) {
+    for (const int j : moving) {
       largest = std::max(largest, (Y.middleCols(j * nb, nb) * direction).cwiseAbs().maxCoeff());
       size = std::max(size, Y.middleCols(j * nb, nb).cwiseAbs().maxCoeff());
     }
@@ -85,8 +105,12 @@ std::string joints_text(const LinearModel& model, const std::vector<int>& joints
   std::string text;
   for (const int j : joints) {
     if (!text.empty()) text += " and ";
-    text += fmt::format("joint {} ({}; recorded over {:.3g} {}, {:.2g} {}/s rms)", j + 1,
-                        model.joint_names[static_cast<std::size_t>(j)],
+    const std::string& name = model.joint_names[static_cast<std::size_t>(j)];
+    if (extent.speed[j] == 0) {
+      text += fmt::format("joint {} ({}; it stands)", j + 1, name);
+      continue;
+    }
+    text += fmt::format("joint {} ({}; recorded over {:.3g} {}, {:.2g} {}/s rms)", j + 1, name,
                         extent.highest[j] - extent.lowest[j],
                         model.revolute[static_cast<std::size_t>(j)] ? "rad" : "m", extent.speed[j],
                         model.revolute[static_cast<std::size_t>(j)] ? "rad" : "m");
@@ -99,6 +123,9 @@ std::string advice_text(const LinearModel& model, const VectorXd& direction,
   const VectorXd posture = 0.5 * (extent.lowest + extent.highest);
   const auto sentence = [&](const std::vector<int>& joints, Shown kind) {
     const std::string who = joints_text(model, joints, extent);
+    if (is_of_offset(direction, model)) {
+      return fmt::format("motion of {} in both directions would show it", who);
+    }
     switch (kind) {
       case Shown::kPosture:
         return fmt::format("other postures of {} would show it, slowly too: gravity does", who);
@@ -165,6 +192,38 @@ void MotionExtent::merge(const MotionExtent& other) {
   speed = pooled(speed, other.speed);
   acceleration = pooled(acceleration, other.acceleration);
   samples += other.samples;
+}
+
+std::vector<SeenCombination> name_seen(const Estimate& estimate, const LinearModel& model,
+                                       const VectorXd& beta, const MatrixXd& covariance) {
+  std::vector<SeenCombination> combinations;
+  if (estimate.unseen.cols() == 0) return combinations;
+  const MatrixXd rows = simplest(complement_of(estimate.unseen).transpose());
+  for (Index i = 0; i < rows.rows(); ++i) {
+    VectorXd scaled = rows.row(i).transpose();
+    const double least = kKnownTerm * scaled.cwiseAbs().maxCoeff();
+    scaled = (scaled.cwiseAbs().array() > least).select(scaled, 0.0);
+    VectorXd direction = scaled.cwiseQuotient(estimate.scale);
+    SeenCombination combination;
+    std::vector<int> order;
+    for (Index c = 0; c < scaled.size(); ++c) {
+      if (scaled[c] != 0) order.push_back(static_cast<int>(c));
+    }
+    if (order.size() < 2) continue;
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      return std::abs(scaled[a]) > std::abs(scaled[b]) * (1 + 1e-9);
+    });
+    direction /= direction[order.front()];
+    for (const int c : order) combination.terms.emplace_back(c, direction[c]);
+    combination.text = combination_text(combination.terms, model);
+    combination.unit = model.parameters[static_cast<std::size_t>(order.front())].unit;
+    combination.value = direction.dot(beta);
+    combination.stddev = covariance.size() == 0
+                             ? std::numeric_limits<double>::quiet_NaN()
+                             : std::sqrt(std::max(0.0, direction.dot(covariance * direction)));
+    combinations.push_back(std::move(combination));
+  }
+  return combinations;
 }
 
 std::vector<UnseenCombination> name_unseen(const Estimate& estimate, const LinearModel& model,

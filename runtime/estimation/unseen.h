@@ -30,6 +30,23 @@ struct UnseenCombination {
   std::string advice;                         ///< the motion that would show it, in a sentence
 };
 
+/// A sum of parameters that the recordings show where they show none of them alone.
+struct SeenCombination {
+  std::vector<std::pair<int, double>> terms;  ///< parameter and factor, own units; the first is 1
+  std::string text;                           ///< "ZZR2 + ZZR4 + 0.42 MYR4"
+  std::string unit;                           ///< of the first parameter
+  double value = 0;
+  double stddev = 0;  ///< NaN: the covariance is not known
+};
+
+/// The sums that an estimate with unseen combinations does see, but for parameters that it sees
+/// alone: as few terms as elimination leaves. Terms of less than a thousandth of the torque of the
+/// largest are left out: a posture that is known to 1e-3 rad does not show them.
+/// @param beta        (nb) @param covariance  (nb x nb) or empty: of the fit that is told
+std::vector<SeenCombination> name_seen(const Estimate& estimate, const LinearModel& model,
+                                       const Eigen::VectorXd& beta,
+                                       const Eigen::MatrixXd& covariance);
+
 /// Names what an estimate does not see.
 /// @param model  its regressor is evaluated at motions of single joints, then of pairs, around the
 /// middle of what was recorded, until one shows the combination

@@ -54,7 +54,9 @@ class ModelJudge {
         samples_(samples),
         remarks_(remarks),
         plain_(samples.fit(model_, Reading::plain(model_.joints()))),
-        deviations_(deviations_of(plain_)) {}
+        deviations_(deviations_of(plain_)) {
+    for (const JointFactor& joint : plain_.equations.joints) judged_.push_back(joint.rows > 0);
+  }
 
   void run(double farthest) {
     if (plain_.equations.samples() <= 2.0 * model_.size()) return;
@@ -122,7 +124,7 @@ class ModelJudge {
     if (named(best_of(other_units(model_, base)))) return true;
     Index worst = 0;
     plain_.left.maxCoeff(&worst);
-    if (named(best_of(swapped_columns(base, static_cast<int>(worst))))) return true;
+    if (named(best_of(swapped_columns(base, static_cast<int>(worst), judged_)))) return true;
     return turned(base);
   }
 
@@ -132,7 +134,7 @@ class ModelJudge {
     VectorXd left = plain_.left;
     std::vector<NamedReading> steps;
     for (int step = 0; step < model_.joints(); ++step) {
-      auto best = best_of(turned_signs(reading));
+      auto best = best_of(turned_signs(reading, judged_));
       if (!best || best->second.left.squaredNorm() > 0.9 * left.squaredNorm()) break;
       left = best->second.left;
       reading = best->first.reading;
@@ -292,7 +294,8 @@ class ModelJudge {
   const TrialSamples& samples_;
   std::vector<Remark>& remarks_;
   TrialFit plain_;
-  VectorXd deviations_;  ///< (nb) of its parameters
+  VectorXd deviations_;       ///< (nb) of its parameters
+  std::vector<bool> judged_;  ///< (n) joints that have equations
 };
 
 /// Largest span of a revolute joint's positions, rad.

@@ -41,9 +41,10 @@ std::vector<NamedReading> other_units(const LinearModel& model, const Reading& b
   return all;
 }
 
-std::vector<NamedReading> turned_signs(const Reading& base) {
+std::vector<NamedReading> turned_signs(const Reading& base, const std::vector<bool>& judged) {
   std::vector<NamedReading> all;
   for (Eigen::Index j = 0; j < base.torque_factor.size(); ++j) {
+    if (!judged[static_cast<std::size_t>(j)]) continue;
     const int joint = static_cast<int>(j) + 1;
     Reading torque = base, position = base;
     torque.torque_factor[j] *= -1;
@@ -65,11 +66,12 @@ std::vector<NamedReading> turned_signs(const Reading& base) {
   return all;
 }
 
-std::vector<NamedReading> swapped_columns(const Reading& base, int joint) {
+std::vector<NamedReading> swapped_columns(const Reading& base, int joint,
+                                          const std::vector<bool>& judged) {
   std::vector<NamedReading> all;
   const auto i = static_cast<std::size_t>(joint);
   for (std::size_t k = 0; k < base.position_from.size(); ++k) {
-    if (k == i) continue;
+    if (k == i || !judged[k]) continue;
     const auto named = [&](const char* columns, bool position, bool torque) {
       NamedReading reading{"swapped", 0, {}, {}, base};
       reading.what = fmt::format("{} of joints {} and {} look swapped", columns, std::min(i, k) + 1,

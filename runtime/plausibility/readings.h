@@ -22,10 +22,14 @@ struct NamedReading {
 std::vector<NamedReading> other_units(const LinearModel& model, const Reading& base);
 
 /// Turned signs of each joint's position, torque, and both.
-std::vector<NamedReading> turned_signs(const Reading& base);
+/// @param judged  (n) joints with equations: others would only change the posture that hides them
+std::vector<NamedReading> turned_signs(const Reading& base, const std::vector<bool>& judged);
 
 /// A joint's columns and another's in each other's place: positions, torques, and both.
-/// @param joint  from 0
-std::vector<NamedReading> swapped_columns(const Reading& base, int joint);
+/// @param joint   from 0
+/// @param judged  (n) joints with equations: where the other one stands, its column would make this
+///                one stand, and nothing would be left to explain
+std::vector<NamedReading> swapped_columns(const Reading& base, int joint,
+                                          const std::vector<bool>& judged);
 
 }  // namespace dyngen::runtime

@@ -84,6 +84,7 @@ class RippleAnalysis {
       result_.why_not = std::move(why);
       return false;
     };
+    result_.moving = white_.counted();
     if (!data_.residual.allFinite()) {
       return refuse("The torque of the joint is not known.");
     }

@@ -60,6 +60,7 @@ struct RippleResult {
   int joint = -1;  ///< from 0
   bool judged = false;
   std::string why_not;                ///< a sentence where it is not judged
+  Eigen::Index moving = 0;            ///< samples in motion; 0: the joint stands
   std::vector<RippleLine> lines;      ///< kTorque and kPosition, strongest first
   std::vector<RippleLine> ruled_out;  ///< kFrequency and kImage
   bool cut_off = false;               ///< more orders stand out than are sought

@@ -21,6 +21,8 @@ constexpr double kMargin = 2;
 constexpr double kVelocityMissed =
     0.01;                          // of the power of the velocity, above a gap in its spectrum
 constexpr double kNoNoise = 1e-9;  // of the range: no encoder is that good
+// Of the farthest joint's way, rad or m: drives that hold a joint give way by some 1e-4.
+constexpr double kGivesWay = 1e-3;
 
 /// Samples a segment: lines of about a quarter of a hertz, and at least some segments to average.
 std::size_t segment_samples(Eigen::Index samples, double sample_time) {
@@ -187,13 +189,19 @@ Cutoff choose_cutoff(const std::vector<Eigen::MatrixXd>& runs, double sample_tim
                     longest, joints, sample_time));
   }
   const double highest = kHighestCutoff / sample_time;
+  std::vector<JointCutoff> found;
+  double farthest = 0;
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    found.push_back(joint_cutoff(runs, j, sample_time));
+    farthest = std::max(farthest, found.back().range);
+  }
   JointCutoff largest;
   Eigen::Index joint = -1;
   for (Eigen::Index j = 0; j < joints; ++j) {
-    const JointCutoff found = joint_cutoff(runs, j, sample_time);
-    const bool moves = found.range > kMovesAbove * found.noise && found.range > 0;
-    if (moves && (joint < 0 || found.hz > largest.hz)) {
-      largest = found;
+    const JointCutoff& own = found[static_cast<std::size_t>(j)];
+    const bool moves = own.range > std::max(kMovesAbove * own.noise, kGivesWay * farthest);
+    if (moves && (joint < 0 || own.hz > largest.hz)) {
+      largest = own;
       joint = j;
     }
   }

@@ -21,8 +21,9 @@ struct Cutoff {
 /// counts as noise too. Motion ends where the spectrum stays below twice that, signal to noise
 /// below one, for half an octave; it goes on above such a gap if more than 1 % of the velocity's
 /// power is there (then the frequency is taken where a sharp low-pass loses and passes least in
-/// sum). The largest of the joints that move, times 2 since a filter's edge is not sharp, between 2
-/// Hz and a fifth of the sampling frequency.
+/// sum). The largest of the joints that move (by more than noise, and than a thousandth of what the
+/// farthest one does: a drive that holds its joint gives way), times 2 since a filter's edge is not
+/// sharp, between 2 Hz and a fifth of the sampling frequency.
 ///
 /// All runs have one spectrum, the mean over pieces of one length, a quarter of the longest run or
 /// shorter: a run that is shorter than a piece decides nothing.

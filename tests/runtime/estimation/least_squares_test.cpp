@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "runtime/estimation/decompositions.h"
 #include "runtime/estimation/distributions.h"
 #include "runtime/estimation/ridge.h"
 #include "runtime/estimation/robust.h"
@@ -37,6 +38,34 @@ TEST(LeastSquares, FindTheTruthWithoutNoise) {
     EXPECT_EQ(fit.status, EstimateStatus::kDone);
     EXPECT_LT(fit.residual_rms.maxCoeff(), 1e-12);
   }
+}
+
+// a right angle is 6e-17 beside pi / 2: the column is rounding, and its parameter is not seen
+TEST(LeastSquares, DoNotSeeAColumnOfRounding) {
+  test::RandomEquations equations(6, 400, 2);
+  equations.columns = {{0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 4, 5}};
+  equations.truth[3] = 0;
+  for (const Index j : {0, 1}) {
+    equations.Y.col(j * 6 + 3) *= 6e-17;
+    equations.clean.col(j) = equations.Y.middleCols(j * 6, 6) * equations.truth;
+  }
+  const Estimate fit = least_squares(factor_of(equations, equations.clean), ones());
+  EXPECT_EQ(fit.rank, 5);
+  EXPECT_NEAR(std::abs(fit.unseen(3, 0)), 1, 1e-9);
+  EXPECT_LT((fit.beta - equations.truth).norm(), 1e-10 * equations.truth.norm());
+}
+
+TEST(UnitScale, MakesColumnsOfUnitLengthButThoseThatAreRounding) {
+  MatrixXd A(2, 3);
+  A << 3, 1e-20, 0, 4, 0, 0;
+  EXPECT_EQ(unit_scale(A), VectorXd::Constant(3, 0.2));
+  A(0, 1) = 1e-3;
+  EXPECT_DOUBLE_EQ(unit_scale(A)[1], 1e3);
+  EXPECT_DOUBLE_EQ(unit_scale(A, 0.01)[1], 0.2);
+  EXPECT_EQ(unit_scale(MatrixXd::Zero(2, 2)), VectorXd::Ones(2));
+  EXPECT_EQ(unit_scale(MatrixXd(2, 0)).size(), 0);
+  A(0, 0) = 1e200;
+  EXPECT_THROW(unit_scale(A), NotFiniteError);
 }
 
 TEST(LeastSquares, LeaveUnseenCombinationsAtThePriorAndSaySo) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "runtime/estimation/rows.h"
@@ -94,6 +95,87 @@ TEST(Unseen, SaysThatGravityWouldShowIt) {
     } else if (combination.text == "ZZ1") {
       EXPECT_NE(combination.advice.find("faster changes of speed"), std::string::npos);
     }
+  }
+}
+
+/// tau = ZZ ddq + MX cos(q) + 1e-5 MY cos(q) + FS sign(dq) + OFF: of a joint in a posture that
+/// hides MY.
+LinearModel joint_in_a_posture() {
+  LinearModel model;
+  model.name = "joint";
+  model.joint_names = {"elbow"};
+  model.revolute = {true};
+  model.parameters = {{"ZZ", "kg m^2", "", 1, ParameterKind::kInertial, {}},
+                      {"MX", "kg m", "", 1, ParameterKind::kInertial, {}},
+                      {"MY", "kg m", "", 1, ParameterKind::kInertial, {}},
+                      {"FS", "N m", "", 1, ParameterKind::kCoulomb, {}},
+                      {"OFF", "N m", "", 1, ParameterKind::kOffset, {}}};
+  model.columns = {{0, 1, 2, 3, 4}};
+  model.regressor = [](const MatrixXd& q, const MatrixXd& dq, const MatrixXd& ddq, MatrixXd& Y) {
+    Y = MatrixXd::Zero(q.rows(), 5);
+    Y.col(0) = ddq.col(0);
+    Y.col(1) = q.col(0).array().cos();
+    Y.col(2) = 1e-5 * Y.col(1);
+    Y.col(3) = dq.col(0).array().sign();
+    Y.col(4).setOnes();
+  };
+  return model;
+}
+
+// a joint that moves one way in a posture that hides MY
+TEST(Seen, NamesSumsOfWhatIsNotSeenAlone) {
+  const LinearModel model = joint_in_a_posture();
+  const MatrixXd q = random_matrix(1).leftCols(1), ddq = random_matrix(3).leftCols(1);
+  const MatrixXd dq = random_matrix(2).leftCols(1).cwiseAbs();
+  MatrixXd Y;
+  model.regressor(q, dq, ddq, Y);
+  const VectorXd truth = (VectorXd(5) << 2, 3, 0.4, 1.5, 0.25).finished();
+  TorqueFactor factor = empty_factor(model.columns, model.size());
+  absorb(factor, Y, Y * truth);
+  const Estimate estimate = least_squares(factor, VectorXd::Ones(1));
+  EXPECT_EQ(estimate.rank, 3);
+  // what the posture hides takes no part of the torque
+  EXPECT_NEAR(estimate.beta[1], truth[1], 1e-4);
+  EXPECT_LT(std::abs(estimate.beta[2]), 1e-4);
+
+  const MatrixXd covariance = VectorXd::Constant(5, 0.01).asDiagonal();
+  const auto sums = name_seen(estimate, model, estimate.beta, covariance);
+  ASSERT_EQ(sums.size(), 1U);
+  EXPECT_TRUE(sums[0].text == "FS + OFF" || sums[0].text == "OFF + FS") << sums[0].text;
+  EXPECT_NEAR(sums[0].value, 1.75, 1e-9);
+  EXPECT_NEAR(sums[0].stddev, std::sqrt(0.02), 1e-12);
+  EXPECT_EQ(sums[0].unit, "N m");
+  EXPECT_TRUE(std::isnan(name_seen(estimate, model, estimate.beta, {}).front().stddev));
+
+  MotionExtent extent;
+  extent.add(q, dq, ddq);
+  const auto hidden = name_unseen(estimate, model, extent);
+  ASSERT_EQ(hidden.size(), 2U);
+  for (const UnseenCombination& own : hidden) {
+    if (own.text == "MY") continue;
+    EXPECT_TRUE(own.text == "FS - OFF" || own.text == "OFF - FS") << own.text;
+    EXPECT_NE(own.advice.find("in both directions"), std::string::npos) << own.advice;
+  }
+}
+
+TEST(Seen, IsSilentWhereEverythingIsSeen) {
+  const LinearModel model = pendulum_on_a_turntable();
+  MatrixXd Y;
+  model.regressor(random_matrix(1), random_matrix(2), random_matrix(3), Y);
+  TorqueFactor factor = empty_factor(model.columns, model.size());
+  absorb(factor, Y, MatrixXd::Ones(50, 2));
+  const Estimate estimate = least_squares(factor, VectorXd::Ones(2));
+  EXPECT_TRUE(name_seen(estimate, model, estimate.beta, {}).empty());
+}
+
+TEST(Unseen, SaysWhichJointStands) {
+  MatrixXd q = random_matrix(1), dq = random_matrix(2), ddq = random_matrix(3);
+  q.col(1).setZero();
+  dq.col(1).setZero();
+  ddq.col(1).setZero();
+  for (const UnseenCombination& combination : unseen_of(q, dq, ddq)) {
+    EXPECT_NE(combination.advice.find("joint 2 (arm; it stands)"), std::string::npos)
+        << combination.advice;
   }
 }
 

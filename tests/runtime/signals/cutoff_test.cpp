@@ -84,6 +84,20 @@ TEST(Cutoff, AJointThatDoesNotMoveHasNoSay) {
   EXPECT_NE(still.message.find("no joint moves"), std::string::npos);
 }
 
+// a drive that holds its joint gives way, smoothly and far above the encoder's steps
+TEST(Cutoff, AJointThatGivesWayHasNoSay) {
+  Eigen::MatrixXd q(10000, 2);
+  q.col(0) = through_encoder(multisine(1e-3, 10000), 1e-5);
+  for (Eigen::Index k = 0; k < q.rows(); ++k) {
+    q(k, 1) = 1e-4 * std::sin(2 * std::numbers::pi * 120e-3 * static_cast<double>(k));
+  }
+  EXPECT_GT(choose_cutoff(q.col(1), 1e-3).hz, 100);
+  EXPECT_EQ(choose_cutoff(q, 1e-3).hz, choose_cutoff(q.col(0), 1e-3).hz);
+  // as large a part of the way is motion
+  q.col(1) *= 100;
+  EXPECT_GT(choose_cutoff(q, 1e-3).hz, 100);
+}
+
 TEST(Cutoff, TooLittleDataIsRefused) {
   EXPECT_THROW(choose_cutoff(Eigen::MatrixXd::Zero(63, 1), 1e-3), std::invalid_argument);
   EXPECT_THROW(choose_cutoff(Eigen::MatrixXd::Zero(100, 0), 1e-3), std::invalid_argument);

@@ -281,6 +281,8 @@ void examine(FitReport& report, ProgressLine& progress) {
   // what a method leaves out on purpose is not what the data do not see
   const Estimate plain = weighted_least_squares(summary.equations);
   report.unseen = name_unseen(plain, report.robot.linear, summary.extent);
+  const Estimate& told = report.main().estimate;
+  report.together = name_seen(plain, report.robot.linear, told.beta, told.covariance);
 }
 
 /// The JSON and the page, before the robot files: an answer is not lost with one of them.

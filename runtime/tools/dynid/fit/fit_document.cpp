@@ -197,6 +197,16 @@ void add_torque(const FitReport& report, std::vector<ReportSection>& sections) {
   sections.push_back(std::move(section));
 }
 
+void add_together(const FitReport& report, std::vector<ReportSection>& sections) {
+  if (report.together.empty()) return;
+  ReportTable table{{"sum", "value", "standard deviation", "unit"}, {}, kRowsShown};
+  for (const SeenCombination& own : report.together) {
+    table.rows.push_back({own.text, own.value, own.stddev, own.unit});
+  }
+  sections.push_back(
+      section_of("together", "What these recordings determine as sums alone", {std::move(table)}));
+}
+
 void add_unseen(const FitReport& report, std::vector<ReportSection>& sections) {
   if (report.unseen.empty()) return;
   ReportTable table{{"combination", "the motion that would show it"}, {}, kRowsShown};
@@ -362,6 +372,7 @@ ReportDocument fit_document(const FitReport& report, const std::string& command)
   }
   if (report.ripples.any()) document.sections.push_back(ripple_section(report.ripples));
   if (report.steady.any()) document.sections.push_back(steady_section(report.steady));
+  add_together(report, document.sections);
   add_unseen(report, document.sections);
   add_consistent(report, document.sections);
   add_hierarchy(report, document.sections);

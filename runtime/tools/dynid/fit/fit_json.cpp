@@ -173,6 +173,17 @@ Json unseen(const FitReport& report) {
   return array;
 }
 
+Json together(const FitReport& report) {
+  Json array = Json::array();
+  for (const SeenCombination& combination : report.together) {
+    array.push_back({{"combination", combination.text},
+                     {"value", number(combination.value)},
+                     {"std", number(combination.stddev)},
+                     {"unit", combination.unit}});
+  }
+  return array;
+}
+
 Json hierarchy(const FitReport& report) {
   const HierarchyFit& fit = *report.hierarchy;
   Json robots = Json::array();
@@ -204,6 +215,7 @@ std::string fit_json(const FitReport& report) {
                {"condition", conditioning(report)},
                {"trust", trust(report)},
                {"unseen", unseen(report)},
+               {"seen_together", together(report)},
                {"methods", methods(report)},
                {"notes", report.notes}};
   if (report.robot.held.any()) json["held"] = held(report.robot);

@@ -50,6 +50,7 @@ struct FitReport {
   Trust trust;
   Conditioning conditioning;
   std::vector<UnseenCombination> unseen;
+  std::vector<SeenCombination> together;  ///< sums that are seen where their terms are not
   std::optional<ConsistentFit> consistent;
   std::optional<EffectReport> effects;      ///< of a robot file with rows 'effect'
   std::optional<HierarchyFit> hierarchy;    ///< robots that share inertia

@@ -72,11 +72,17 @@ std::string parameter_rows(const FitReport& report) {
   std::string text = fmt::format("\n{:<8}{:>11}{:>10}{:>7}  {:<10}{:<5}", "", "value", "stddev",
                                  "%", "unit", "seen");
   text += report.consistent ? fmt::format("{:>12}{:>7}\n", "consistent", "pull") : " what it is\n";
+  std::vector<Seen> states;
+  for (int i = 0; i < model.size(); ++i) states.push_back(seen(report, i));
+  // where joints stand, nearly all parameters are hidden: a list of them would hide the others
+  const auto hidden = std::count(states.begin(), states.end(), Seen::kNo);
+  const bool brief = 2 * hidden > model.size();
   for (int i = 0; i < model.size(); ++i) {
     const LinearParameter& parameter = model.parameters[static_cast<std::size_t>(i)];
     const double value = fit.estimate.beta[i];
     const double stddev = known ? std::sqrt(fit.estimate.covariance(i, i)) : 0;
-    const Seen state = seen(report, i);
+    const Seen state = states[static_cast<std::size_t>(i)];
+    if (brief && state == Seen::kNo) continue;
     std::string line = fmt::format("{:<8}{:>11.5g}", parameter.name, value);
     if (known && state != Seen::kNo) {
       const double relative = value != 0 ? 100 * stddev / std::abs(value) : INFINITY;
@@ -91,6 +97,7 @@ std::string parameter_rows(const FitReport& report) {
                               : " " + shortened(parameter.formula);
     text += line + "\n";
   }
+  if (brief) text += fmt::format("{} parameters that are not seen alone have no row\n", hidden);
   return text;
 }
 
@@ -179,11 +186,36 @@ std::string trust_rows(const FitReport& report) {
   return text;
 }
 
+std::string together_rows(const FitReport& report) {
+  if (report.together.empty()) return "";
+  std::string text = "\nseen only together\n";
+  for (const SeenCombination& own : report.together) {
+    text += fmt::format("  {}\n    {:.5g}", own.text, own.value);
+    if (std::isfinite(own.stddev)) text += fmt::format(" +- {:.2g}", own.stddev);
+    text += " " + own.unit + "\n";
+  }
+  return text;
+}
+
 std::string unseen_rows(const FitReport& report) {
+  constexpr std::size_t kMostAlone = 10;  // more are put together by what would show them
   if (report.unseen.empty()) return "";
   std::string text = "\nnot seen in these recordings\n";
+  if (report.unseen.size() <= kMostAlone) {
+    for (const UnseenCombination& combination : report.unseen) {
+      text += fmt::format("  {}\n    {}\n", combination.text, combination.advice);
+    }
+    return text;
+  }
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_advice;
   for (const UnseenCombination& combination : report.unseen) {
-    text += fmt::format("  {}\n    {}\n", combination.text, combination.advice);
+    auto own = std::find_if(by_advice.begin(), by_advice.end(),
+                            [&](const auto& known) { return known.first == combination.advice; });
+    if (own == by_advice.end()) own = by_advice.insert(own, {combination.advice, {}});
+    own->second.push_back(combination.text);
+  }
+  for (const auto& [advice, texts] : by_advice) {
+    text += fmt::format("  {}\n    {}\n", fmt::join(texts, ", "), advice);
   }
   return text;
 }
@@ -312,8 +344,8 @@ std::string fit_table(const FitReport& report) {
                      joint_rows(report) + two_encoders_text(report.two_encoders) +
                      ripple_text(report.ripples) + steady_text(report.steady) +
                      (any ? conditioning_rows(report) : "") + (any ? trust_rows(report) : "") +
-                     consistent_rows(report) + unseen_rows(report) + hierarchy_rows(report) +
-                     method_columns(report);
+                     consistent_rows(report) + together_rows(report) + unseen_rows(report) +
+                     hierarchy_rows(report) + method_columns(report);
   std::string messages;
   for (const MethodFit& fit : report.fits) {
     for (const std::string& message : fit.messages) {

@@ -75,8 +75,7 @@ MatrixXd moves_of(const TorqueFactor& factor, Index own, const VectorXd& joint_w
   constexpr double kTolerance = 1e-9;  // of directions that the recordings do not see
   const MatrixXd W = stacked(factor, joint_weights).W;
   MatrixXd A = W.leftCols(own);
-  VectorXd scale = A.colwise().norm();
-  for (double& s : scale) s = s > 0 ? 1 / s : 1;
+  const VectorXd scale = unit_scale(A);
   A = A * scale.asDiagonal();
   const MatrixXd B = W.rightCols(deviations.size()) * deviations.asDiagonal();
   return -(scale.asDiagonal() * least_norm_solution(A, B, kTolerance));

@@ -122,6 +122,7 @@ std::vector<RippleTextLine> ripple_lines(const JointRipples& ripples) {
   std::vector<RippleTextLine> lines;
   for (const JointRipple& own : ripples.joints) {
     const RippleResult& result = own.result;
+    if (!result.judged && result.moving == 0) continue;  // it stands, as is said elsewhere
     if (!result.judged) {
       lines.push_back({result.joint, "not judged", "", "", result.why_not});
       continue;
