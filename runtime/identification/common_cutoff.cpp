@@ -12,6 +12,7 @@
 #include "runtime/estimation/least_squares.h"
 #include "runtime/estimation/rows.h"
 #include "runtime/identification/motion_rows.h"
+#include "runtime/identification/standing_joints.h"
 #include "runtime/signals/trim.h"
 
 namespace dyngen::runtime {
@@ -69,7 +70,8 @@ class BlockedEquations {
       : model_(model) {
     for (const MotionSource& source : sources) samples_ += samples_of(source);
     step_ = std::max<Index>(1, samples_ / kMostEquations);
-    for (const MotionSource& source : sources) look_at_speeds(source);
+    const std::vector<StandingJoints> standing = standing_joints(sources, model.revolute, sources);
+    for (std::size_t i = 0; i < sources.size(); ++i) look_at_speeds(sources[i], standing[i]);
   }
 
   /// Of the same recordings behind a low-pass. @return  a factor for each block
@@ -85,8 +87,12 @@ class BlockedEquations {
   }
 
  private:
-  void look_at_speeds(const MotionSource& source) {
-    const VectorXd still = plan_rows(source, {}).still_speed;
+  /// Joints that stand have no say: what they give way by is noise of the drive that holds them.
+  void look_at_speeds(const MotionSource& source, const StandingJoints& standing) {
+    VectorXd still = plan_rows(source, {}).still_speed;
+    for (std::size_t j = 0; j < standing.size(); ++j) {
+      if (standing[j]) still[static_cast<Index>(j)] = std::numeric_limits<double>::infinity();
+    }
     source.pieces([&](const StreamPiece& piece) {
       for (Index k = first_of(place_); k < piece.motion.samples(); k += step_) {
         moves_.push_back(

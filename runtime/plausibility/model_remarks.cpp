@@ -124,7 +124,8 @@ class ModelJudge {
     if (named(best_of(other_units(model_, base)))) return true;
     Index worst = 0;
     plain_.left.maxCoeff(&worst);
-    if (named(best_of(swapped_columns(base, static_cast<int>(worst), judged_)))) return true;
+    const int joint = static_cast<int>(worst);
+    if (named(best_of(swapped_columns(base, joint, samples_.moving_with(joint))))) return true;
     return turned(base);
   }
 

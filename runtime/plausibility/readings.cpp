@@ -67,11 +67,11 @@ std::vector<NamedReading> turned_signs(const Reading& base, const std::vector<bo
 }
 
 std::vector<NamedReading> swapped_columns(const Reading& base, int joint,
-                                          const std::vector<bool>& judged) {
+                                          const std::vector<bool>& with) {
   std::vector<NamedReading> all;
   const auto i = static_cast<std::size_t>(joint);
   for (std::size_t k = 0; k < base.position_from.size(); ++k) {
-    if (k == i || !judged[k]) continue;
+    if (k == i || !with[k]) continue;
     const auto named = [&](const char* columns, bool position, bool torque) {
       NamedReading reading{"swapped", 0, {}, {}, base};
       reading.what = fmt::format("{} of joints {} and {} look swapped", columns, std::min(i, k) + 1,

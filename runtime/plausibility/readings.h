@@ -26,10 +26,10 @@ std::vector<NamedReading> other_units(const LinearModel& model, const Reading& b
 std::vector<NamedReading> turned_signs(const Reading& base, const std::vector<bool>& judged);
 
 /// A joint's columns and another's in each other's place: positions, torques, and both.
-/// @param joint   from 0
-/// @param judged  (n) joints with equations: where the other one stands, its column would make this
-///                one stand, and nothing would be left to explain
+/// @param joint  from 0
+/// @param with   (n) joints that move together with it: the torque of one that stands is as smooth
+///               as gravity, and any model explains it
 std::vector<NamedReading> swapped_columns(const Reading& base, int joint,
-                                          const std::vector<bool>& judged);
+                                          const std::vector<bool>& with);
 
 }  // namespace dyngen::runtime

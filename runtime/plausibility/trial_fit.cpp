@@ -124,6 +124,21 @@ TrialFit TrialSamples::fit(const LinearModel& model, const Reading& reading) con
   return fit;
 }
 
+std::vector<bool> TrialSamples::moving_with(int joint) const {
+  constexpr double kLeast = 0.1;
+  VectorXd together = VectorXd::Zero(still_.size());
+  for (const Place& place : places_) {
+    const auto speed = runs_[place.run].dq.row(place.row).transpose().cwiseAbs().array();
+    if (speed[joint] < still_[joint]) continue;
+    together += (speed >= still_.array()).cast<double>().matrix();
+  }
+  std::vector<bool> moving;
+  for (const double samples : together) {
+    moving.push_back(samples > 0 && samples >= kLeast * together[joint]);
+  }
+  return moving;
+}
+
 VectorXd deviations_of(const TrialFit& fit) {
   const Estimate& estimate = fit.estimate;
   return white_covariance(fit.equations, estimate.beta, estimate.joint_weights, estimate.scale,

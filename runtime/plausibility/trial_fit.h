@@ -48,6 +48,9 @@ class TrialSamples {
   [[nodiscard]] Eigen::Index most_lag() const { return most_lag_; }
   [[nodiscard]] int joints() const { return static_cast<int>(still_.size()); }
   [[nodiscard]] TrialFit fit(const LinearModel& model, const Reading& reading) const;
+  /// (n) joints that move in at least a tenth of the samples in which this one does.
+  /// @param joint  from 0
+  [[nodiscard]] std::vector<bool> moving_with(int joint) const;
 
  private:
   struct Place {

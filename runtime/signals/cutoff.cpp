@@ -115,6 +115,29 @@ double velocity_power(const std::vector<double>& density, std::size_t from, std:
   return power;
 }
 
+/// Whether a joint hardly moves in the first hundredth of a second, beside its fastest one.
+bool begins_at_rest(const Eigen::Ref<const Eigen::VectorXd>& q, double sample_time) {
+  constexpr double kLooked = 0.01, kAtRest = 0.05;  // s, and of the fastest
+  const Eigen::Index step = std::max<Eigen::Index>(1, std::lround(kLooked / sample_time));
+  if (q.size() <= 2 * step) return false;
+  const Eigen::ArrayXd moved = (q.tail(q.size() - step) - q.head(q.size() - step)).array().abs();
+  return moved[0] < kAtRest * moved.maxCoeff();
+}
+
+/// The acceleration of a run that is short beside a segment, with rest before and after where it
+/// begins and ends so: windows leave out what happens at the ends, and a trapezoid accelerates
+/// there alone.
+Eigen::VectorXd with_rest(const Eigen::VectorXd& acceleration, const Eigen::VectorXd& q,
+                          std::size_t segment, double sample_time) {
+  if (static_cast<std::size_t>(q.size()) >= 4 * segment) return acceleration;
+  const auto half = static_cast<Eigen::Index>(segment / 2);
+  const Eigen::Index before = begins_at_rest(q, sample_time) ? half : 0;
+  const Eigen::Index after = begins_at_rest(q.reverse(), sample_time) ? half : 0;
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(before + acceleration.size() + after);
+  all.segment(before, acceleration.size()) = acceleration;
+  return all;
+}
+
 struct JointCutoff {
   double hz = 0;
   double noise = 0;  ///< standard deviation of the white part of the position noise
@@ -138,16 +161,21 @@ JointCutoff joint_cutoff(const std::vector<Eigen::MatrixXd>& runs, Eigen::Index 
                          double sample_time) {
   JointCutoff result;
   Eigen::Index longest = 0;
+  for (const Eigen::MatrixXd& run : runs) {
+    if (run.rows() < 3) continue;
+    longest = std::max(longest, run.rows());
+    result.range = std::max(result.range, run.col(joint).maxCoeff() - run.col(joint).minCoeff());
+  }
+  if (result.range == 0) return result;
+  const std::size_t segment = segment_samples(longest, sample_time);
   std::vector<Eigen::VectorXd> accelerations;
   for (const Eigen::MatrixXd& run : runs) {
     if (run.rows() < 3) continue;
     const Eigen::VectorXd q = run.col(joint);
-    longest = std::max(longest, q.size());
-    result.range = std::max(result.range, q.maxCoeff() - q.minCoeff());
-    accelerations.emplace_back(second_difference(q, sample_time).col(0).segment(1, q.size() - 2));
+    accelerations.push_back(
+        with_rest(second_difference(q, sample_time).col(0).segment(1, q.size() - 2), q, segment,
+                  sample_time));
   }
-  if (result.range == 0) return result;
-  const std::size_t segment = segment_samples(longest, sample_time);
   std::vector<double> density = welch(accelerations, segment, sample_time);
   result.noise = position_noise(density, segment, sample_time);
   if (result.noise < kNoNoise * result.range) {

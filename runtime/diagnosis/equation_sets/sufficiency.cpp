@@ -10,6 +10,7 @@
 
 #include "runtime/effects/effect_fit.h"
 #include "runtime/effects/equation_stack.h"
+#include "runtime/estimation/decompositions.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -32,11 +33,8 @@ double determined_parameters(const EffectRecordings& train, int joint) {
     }
     start += counted.size();
   }
-  for (auto column : W.colwise()) {
-    const double norm = column.norm();
-    if (norm > 0) column /= norm;
-  }
   if (W.size() == 0) return 0;
+  W = W * unit_scale(W).asDiagonal();
   Eigen::ColPivHouseholderQR<MatrixXd> qr(W.rows(), W.cols());
   qr.setThreshold(kRankTolerance);
   return static_cast<double>(qr.compute(W).rank());

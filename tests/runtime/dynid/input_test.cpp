@@ -96,6 +96,8 @@ TEST_F(Input, ARecordingThatStandsTwiceIsNamed) {
   EXPECT_EQ(count_of(twice.out, "again: its equations count twice"), 1U) << twice.out;
   const Outcome heldout = dynid("fit " + robot + " " + run + " --holdout " + run);
   EXPECT_EQ(count_of(heldout.out, "is held out and fitted"), 1U) << heldout.out;
+  const Outcome both = dynid("diagnose " + robot + " " + run + " --reference " + run);
+  EXPECT_EQ(count_of(both.out, "is on both sides of the comparison"), 1U) << both.out;
   const Outcome right = dynid("fit " + robot + " " + run);
   EXPECT_EQ(count_of(right.out, "twice") + count_of(right.out, "held out"), 0U) << right.out;
 }

@@ -129,6 +129,18 @@ std::vector<std::string> repeated_recordings(const ToolOptions& options) {
                       heldout));
     }
   }
+  std::vector<std::string> later = fitted;
+  later.insert(later.end(), options.heldout.begin(), options.heldout.end());
+  for (const std::string& reference : options.diagnose.reference) {
+    const bool both = std::any_of(later.begin(), later.end(), [&](const std::string& other) {
+      return same_content(reference, other);
+    });
+    if (!both) continue;
+    sentences.push_back(
+        fmt::format("{} is on both sides of the comparison: in it nothing changes, and what "
+                    "changed elsewhere looks smaller and more certain",
+                    reference));
+  }
   return sentences;
 }
 

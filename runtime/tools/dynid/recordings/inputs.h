@@ -27,8 +27,8 @@ RecordingInput motion_input(const std::string& path, const std::string& map,
                             const RobotSource& robot, std::vector<Notice>& notices);
 
 /// Recordings that the command line names twice, by their content: sentences. Equations that count
-/// twice make standard deviations too small, and held-out residuals of what was fitted prove
-/// nothing.
+/// twice make standard deviations too small, held-out residuals of what was fitted prove nothing,
+/// and a file on both sides of a comparison shows no change.
 std::vector<std::string> repeated_recordings(const ToolOptions& options);
 
 /// The same of a path that is one recording: a file, or a folder of files that a map joins.
