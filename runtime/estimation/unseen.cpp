@@ -55,11 +55,10 @@ std::string combination_text(const std::vector<std::pair<int, double>>& terms,
 
 /// An offset, with friction or alone: no posture tells it, and motion one way does not part it from
 /// Coulomb friction.
-bool is_of_offset(const VectorXd& direction, const LinearModel& model) {
+bool is_of_offset(const std::vector<std::pair<int, double>>& terms, const LinearModel& model) {
   bool offset = false;
-  for (Index c = 0; c < direction.size(); ++c) {
-    if (direction[c] == 0) continue;
-    const ParameterKind kind = model.parameters[static_cast<std::size_t>(c)].kind;
+  for (const auto& [parameter, factor] : terms) {
+    const ParameterKind kind = model.parameters[static_cast<std::size_t>(parameter)].kind;
     offset = offset || kind == ParameterKind::kOffset;
     if (kind == ParameterKind::kInertial || kind == ParameterKind::kRotorInertia) return false;
   }
@@ -118,12 +117,14 @@ std::string joints_text(const LinearModel& model, const std::vector<int>& joints
   return text;
 }
 
+/// @param direction  with the small terms that `terms` leaves out
 std::string advice_text(const LinearModel& model, const VectorXd& direction,
+                        const std::vector<std::pair<int, double>>& terms,
                         const MotionExtent& extent) {
   const VectorXd posture = 0.5 * (extent.lowest + extent.highest);
   const auto sentence = [&](const std::vector<int>& joints, Shown kind) {
     const std::string who = joints_text(model, joints, extent);
-    if (is_of_offset(direction, model)) {
+    if (is_of_offset(terms, model)) {
       return fmt::format("motion of {} in both directions would show it", who);
     }
     switch (kind) {
@@ -246,7 +247,7 @@ std::vector<UnseenCombination> name_unseen(const Estimate& estimate, const Linea
     });
     for (const int c : order) combination.terms.emplace_back(c, direction[c]);
     combination.text = combination_text(combination.terms, model);
-    combination.advice = advice_text(model, direction, extent);
+    combination.advice = advice_text(model, direction, combination.terms, extent);
     combinations.push_back(std::move(combination));
   }
   return combinations;
