@@ -73,13 +73,10 @@ MatrixXd pseudo_inverse(const MatrixXd& A, double tolerance) {
   return orthogonal(A, tolerance).pseudoInverse();
 }
 
-VectorXd unit_scale(const MatrixXd& A, double least) {
-  const VectorXd lengths = A.colwise().norm();
-  check_finite(lengths);
-  const double longest = lengths.size() > 0 ? lengths.maxCoeff() : 0;
-  if (!(longest > 0)) return VectorXd::Ones(lengths.size());
-  return lengths.unaryExpr(
-      [=](double length) { return 1 / (length > least * longest ? length : longest); });
+VectorXd unit_scale(const MatrixXd& A) {
+  VectorXd scale = A.colwise().norm();
+  for (double& length : scale) length = length > 0 ? 1 / length : 1;
+  return scale;
 }
 
 MatrixXd complement_of(const MatrixXd& Q) {

@@ -43,12 +43,9 @@ Eigen::MatrixXd least_norm_solution(const Eigen::MatrixXd& A, const Eigen::Matri
 /// The pseudo-inverse of Moore and Penrose, (n x m). @param tolerance  as above
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A, double tolerance = 0);
 
-/// (n) reciprocal lengths of columns: A diag(s) has columns of unit length, and which directions are
-/// seen does not depend on units. 1: all columns are zero.
-/// @param least  of the longest column: a shorter one, as a posture hides it, is scaled as the
-///               longest is. The default is rounding, which at unit length would count as seen
-/// @throws NotFiniteError
-Eigen::VectorXd unit_scale(const Eigen::MatrixXd& A, double least = 1e-12);
+/// (n) reciprocal lengths of columns, 1 for those of zeros: A diag(s) has columns of unit length, and
+/// which directions are seen does not depend on units.
+Eigen::VectorXd unit_scale(const Eigen::MatrixXd& A);
 
 /// Orthonormal directions at right angles to all columns. @param Q  (n x k), orthonormal
 /// @return (n x n - k)

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "runtime/estimation/decompositions.h"
+#include "runtime/estimation/posture_scale.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -15,10 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// rad: how exactly a joint's zero is known. A column that is a smaller part of the longest one says
-// how the posture of joints that stand is off, not what its parameter is.
-constexpr double kKnownPosture = 1e-3;
 
 /// Equations in scaled parameters, and how many directions of these they see.
 struct ScaledRows {
@@ -88,7 +85,7 @@ Estimate solved(const TorqueFactor& factor, const VectorXd& joint_weights,
   ScaledRows scaled = scaled_rows(rows.W, estimate.scale, options.tolerance);
   if (scaled.rank < parameters && options.scale.size() == 0) {
     // the shortest solution takes nothing of columns that are there by the chance of a posture
-    estimate.scale = unit_scale(rows.W, kKnownPosture);
+    estimate.scale = scale_of_postures(estimate.scale);
     scaled = scaled_rows(rows.W, estimate.scale, options.tolerance);
   }
   const MatrixXd& A = scaled.A;

@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/estimation/rows.h"
 
+#include <algorithm>
+
 namespace dyngen::runtime {
 
 Eigen::VectorXd counted_rows(const RowBlock& block) {
   if (block.counted.size() != 0) return block.counted.colwise().sum().transpose();
   return Eigen::VectorXd::Constant(block.tau.cols(), static_cast<double>(block.tau.rows()));
+}
+
+void clear_rounding(Eigen::MatrixXd& Y, Eigen::Index joints) {
+  constexpr double kRounding = 1e-12;  // of the largest element: some thousand operations
+  const Eigen::Index columns = Y.cols() / std::max<Eigen::Index>(1, joints);
+  if (Y.rows() == 0 || columns == 0) return;
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    auto own = Y.middleCols(j * columns, columns);
+    const Eigen::RowVectorXd largest = own.cwiseAbs().colwise().maxCoeff();
+    const double least = kRounding * largest.maxCoeff();
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      if (largest[c] <= least) own.col(c).setZero();
+    }
+  }
 }
 
 void absorb(TorqueFactor& factor, const RowBlock& block) {

@@ -24,6 +24,11 @@ using RowSource = std::function<void(const std::function<void(const RowBlock&)>&
 /// How many equations of each joint count.
 Eigen::VectorXd counted_rows(const RowBlock& block);
 
+/// Sets to 0 the columns of a joint's regressor whose elements are rounding beside its largest one.
+/// cos(pi/2) is 6e-17: what a posture hides would count as seen, once its column has unit length.
+/// @param Y  (N x n nb), as LinearModel::regressor makes it
+void clear_rounding(Eigen::MatrixXd& Y, Eigen::Index joints);
+
 /// Adds a block's equations to a factor.
 void absorb(TorqueFactor& factor, const RowBlock& block);
 

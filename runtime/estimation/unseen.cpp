@@ -9,6 +9,7 @@
 #include <random>
 
 #include "runtime/estimation/decompositions.h"
+#include "runtime/estimation/posture_scale.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -16,9 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Of the torque of the largest term: how exactly a posture is known, in rad.
-constexpr double kKnownTerm = 1e-3;
 
 /// Reduced row echelon form of the transposed directions: each combination then has a parameter of
 /// its own and few others.
@@ -202,7 +200,7 @@ std::vector<SeenCombination> name_seen(const Estimate& estimate, const LinearMod
   const MatrixXd rows = simplest(complement_of(estimate.unseen).transpose());
   for (Index i = 0; i < rows.rows(); ++i) {
     VectorXd scaled = rows.row(i).transpose();
-    const double least = kKnownTerm * scaled.cwiseAbs().maxCoeff();
+    const double least = kKnownPosture * scaled.cwiseAbs().maxCoeff();
     scaled = (scaled.cwiseAbs().array() > least).select(scaled, 0.0);
     VectorXd direction = scaled.cwiseQuotient(estimate.scale);
     SeenCombination combination;

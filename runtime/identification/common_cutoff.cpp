@@ -132,6 +132,7 @@ class BlockedEquations {
     RowBlock block;
     model_.regressor(motion.q(rows, Eigen::all), motion.dq(rows, Eigen::all),
                      motion.ddq(rows, Eigen::all), block.Y);
+    clear_rounding(block.Y, motion.joints());
     block.tau = motion.tau(rows, Eigen::all);
     block.counted = MatrixXd::Ones(block.tau.rows(), block.tau.cols());
     for (Index k = 0; k < block.tau.rows(); ++k) {

@@ -57,6 +57,7 @@ class RowBuffer {
   void append(const Motion& motion, Index start, Index count) {
     model_.regressor(motion.q.middleRows(start, count), motion.dq.middleRows(start, count),
                      motion.ddq.middleRows(start, count), Y_);
+    clear_rounding(Y_, joints());
     const Index active = static_cast<Index>(active_.size());
     MatrixXd rows(kept_.rows() + count, active + 2 * joints());
     if (kept_.rows() > 0) rows.topRows(kept_.rows()) = kept_;

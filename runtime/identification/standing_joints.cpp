@@ -123,14 +123,15 @@ MotionSource with_joints_still(const MotionSource& source, const StandingJoints&
   if (std::none_of(standing.begin(), standing.end(), [](bool stands) { return stands; })) {
     return source;
   }
-  MotionSource still = made_of(
-      source, [standing](const MotionSource& state) { return made_still(state, standing); });
-  std::vector<std::string>& messages = still.condition.messages;
-  std::string sentence = standing_sentence(standing);
-  if (std::find(messages.begin(), messages.end(), sentence) == messages.end()) {
-    messages.push_back(std::move(sentence));
-  }
-  return still;
+  return made_of(source, [standing](const MotionSource& state) {
+    MotionSource still = made_still(state, standing);
+    std::vector<std::string>& messages = still.condition.messages;
+    std::string sentence = standing_sentence(standing);
+    if (std::find(messages.begin(), messages.end(), sentence) == messages.end()) {
+      messages.push_back(std::move(sentence));
+    }
+    return still;
+  });
 }
 
 void hold_standing_joints(const std::vector<bool>& revolute, std::vector<MotionSource>& fitted,

@@ -56,12 +56,12 @@ TrialSamples::TrialSamples(const std::vector<MotionSource>& sources, double most
   }
 }
 
-TrialFit TrialSamples::fit(const LinearModel& model, const Reading& reading) const {
-  const Index n = model.joints(), count = static_cast<Index>(places_.size());
-  MatrixXd q(count, n), dq(count, n), ddq(count, n);
-  RowBlock block;
-  block.tau.resize(count, n);
-  block.counted = MatrixXd::Ones(count, n);
+TrialSamples::ReadSamples TrialSamples::read(const Reading& reading) const {
+  const Index n = still_.size(), count = static_cast<Index>(places_.size());
+  ReadSamples read;
+  read.q.resize(count, n);
+  read.dq = read.ddq = read.tau = read.q;
+  read.counted = MatrixXd::Ones(count, n);
   const double per_time = 1 / reading.time_factor;
   for (Index i = 0; i < count; ++i) {
     const Place& place = places_[static_cast<std::size_t>(i)];
@@ -71,28 +71,32 @@ TrialFit TrialSamples::fit(const LinearModel& model, const Reading& reading) con
       const Index from = reading.position_from[own];
       const Index row = place.row + reading.position_lag[own];
       const double factor = reading.position_factor[j];
-      q(i, j) = factor * run.q(row, from);
-      dq(i, j) = factor * per_time * run.dq(row, from);
-      ddq(i, j) = factor * per_time * per_time * run.ddq(row, from);
+      read.q(i, j) = factor * run.q(row, from);
+      read.dq(i, j) = factor * per_time * run.dq(row, from);
+      read.ddq(i, j) = factor * per_time * per_time * run.ddq(row, from);
       const Index torque_from = reading.torque_from[own];
-      block.tau(i, j) =
-          reading.torque_factor[j] * run.tau(place.row + reading.torque_lag, torque_from);
       const bool counts = std::abs(run.dq(row, from)) >= still_[from] &&
                           !dead_[static_cast<std::size_t>(torque_from)];
-      if (!counts) block.counted(i, j) = 0;
+      read.tau(i, j) =
+          counts ? reading.torque_factor[j] * run.tau(place.row + reading.torque_lag, torque_from)
+                 : 0;
+      if (!counts) read.counted(i, j) = 0;
     }
   }
-  model.regressor(q, dq, ddq, block.Y);
-  const Index nb = model.size();
-  // the same samples at unit accelerations, for the mass matrix; a tenth of them will do
-  const auto some = Eigen::seq(Index{0}, count - 1, Index{10});
-  const MatrixXd postures = q(some, Eigen::all);
-  const MatrixXd zero = MatrixXd::Zero(postures.rows(), n);
+  return read;
+}
+
+TrialFit TrialSamples::fit(const LinearModel& model, const Reading& reading) const {
+  const ReadSamples read = this->read(reading);
+  const Index n = model.joints(), count = read.q.rows(), nb = model.size();
+  RowBlock block;
+  block.tau = read.tau;
+  block.counted = read.counted;
+  model.regressor(read.q, read.dq, read.ddq, block.Y);
+  clear_rounding(block.Y, n);
   for (Index j = 0; j < n; ++j) {
     for (Index i = 0; i < count; ++i) {
-      if (block.counted(i, j) != 0) continue;
-      block.tau(i, j) = 0;
-      block.Y.row(i).segment(j * nb, nb).setZero();
+      if (block.counted(i, j) == 0) block.Y.row(i).segment(j * nb, nb).setZero();
     }
   }
   TrialFit fit;
@@ -103,6 +107,10 @@ TrialFit TrialSamples::fit(const LinearModel& model, const Reading& reading) con
   const VectorXd torque = torque_squares(fit.equations);
   fit.left = VectorXd::Zero(n);
   fit.inertia = fit.power = VectorXd::Zero(n);
+  // the same samples at unit accelerations, for the mass matrix; a tenth of them will do
+  const auto some = Eigen::seq(Index{0}, count - 1, Index{10});
+  const MatrixXd postures = read.q(some, Eigen::all);
+  const MatrixXd zero = MatrixXd::Zero(postures.rows(), n);
   MatrixXd standing, accelerated;
   model.regressor(postures, zero, zero, standing);
   for (Index j = 0; j < n; ++j) {
@@ -118,7 +126,8 @@ TrialFit TrialSamples::fit(const LinearModel& model, const Reading& reading) con
       const ParameterKind kind = model.parameters[static_cast<std::size_t>(c)].kind;
       if (kind != ParameterKind::kViscous && kind != ParameterKind::kCoulomb) continue;
       const VectorXd column = block.Y.col(j * nb + c);
-      fit.power[j] += fit.estimate.beta[c] * column.dot(dq.col(j)) / static_cast<double>(count);
+      fit.power[j] +=
+          fit.estimate.beta[c] * column.dot(read.dq.col(j)) / static_cast<double>(count);
     }
   }
   return fit;

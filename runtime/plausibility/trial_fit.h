@@ -58,6 +58,13 @@ class TrialSamples {
     Eigen::Index row;
   };
 
+  /// (N x n) each.
+  struct ReadSamples {
+    Eigen::MatrixXd q, dq, ddq, tau;
+    Eigen::MatrixXd counted;  ///< 1, or 0 where a joint stands or has no torque: tau is 0 then
+  };
+  [[nodiscard]] ReadSamples read(const Reading& reading) const;
+
   std::vector<Motion> runs_;
   std::vector<Place> places_;
   Eigen::VectorXd still_;  ///< (n)

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "runtime/identification/common_cutoff.h"
 #include "runtime/identification/summary_file.h"
 #include "runtime/recordings/writer.h"
 #include "runtime/tools/dynid/process/message.h"
@@ -55,7 +56,9 @@ TEST_F(FileSummariesTest, AreMergedInTheOrderOfTheList) {
   FileSummaries found;
   RecordingSummary sum = empty_summary(robot_.linear.columns, robot_.linear.size());
   for (const std::string& path : paths_) {
-    merge(sum, summarise(robot_.linear, motion_of_file(path, {}), {}));
+    const MotionSource recorded = motion_of_file(path, {});
+    const Cutoff cutoff = common_cutoff(robot_.linear, {recorded});
+    merge(sum, summarise(robot_.linear, at_cutoff({recorded}, cutoff).front(), {}));
   }
   RobotSummaries all = empty_summaries(robot_.linear);
   all.robots.emplace("", sum);

@@ -11,6 +11,7 @@
 #include "runtime/effects/effect_fit.h"
 #include "runtime/effects/equation_stack.h"
 #include "runtime/estimation/decompositions.h"
+#include "runtime/estimation/posture_scale.h"
 
 namespace dyngen::runtime {
 namespace {
@@ -44,10 +45,13 @@ double determined_parameters(const EffectRecordings& train, int joint) {
 /// sees are on average. @return (nb x combinations), each of that size
 MatrixXd hidden_combinations(const Estimate& estimate) {
   if (estimate.unseen.cols() == 0) return MatrixXd::Zero(estimate.beta.size(), 0);
-  const VectorXd scaled =
-      (estimate.scale.array() > 0).select(estimate.beta.array() / estimate.scale.array(), 0.0);
+  const VectorXd scale = scale_of_postures(estimate.scale);
+  const VectorXd scaled = (scale.array() > 0).select(estimate.beta.array() / scale.array(), 0.0);
   const double size = scaled.norm() / std::sqrt(std::max(1.0, static_cast<double>(estimate.rank)));
-  return size * (estimate.scale.asDiagonal() * estimate.unseen);
+  // orthonormal in these units: what a posture hides is as large as the rest, not as its column is
+  // short
+  const MatrixXd hidden = estimate.scale.cwiseQuotient(scale).asDiagonal() * estimate.unseen;
+  return size * (scale.asDiagonal() * orthonormal(hidden));
 }
 
 }  // namespace
