@@ -19,16 +19,19 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Reduced row echelon form of the transposed directions: each combination then has a parameter of
-/// its own and few others.
+/// its own and few others. Of pivots that are alike the first parameter's is taken: rounding must
+/// not choose between columns that are the same.
 MatrixXd simplest(MatrixXd rows) {
+  constexpr double kAlike = 0.99;
   Index pivot_row = 0;
   const double small = 1e-6;
-  std::vector<bool> used(static_cast<std::size_t>(rows.cols()), false);
   for (; pivot_row < rows.rows(); ++pivot_row) {
+    const MatrixXd left = rows.bottomRows(rows.rows() - pivot_row).cwiseAbs();
+    const double largest = left.maxCoeff();
+    if (largest < small) break;
     Index r = 0, c = 0;
-    rows.bottomRows(rows.rows() - pivot_row).cwiseAbs().maxCoeff(&r, &c);
+    while (left.col(c).maxCoeff(&r) < kAlike * largest) ++c;
     r += pivot_row;
-    if (std::abs(rows(r, c)) < small) break;
     rows.row(r).swap(rows.row(pivot_row));
     rows.row(pivot_row) /= rows(pivot_row, c);
     for (Index k = 0; k < rows.rows(); ++k) {
@@ -222,6 +225,10 @@ std::vector<SeenCombination> name_seen(const Estimate& estimate, const LinearMod
                              : std::sqrt(std::max(0.0, direction.dot(covariance * direction)));
     combinations.push_back(std::move(combination));
   }
+  std::stable_sort(combinations.begin(), combinations.end(), [](const auto& a, const auto& b) {
+    return std::min_element(a.terms.begin(), a.terms.end())->first <
+           std::min_element(b.terms.begin(), b.terms.end())->first;
+  });
   return combinations;
 }
 

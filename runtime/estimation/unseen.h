@@ -40,8 +40,9 @@ struct SeenCombination {
 };
 
 /// The sums that an estimate with unseen combinations does see, but for parameters that it sees
-/// alone: as few terms as elimination leaves. Terms of less than a thousandth of the torque of the
-/// largest are left out: a posture that is known to 1e-3 rad does not show them.
+/// alone, in the order of the model: as few terms as elimination leaves. Terms of less than a
+/// thousandth of the torque of the largest are left out: a posture that is known to 1e-3 rad does
+/// not show them.
 /// @param beta        (nb) @param covariance  (nb x nb) or empty: of the fit that is told
 std::vector<SeenCombination> name_seen(const Estimate& estimate, const LinearModel& model,
                                        const Eigen::VectorXd& beta,
