@@ -15,6 +15,7 @@ cmake -C cmake/QuickBuild.cmake -G Ninja -S . -B "$build" -DDYNGEN_BUILD_TESTS=O
   -DCMAKE_C_FLAGS="--coverage" -DCMAKE_CXX_FLAGS="--coverage -fprofile-update=atomic" \
   -DCMAKE_CXX_FLAGS_DEBUG="-O1" -DCMAKE_C_FLAGS_DEBUG="-O1"
 
+build=$(cd "$build" && pwd)
 all=$(ninja -C "$build" -t targets all | sed -n 's/^\([a-z_0-9]*_tests\): phony$/\1/p')
 if [ $# -eq 0 ]; then
   # shellcheck disable=SC2046  # targets, in words
@@ -28,7 +29,8 @@ slow=$(ctest --test-dir "$build" --show-only --label-regex slow | sed -n 's/^ *T
 find "$build" -name '*.gcda' -delete
 for target in "$@"; do
   program=$(find "$build" -type f -name "$target" -perm -u+x | head -n 1)
-  (cd "$build" && "$OLDPWD/$program" --gtest_brief=1 --gtest_filter="${FILTER:-*}-$slow") ||
+  [ -n "$program" ] || { echo "$target: its program is not in $build" >&2; exit 1; }
+  (cd "$build" && "$program" --gtest_brief=1 --gtest_filter="${FILTER:-*}-$slow") ||
     echo "$target: some tests failed; their lines count all the same" >&2
 done
 python3 cmake/coverage.py "$build"
