@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 /// its own and few others. Of pivots that are alike the first parameter's is taken: rounding must
 /// not choose between columns that are the same.
 MatrixXd simplest(MatrixXd rows) {
-  constexpr double kAlike = 0.99;
+  constexpr double kSamePivot = 0.99;
   Index pivot_row = 0;
   const double small = 1e-6;
   for (; pivot_row < rows.rows(); ++pivot_row) {
@@ -30,7 +30,7 @@ MatrixXd simplest(MatrixXd rows) {
     const double largest = left.maxCoeff();
     if (largest < small) break;
     Index r = 0, c = 0;
-    while (left.col(c).maxCoeff(&r) < kAlike * largest) ++c;
+    while (left.col(c).maxCoeff(&r) < kSamePivot * largest) ++c;
     r += pivot_row;
     rows.row(r).swap(rows.row(pivot_row));
     rows.row(pivot_row) /= rows(pivot_row, c);
