@@ -117,11 +117,11 @@ double velocity_power(const std::vector<double>& density, std::size_t from, std:
 
 /// Whether a joint hardly moves in the first hundredth of a second, beside its fastest one.
 bool begins_at_rest(const Eigen::Ref<const Eigen::VectorXd>& q, double sample_time) {
-  constexpr double kLooked = 0.01, kAtRest = 0.05;  // s, and of the fastest
+  constexpr double kLooked = 0.01, kOfFastest = 0.05;  // s, and of the fastest
   const Eigen::Index step = std::max<Eigen::Index>(1, std::lround(kLooked / sample_time));
   if (q.size() <= 2 * step) return false;
   const Eigen::ArrayXd moved = (q.tail(q.size() - step) - q.head(q.size() - step)).array().abs();
-  return moved[0] < kAtRest * moved.maxCoeff();
+  return moved[0] < kOfFastest * moved.maxCoeff();
 }
 
 /// The acceleration of a run that is short beside a segment, with rest before and after where it
